@@ -1,0 +1,396 @@
+#!/bin/bash
+# ellipsoidTrapFoam set-up, shared by Allwmake, Allrun and Alltest.
+# License: GPL-3.0-or-later, see COPYING.
+#
+# Finds OpenFOAM (ESI, v1912 or newer). Where there is none, on Debian 12, brings
+# Debian's own: programs and libraries from the binary package, headers and wmake
+# from the source package of the same version, kept in one cache folder. Then
+# gives the calling shell OpenFOAM's environment.
+#
+# Usage (bash):  . Make/setup.sh && setup_environment build|run|test
+#   build   compilers, OpenFOAM and the Random123 headers
+#   run     also Python with matplotlib, VTK and numpy: pictures and tables
+#   test    also cmocka
+# Exports OpenFOAM's environment and ELLIPSOID_PYTHON (run, test).
+#
+# Variables that may be set beforehand:
+#   WM_PROJECT_DIR        an OpenFOAM to use instead of searching
+#   ELLIPSOID_CACHE       cache folder [${XDG_CACHE_HOME:-$HOME/.cache}/ellipsoidTrapFoam]
+#   ELLIPSOID_OS_RELEASE  file that names the distribution [/etc/os-release]
+
+setup_needed="an ESI OpenFOAM (www.openfoam.com), v1912 or newer"
+
+setup_say() { echo "[set-up] $*"; }
+
+# setup_fail WHAT [HINT...]: the one way an error leaves here
+setup_fail()
+{
+    echo "[set-up] error: $1" 1>&2
+    shift
+    local hint
+    for hint; do echo "[set-up]   $hint" 1>&2; done
+    return 1
+}
+
+setup_seconds_since()   # START in $EPOCHREALTIME's format
+{
+    # Locales with a decimal comma write it into EPOCHREALTIME
+    local now=${EPOCHREALTIME/,/.} start=${1/,/.}
+    local ms=$(( (${now/./} - ${start/./}) / 1000 ))
+    printf '%d.%d s' $((ms / 1000)) $((ms % 1000 / 100))
+}
+
+setup_cache_folder()
+{
+    if [ -n "$ELLIPSOID_CACHE" ]; then
+        echo "$ELLIPSOID_CACHE"
+    else
+        echo "${XDG_CACHE_HOME:-$HOME/.cache}/ellipsoidTrapFoam"
+    fi
+}
+
+setup_os_release()      # FIELD
+(
+    # shellcheck disable=SC1090
+    . "${ELLIPSOID_OS_RELEASE:-/etc/os-release}" 2> /dev/null
+    echo "${!1}"
+)
+
+setup_is_debian_12()
+{
+    [ "$(setup_os_release ID)/$(setup_os_release VERSION_ID)" = debian/12 ]
+}
+
+# -----------------------------------------------------------------------------
+# Which OpenFOAM
+
+# The api number (1912, 2206, ..) of an ESI OpenFOAM; nothing for other flavours
+setup_openfoam_api()    # DIR
+{
+    sed -n 's/^ *WM_VERSION *= *OPENFOAM=\([0-9]\{4\}\).*/\1/p' \
+        "$1/wmake/rules/General/general" 2> /dev/null
+}
+
+# Says why DIR cannot be used; silent and true if it can
+setup_check_openfoam()  # DIR
+{
+    local api version="${WM_PROJECT:-OpenFOAM} ${WM_PROJECT_VERSION:-of unknown version}"
+    api=$(setup_openfoam_api "$1")
+    if [ ! -f "$1/etc/bashrc" ]; then
+        setup_fail "WM_PROJECT_DIR is $1, which holds no etc/bashrc" \
+            "Needed: $setup_needed. Or unset WM_PROJECT_DIR, to have one found or installed."
+    elif [ -z "$api" ]; then
+        setup_fail "$1 ($version) is not an ESI OpenFOAM" \
+            "Needed: $setup_needed; OpenFOAM Foundation versions and foam-extend differ too much." \
+            "Use a shell without that environment, or source another one."
+    elif [ "$api" -lt 1912 ]; then
+        setup_fail "$1 is OpenFOAM v$api, which is too old" \
+            "Needed: $setup_needed."
+    elif [ ! -x "$1/wmake/wmake" ] || [ ! -e "$1/src/finiteVolume/lnInclude/fvCFD.H" ]; then
+        setup_fail "$1 (OpenFOAM v$api) holds no wmake or no headers" \
+            "Install its development package, or run 'wmakeLnIncludeAll' in it."
+    fi
+}
+
+# The newest usable OpenFOAM in the usual places, if any
+setup_search_openfoam()
+{
+    local dir api best=0 found=
+    for dir in /usr/lib/openfoam/openfoam*/ /opt/openfoam*/ \
+        /opt/OpenFOAM/OpenFOAM-v*/ "$HOME"/OpenFOAM/OpenFOAM-v*/
+    do
+        dir=${dir%/}
+        setup_check_openfoam "$dir" 2> /dev/null || continue
+        api=$(setup_openfoam_api "$dir")
+        if [ "$api" -gt "$best" ]; then
+            best=$api
+            found=$dir
+        fi
+    done
+    echo "$found"
+}
+
+# -----------------------------------------------------------------------------
+# Debian packages
+
+# The python3 that can draw: not always the first on PATH
+setup_find_python()
+{
+    local python
+    while read -r python; do
+        if "$python" -c 'import sys, importlib.util as u
+sys.exit(any(u.find_spec(m) is None for m in ("numpy", "matplotlib", "vtkmodules")))' 2> /dev/null
+        then
+            echo "$python"
+            return
+        fi
+    done < <(type -ap python3; echo /usr/bin/python3)
+}
+
+setup_has_header()      # HEADER
+{
+    echo "#include <$1>" | gcc -E -include stdarg.h -include stddef.h \
+        -include setjmp.h -include stdint.h - > /dev/null 2>&1
+}
+
+# Prints the Debian packages that are missing
+setup_missing_packages()    # LEVEL OPENFOAM_DIR ('' for Debian's)
+{
+    command -v gcc > /dev/null || echo gcc
+    command -v g++ > /dev/null || echo g++
+    command -v make > /dev/null || echo make
+    command -v mpirun > /dev/null || echo openmpi-bin
+    setup_has_header Random123/philox.h || echo librandom123-dev
+    if [ -z "$2" ]; then
+        [ -n "$(setup_debian_openfoam_version)" ] || echo openfoam
+        command -v bzip2 > /dev/null || echo bzip2
+    fi
+    if [ "$1" != build ] && [ -z "$(setup_find_python)" ]; then
+        echo python3-matplotlib python3-numpy python3-vtk9
+    fi
+    if [ "$1" = test ]; then setup_has_header cmocka.h || echo libcmocka-dev; fi
+}
+
+# Turns what apt or tar wrote into a reason
+setup_reason()      # LOG OFFSET: what was logged after the first OFFSET bytes counts
+{
+    local text
+    text=$(tail -c "+$(($2 + 1))" "$1")
+    case $text in
+        *"No space left"* | *"enough free space"*)
+            echo "the disk is full" ;;
+        *"Could not resolve"* | *"Temporary failure"* | *"onnection"* | *"Could not connect"* | *"Failed to fetch"*)
+            echo "the package registry cannot be reached" ;;
+        *"Unable to locate package"* | *"Unable to find a source package"* | *"no installation candidate"*)
+            echo "apt's sources offer no such package (is 'main' of Debian 12 among them?)" ;;
+        *"Unable to acquire the dpkg"* | *"Could not get lock"*)
+            echo "another program holds apt's lock" ;;
+        *)  echo "the log tells why" ;;
+    esac
+}
+
+setup_install_packages()    # LOG PACKAGE...
+{
+    local log=$1 offset start=$EPOCHREALTIME
+    local -a sudo=()
+    shift
+    local by_hand="Install by hand, as root, then start again:"
+    by_hand+=" apt-get update && apt-get install --no-install-recommends $*"
+
+    if ! setup_is_debian_12; then
+        setup_fail "missing: $*" \
+            "Packages are installed for you on Debian 12 only; this is $(setup_os_release PRETTY_NAME)." \
+            "Install these (Debian's names), then start again."
+        return
+    fi
+    if [ "$(id -u)" -ne 0 ]; then
+        if ! command -v sudo > /dev/null; then
+            setup_fail "missing: $*; you are not root and there is no sudo" "$by_hand"
+            return
+        fi
+        # A password can be asked for on a terminal only
+        sudo=(sudo -n)
+        if [ -t 0 ]; then sudo=(sudo); fi
+        if ! "${sudo[@]}" true; then
+            setup_fail "missing: $*; sudo refuses" "$by_hand"
+            return
+        fi
+    fi
+
+    setup_say "installing Debian packages: $* (about a minute)"
+    offset=$(stat -c %s "$log")
+    local -a apt=("${sudo[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get -q -y
+        -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
+    # Some unrelated source may fail to update: only the installation counts
+    "${apt[@]}" update >> "$log" 2>&1
+    if ! "${apt[@]}" install --no-install-recommends "$@" >> "$log" 2>&1; then
+        setup_fail "cannot install packages: $(setup_reason "$log" "$offset")" \
+            "$by_hand" "Log: $log"
+        return
+    fi
+    setup_say "packages installed ($(setup_seconds_since "$start"))"
+}
+
+# -----------------------------------------------------------------------------
+# OpenFOAM from Debian: binary packages, and headers and wmake from their source
+
+# Source version of the installed packages; nothing if they are not installed
+setup_debian_openfoam_version()
+{
+    dpkg-query -W -f='${db:Status-Status} ${source:Version}\n' openfoam 2> /dev/null \
+        | sed -n 's/^installed //p'
+}
+
+# A private set of apt sources: the machine's own, each asked for source packages
+setup_write_source_lists()  # FOLDER
+{
+    local list parts file
+    eval "$(apt-config shell list Dir::Etc::sourcelist/f parts Dir::Etc::sourceparts/d)"
+    for file in "$list" "${parts%/}"/*.list; do
+        [ -f "$file" ] || continue
+        # Install media hold no sources
+        sed -n '/cdrom:/d; s/^ *deb\(-src\)\{0,1\} /deb-src /p' "$file"
+    done | sort -u > "$1/all.list"
+    for file in "${parts%/}"/*.sources; do
+        [ -f "$file" ] || continue
+        sed 's/^Types:.*/Types: deb-src/I' "$file"
+        echo
+    done > "$1/all.sources"
+}
+
+# What it prints is for the log
+setup_build_tree()      # WORK VERSION: WORK/tree becomes a tree that wmake can use
+{
+    local work=$1 version=$2 package path name lib bin links
+    mkdir -p "$work"/{sources,lists/partial,archives/partial,download,tree} || return
+    setup_write_source_lists "$work/sources" || return
+    local -a apt=(env LC_ALL=C apt-get -q -o APT::Sandbox::User="$(id -un)"
+        -o Dir::Etc::sourcelist=/dev/null -o Dir::Etc::sourceparts="$work/sources"
+        -o Dir::State::lists="$work/lists" -o Dir::Cache="$work")
+    "${apt[@]}" update
+    (cd "$work/download" && "${apt[@]}" source --download-only --only-source "openfoam=$version") \
+        || return
+
+    tar -xf "$work"/download/openfoam_*.orig.tar.* -C "$work/tree" --strip-components=1 \
+        --exclude='*/tutorials' --exclude='*/doc' || return
+    rm -rf "$work"/{sources,lists,archives,download}
+
+    # mpicc, which settings ask for this folder, is in a package not needed otherwise
+    path=$(dpkg-query -L libopenmpi3 | grep -m 1 '/openmpi$') || return
+    echo "export MPI_ARCH_PATH=$path" > "$work/tree/etc/config.sh/openmpi-system" || return
+
+    (
+        setup_source_bashrc "$work/tree"
+        make -C "$WM_PROJECT_DIR/wmake/src" || exit
+        cd "$WM_PROJECT_DIR" || exit
+        # It always claims success; links that are there already are no failure
+        links=$(LC_ALL=C wmakeLnIncludeAll src 2>&1)
+        echo "$links"
+        if grep -E '(ln|mkdir): .*(No space|quota|denied)' <<< "$links"; then exit 1; fi
+        lib=platforms/$WM_OPTIONS/lib
+        bin=platforms/$WM_OPTIONS/bin
+        mkdir -p "$lib"/{dummy,openmpi-system} "$bin" || exit
+        for package in openfoam libopenfoam; do
+            while read -r path; do
+                name=${path#/usr/lib/}
+                case $path in
+                    /usr/bin/*) ln -s "$path" "$bin/" || exit ;;
+                    /usr/lib/*.so | /usr/lib/*.o) ln -s "$path" "$lib/$name" || exit ;;
+                esac
+            done < <(dpkg-query -L "$package")
+        done
+        [ -e src/finiteVolume/lnInclude/fvCFD.H ]
+    )
+}
+
+# A tree is moved in place when complete; its links die with the packages they lead to
+setup_is_tree()         # DIR
+{
+    local -a program=("$1"/platforms/*/bin/blockMesh)
+    [ -x "${program[0]}" ]
+}
+
+setup_debian_openfoam()     # CACHE VERSION LOG: makes CACHE/openfoam-VERSION unless it is there
+(
+    cache=$1 version=$2 log=$3 start=$EPOCHREALTIME
+    tree=$cache/openfoam-$version
+    if setup_is_tree "$tree"; then exit 0; fi
+
+    exec 9> "$cache/lock" && flock 9 || exit
+    if setup_is_tree "$tree"; then exit 0; fi
+    # Only a set-up that was killed leaves these: the lock keeps living ones out
+    rm -rf "$cache"/unpacking.* "$tree"
+
+    setup_say "fetching OpenFOAM's headers and wmake (45 MB) and unpacking them (about half a minute)"
+    offset=$(stat -c %s "$log")
+    work=
+    trap 'rm -rf "$work"' EXIT
+    trap 'exit 130' INT
+    trap 'exit 143' TERM HUP
+    if work=$(mktemp -d "$cache/unpacking.XXXXXX" 2>> "$log") \
+        && setup_build_tree "$work" "$version" >> "$log" 2>&1 \
+        && mv -T "$work/tree" "$tree" 2>> "$log"
+    then
+        setup_say "OpenFOAM's headers and wmake are in $tree ($(setup_seconds_since "$start"))"
+    else
+        rm -rf "$work"
+        setup_fail "cannot fetch or unpack OpenFOAM's source package: $(setup_reason "$log" "$offset")" \
+            "Needed: the network, 250 MB free in $cache (ELLIPSOID_CACHE names another folder)," \
+            "and Debian 12's source package 'openfoam' in version $version." \
+            "Log: $log"
+        exit 1
+    fi
+)
+
+# -----------------------------------------------------------------------------
+
+# OpenFOAM's bashrc reads unset variables, and takes a caller's arguments for settings
+setup_source_bashrc()   # DIR
+{
+    local options dir=$1
+    options=$(set +o)
+    set +eu
+    set --
+    export USER=${USER:-$(id -un)}
+    . "$dir/etc/bashrc"
+    eval "$options"
+}
+
+setup_environment()     # build|run|test
+{
+    local level=$1 cache log dir start=$EPOCHREALTIME version
+    local -a packages
+    cache=$(setup_cache_folder)
+    log=$cache/setup.log
+    export ELLIPSOID_CACHE=$cache
+
+    if ! mkdir -p "$cache" 2> /dev/null || ! : 2> /dev/null > "$log"; then
+        setup_fail "cannot write in $cache: is the disk full, or the folder another user's?" \
+            "ELLIPSOID_CACHE names another folder."
+        return
+    fi
+
+    # Within the environment of a set-up done before, the tree is looked for anew
+    case $WM_PROJECT_DIR in "$cache"/*) unset WM_PROJECT_DIR ;; esac
+
+    dir=$WM_PROJECT_DIR
+    if [ -n "$dir" ]; then
+        setup_check_openfoam "$dir" || return
+    else
+        dir=$(setup_search_openfoam)
+    fi
+    if [ -z "$dir" ] && ! setup_is_debian_12; then
+        setup_fail "no OpenFOAM found, and this is $(setup_os_release PRETTY_NAME)" \
+            "OpenFOAM is installed for you on Debian 12 only. Needed: $setup_needed" \
+            "with its headers and wmake, and its etc/bashrc sourced; also gcc, g++, make, an MPI," \
+            "Random123; for pictures Python 3 with numpy, matplotlib and vtk; for tests cmocka."
+        return
+    fi
+
+    read -r -d '' -a packages < <(setup_missing_packages "$level" "$dir")
+    if [ "${#packages[@]}" -gt 0 ]; then
+        setup_install_packages "$log" "${packages[@]}" || return
+        read -r -d '' -a packages < <(setup_missing_packages "$level" "$dir")
+        if [ "${#packages[@]}" -gt 0 ]; then
+            setup_fail "installed, but not found on PATH: what ${packages[*]} should bring"
+            return
+        fi
+    fi
+    if [ -z "$dir" ]; then
+        version=$(setup_debian_openfoam_version)
+        setup_debian_openfoam "$cache" "$version" "$log" || return
+        dir=$cache/openfoam-$version
+    fi
+
+    setup_source_bashrc "$dir"
+    export WM_NCOMPPROCS=${WM_NCOMPPROCS:-$(nproc)}
+    # Open MPI asks root twice; a container's only user is often root
+    if [ "$(id -u)" -eq 0 ]; then
+        export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    fi
+    if [ "$level" != build ]; then
+        ELLIPSOID_PYTHON=$(setup_find_python)
+        export ELLIPSOID_PYTHON
+    fi
+    setup_say "OpenFOAM v$FOAM_API in $WM_PROJECT_DIR ($(setup_seconds_since "$start"))"
+}

@@ -1,0 +1,315 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+
+#include "flowConvergence.H"
+#include "fvcDiv.H"
+#include "fvMesh.H"
+#include "wallPolyPatch.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::FixedList<const char*, Foam::flowConvergence::nMeasures>
+Foam::flowConvergence::measureNames_
+{
+    "p",
+    "U",
+    "forces",
+    "continuity",
+    "flux change"
+};
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::flowConvergence::largestResidual
+(
+    const SolverPerformance<vector>& UPerf,
+    const volVectorField& U
+) const
+{
+    const vector meanSqr
+    (
+        gSum(cmptMultiply(U.primitiveField(), U.primitiveField())*mesh_.V())
+    );
+    const scalar negligible = sqr(fluxTolerance_)*cmptSum(meanSqr);
+
+    scalar largest = 0;
+    for (direction cmpt = 0; cmpt < vector::nComponents; ++cmpt)
+    {
+        // Not max(), which would drop a NaN
+        const scalar residual = UPerf.initialResidual()[cmpt];
+        if (meanSqr[cmpt] > negligible && !(residual < largest))
+        {
+            largest = residual;
+        }
+    }
+
+    return largest;
+}
+
+
+Foam::scalarField Foam::flowConvergence::record
+(
+    const volVectorField& U,
+    const surfaceScalarField& phi
+)
+{
+    const label nPatches = openPatches_.size();
+
+    scalarField values(nPatches + 1);
+    scalarField scales(nPatches + 1);
+
+    inflow_ = 0;
+    forAll(openPatches_, i)
+    {
+        const scalarField& patchPhi = phi.boundaryField()[openPatches_[i]];
+        values[i] = sum(patchPhi);
+        scales[i] = sum(mag(patchPhi));
+        inflow_ -= sum(min(patchPhi, scalar(0)));
+    }
+    values[nPatches] = sum(mag(U.primitiveField())*mesh_.V());
+
+    reduce(inflow_, sumOp<scalar>());
+    Pstream::listCombineGather(values, plusEqOp<scalar>());
+    Pstream::listCombineScatter(values);
+    Pstream::listCombineGather(scales, plusEqOp<scalar>());
+    Pstream::listCombineScatter(scales);
+
+    values[nPatches] /= gSum(mesh_.V());
+    meanSpeed_ = scales[nPatches] = values[nPatches];
+
+    // A flux that is nothing beside the others need not be as exact
+    for (label i = 0; i < nPatches; ++i)
+    {
+        scales[i] = max(scales[i], fluxTolerance_*inflow_);
+    }
+
+    history_.append(values);
+
+    return scales;
+}
+
+
+Foam::scalar Foam::flowConvergence::range
+(
+    const label valuei,
+    const label ago
+) const
+{
+    const label last = history_.size() - 1 - ago;
+
+    scalar low = history_[last][valuei];
+    scalar high = low;
+    for (label i = max(last - fluxWindow_, label(0)); i < last; ++i)
+    {
+        low = min(low, history_[i][valuei]);
+        high = max(high, history_[i][valuei]);
+    }
+
+    return high - low;
+}
+
+
+Foam::scalar Foam::flowConvergence::fluxChange(const scalarField& scales) const
+{
+    // Bounds the rest of the series, so that changes at the level of rounding,
+    // which no longer fall, extrapolate to little
+    const scalar maxWindows = 1000;
+
+    scalar change = 0;
+    forAll(scales, i)
+    {
+        const scalar now = range(i, 0);
+        scalar rest = now;
+
+        if (history_.size() > 2*fluxWindow_)
+        {
+            const scalar before = range(i, fluxWindow_);
+            rest *=
+                now < (before - now)*maxWindows
+              ? max(now/(before - now), scalar(1))
+              : maxWindows;
+        }
+
+        change = max(change, rest/(scales[i] + VSMALL));
+    }
+
+    return change;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::flowConvergence::flowConvergence
+(
+    const fvMesh& mesh,
+    const dictionary& dict
+)
+:
+    mesh_(mesh),
+    openPatches_(mesh.boundaryMesh().size()),
+    fluxTolerance_(),
+    fluxWindow_(),
+    target_(),
+    value_(),
+    inflow_(0),
+    meanSpeed_(0),
+    history_()
+{
+    const auto positive = [](const scalar x){ return x > 0; };
+
+    const dictionary targets(dict.subOrEmptyDict("residualControl"));
+
+    fluxTolerance_ =
+        dict.getCheckOrDefault<scalar>("fluxTolerance", 1e-4, positive);
+    fluxWindow_ = dict.getCheckOrDefault<label>("fluxWindow", 10, positive);
+
+    target_ = fluxTolerance_;
+    target_[mPressure] =
+        targets.getCheckOrDefault<scalar>("p", 1e-5, positive);
+    target_[mVelocity] =
+        targets.getCheckOrDefault<scalar>("U", 1e-5, positive);
+
+    label nOpen = 0;
+    for (const polyPatch& pp : mesh.boundaryMesh())
+    {
+        if (!isA<wallPolyPatch>(pp) && !polyPatch::constraintType(pp.type()))
+        {
+            openPatches_[nOpen++] = pp.index();
+        }
+    }
+    openPatches_.resize(nOpen);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::flowConvergence::restart
+(
+    const volVectorField& U,
+    const surfaceScalarField& phi
+)
+{
+    history_.clear();
+    record(U, phi);
+}
+
+
+void Foam::flowConvergence::update
+(
+    const solverPerformance& pPerf,
+    const SolverPerformance<vector>& UPerf,
+    const forceRatios& forces,
+    const volVectorField& U,
+    const surfaceScalarField& phi
+)
+{
+    const scalarField scales(record(U, phi));
+
+    // A closed domain is as good as its mean speed times its cross-section
+    const scalar through =
+        inflow_ > 0
+      ? inflow_
+      : meanSpeed_*pow(gSum(mesh_.V()), 2.0/3.0);
+
+    value_[mPressure] =
+        forces.pressure > fluxTolerance_ ? pPerf.initialResidual() : 0;
+    value_[mVelocity] = largestResidual(UPerf, U);
+    value_[mForces] = forces.net;
+    value_[mContinuity] =
+        gSum(mag(fvc::div(phi)().primitiveField())*mesh_.V())
+       /(through + VSMALL);
+    value_[mFluxChange] = fluxChange(scales);
+}
+
+
+bool Foam::flowConvergence::sound() const
+{
+    // Beyond this, squares would soon overflow
+    const scalar maxSpeed = 1e30;
+
+    for (const scalar value : value_)
+    {
+        if (!std::isfinite(value))
+        {
+            return false;
+        }
+    }
+
+    return std::isfinite(meanSpeed_) && meanSpeed_ < maxSpeed;
+}
+
+
+bool Foam::flowConvergence::reached() const
+{
+    for (label i = 0; i < nMeasures; ++i)
+    {
+        if (value_[i] > target_[i])
+        {
+            return false;
+        }
+    }
+
+    return history_.size() > 2*fluxWindow_;
+}
+
+
+bool Foam::flowConvergence::reachedBefore() const
+{
+    // Residuals that ended below their targets may begin a little above
+    const scalar slack = 2;
+
+    for (label i = 0; i < nMeasures; ++i)
+    {
+        if (value_[i] > slack*target_[i])
+        {
+            return false;
+        }
+    }
+
+    return true;
+}
+
+
+Foam::string Foam::flowConvergence::measures() const
+{
+    string line;
+    for (label i = 0; i < nMeasures; ++i)
+    {
+        line +=
+            string(i ? ", " : "") + measureNames_[i]
+          + word::printf(" %.1e", value_[i]);
+    }
+
+    return line;
+}
+
+
+Foam::string Foam::flowConvergence::shortcomings() const
+{
+    string lines;
+    for (label i = 0; i < nMeasures; ++i)
+    {
+        if (!(value_[i] <= target_[i]))
+        {
+            lines +=
+                string("    ") + measureNames_[i]
+              + word::printf(" %.2e", value_[i])
+              + word::printf(", target %.2e\n", target_[i]);
+        }
+    }
+
+    return lines;
+}
+
+
+// ************************************************************************* //

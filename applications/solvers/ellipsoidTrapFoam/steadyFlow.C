@@ -1,0 +1,515 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+
+#include "steadyFlow.H"
+#include "adjustPhi.H"
+#include "clockTime.H"
+#include "constrainHbyA.H"
+#include "constrainPressure.H"
+#include "findRefCell.H"
+#include "fvcDiv.H"
+#include "fvcFlux.H"
+#include "fvcGrad.H"
+#include "fvcSnGrad.H"
+#include "fvcSurfaceIntegrate.H"
+#include "fvmDiv.H"
+#include "fvmLaplacian.H"
+#include "fvMatrices.H"
+#include "fvMesh.H"
+#include "sigFpe.H"
+#include "surfaceInterpolate.H"
+
+#include <cmath>
+#include <limits>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// The solver performance of every solve within one time step is kept, and
+// copied with each solve: a thousand iterations would come to seconds
+static void forgetSolverPerformance(const fvMesh& mesh)
+{
+    #if OPENFOAM >= 2312
+    const dictionary& dict = mesh.data().solverPerformanceDict();
+    #else
+    const dictionary& dict = mesh.solverPerformanceDict();
+    #endif
+
+    const_cast<dictionary&>(dict).clear();
+}
+
+
+static dimensionedScalar readViscosity(const dictionary& dict)
+{
+    const word model(dict.getOrDefault<word>("transportModel", "Newtonian"));
+    if (model != "Newtonian")
+    {
+        FatalIOErrorInFunction(dict)
+            << "transportModel " << model << " is not available: the fluid is"
+            << " Newtonian" << exit(FatalIOError);
+    }
+
+    const ITstream& nuEntry = dict.lookup("nu");
+    const bool isNumber = nuEntry.size() && nuEntry.last().isNumber();
+
+    if (!isNumber || !(nuEntry.last().number() > 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "nu " << nuEntry.toString() << " does not end in a positive"
+            << " number [m2/s]" << exit(FatalIOError);
+    }
+
+    return dimensionedScalar("nu", dimViscosity, dict);
+}
+
+
+// The precision of Info is that of the fields, far more than one can read
+static word text(const scalar value)
+{
+    return word::printf("%.6g", value);
+}
+
+
+template<class Type>
+static bool allFinite(const UList<Type>& values)
+{
+    for (const Type& value : values)
+    {
+        for (direction cmpt = 0; cmpt < pTraits<Type>::nComponents; ++cmpt)
+        {
+            if (!std::isfinite(component(value, cmpt)))
+            {
+                return false;
+            }
+        }
+    }
+
+    return true;
+}
+
+
+template<class Field>
+static void checkFinite(const Field& field)
+{
+    bool finite = allFinite(field.primitiveField());
+    for (const auto& patchField : field.boundaryField())
+    {
+        finite = finite && allFinite(patchField);
+    }
+
+    if (!returnReduce(finite, andOp<bool>()))
+    {
+        FatalErrorInFunction
+            << "A value of " << field.name() << " is not a finite number in"
+            << nl << "    " << field.objectPath() << exit(FatalError);
+    }
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::IOobject Foam::steadyFlow::fieldIO
+(
+    const word& name,
+    const IOobject::readOption readOpt
+) const
+{
+    return IOobject(name, instance_, mesh_, readOpt, IOobject::NO_WRITE);
+}
+
+
+void Foam::steadyFlow::checkControls() const
+{
+    const wordHashSet known
+    ({
+        "consistent", "nNonOrthogonalCorrectors", "maxIterations",
+        "residualControl", "fluxTolerance", "fluxWindow",
+        "pRefCell", "pRefPoint", "pRefValue"
+    });
+    const wordHashSet knownTargets({"p", "U"});
+
+    wordHashSet unknown(controls_.toc());
+    unknown -= known;
+    wordHashSet unknownTargets
+    (
+        controls_.subOrEmptyDict("residualControl").toc()
+    );
+    unknownTargets -= knownTargets;
+
+    if (unknown.size() || unknownTargets.size())
+    {
+        FatalIOErrorInFunction(controls_)
+            << "Unknown entries " << (unknown | unknownTargets).sortedToc()
+            << nl << "Known are " << known.sortedToc()
+            << ", and in residualControl " << knownTargets.sortedToc()
+            << exit(FatalIOError);
+    }
+
+    if
+    (
+        consistent_
+     && !(
+            mesh_.relaxEquation("U")
+         && mesh_.equationRelaxationFactor("U") < 1
+        )
+    )
+    {
+        FatalIOErrorInFunction(mesh_.solutionDict())
+            << "SIMPLEC needs a relaxation factor of the U equation below 1:"
+            << " relaxationFactors { equations { U 0.9; } }"
+            << exit(FatalIOError);
+    }
+}
+
+
+Foam::dictionary Foam::steadyFlow::linearSolver(const word& fieldName) const
+{
+    dictionary dict(mesh_.solverDict(fieldName));
+
+    // A solver that is content with its start leaves the flow untouched, which
+    // would pass for steady
+    dict.set("minIter", max(dict.getOrDefault<label>("minIter", 1), label(1)));
+
+    return dict;
+}
+
+
+Foam::flowConvergence::forceRatios Foam::steadyFlow::forces
+(
+    const fvVectorMatrix& UEqn
+) const
+{
+    const volVectorField gradP(fvc::grad(p_));
+
+    vectorField net
+    (
+        (UEqn & U_)().primitiveField() + gradP.primitiveField()
+    );
+    for (direction cmpt = 0; cmpt < vector::nComponents; ++cmpt)
+    {
+        if (mesh_.solutionD()[cmpt] == -1)
+        {
+            net.replace(cmpt, scalar(0));
+        }
+    }
+
+    scalar shear = 0;
+    for (const fvPatchVectorField& Up : U_.boundaryField())
+    {
+        if (!Up.coupled())
+        {
+            shear += nu_.value()*sum(mag(Up.snGrad())*Up.patch().magSf());
+        }
+    }
+    reduce(shear, sumOp<scalar>());
+
+    const scalar pressure = gSum(mag(gradP.primitiveField())*mesh_.V());
+    const scalar driving = pressure + shear + VSMALL;
+
+    return {gSum(mag(net)*mesh_.V())/driving, pressure/driving};
+}
+
+
+void Foam::steadyFlow::iterate()
+{
+    // A flow that diverges is reported as such, not by a signal
+    const sigFpe::ignore noTrap;
+
+    fvVectorMatrix UEqn(fvm::div(phi_, U_) - fvm::laplacian(nu_, U_));
+    const flowConvergence::forceRatios forcesFound(forces(UEqn));
+
+    UEqn.relax();
+    const SolverPerformance<vector> UPerf
+    (
+        Foam::solve(UEqn == -fvc::grad(p_), linearSolver("U"))
+    );
+
+    // Velocity without pressure gradient, and what a pressure gradient adds
+    const volScalarField rAU(1/UEqn.A());
+    volVectorField HbyA(constrainHbyA(rAU*UEqn.H(), U_, p_));
+    surfaceScalarField phiHbyA("phiHbyA", fvc::flux(HbyA));
+    adjustPhi(phiHbyA, U_, p_);
+
+    volScalarField rAtU("rAtU", rAU);
+    if (consistent_)
+    {
+        // The neighbours' velocities change with the cell's own
+        rAtU = 1/(1/rAU - UEqn.H1());
+        phiHbyA +=
+            fvc::interpolate(rAtU - rAU)*fvc::snGrad(p_)*mesh_.magSf();
+        HbyA += (rAtU - rAU)*fvc::grad(p_);
+    }
+
+    constrainPressure(p_, U_, phiHbyA, rAtU);
+
+    p_.storePrevIter();
+    solverPerformance pPerf;
+    for (label corr = 0; corr <= nNonOrthogonalCorrectors_; ++corr)
+    {
+        fvScalarMatrix pEqn
+        (
+            fvm::laplacian(rAtU, p_) == fvc::div(phiHbyA)
+        );
+        pEqn.setReference(pRefCell_, pRefValue_);
+
+        const solverPerformance perf(pEqn.solve(linearSolver("p")));
+        if (corr == 0)
+        {
+            pPerf = perf;
+        }
+        if (corr == nNonOrthogonalCorrectors_)
+        {
+            phi_ = phiHbyA - pEqn.flux();
+        }
+    }
+    p_.relax();
+
+    U_ = HbyA - rAtU*fvc::grad(p_);
+    U_.correctBoundaryConditions();
+
+    convergence_.update(pPerf, UPerf, forcesFound, U_, phi_);
+    forgetSolverPerformance(mesh_);
+}
+
+
+void Foam::steadyFlow::reportProgress(const label iteration) const
+{
+    Info<< "flow: iteration " << iteration << ": "
+        << convergence_.measures().c_str();
+
+    if (convergence_.inflow() > 0)
+    {
+        Info<< ", inflow " << text(convergence_.inflow()) << " m3/s" << endl;
+    }
+    else
+    {
+        Info<< ", mean speed " << text(convergence_.meanSpeed()) << " m/s"
+            << endl;
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::steadyFlow::steadyFlow(const fvMesh& mesh)
+:
+    mesh_(mesh),
+    controls_(mesh.solutionDict().subDict("SIMPLE")),
+    consistent_(controls_.getOrDefault("consistent", true)),
+    nNonOrthogonalCorrectors_
+    (
+        controls_.getCheckOrDefault<label>
+        (
+            "nNonOrthogonalCorrectors",
+            0,
+            [](const label n){ return n >= 0; }
+        )
+    ),
+    maxIterations_
+    (
+        controls_.getCheckOrDefault<label>
+        (
+            "maxIterations",
+            2000,
+            [](const label n){ return n > 0; }
+        )
+    ),
+    instance_(mesh.time().findInstance(mesh.dbDir(), "U")),
+    transportProperties_
+    (
+        IOobject
+        (
+            "transportProperties",
+            mesh.time().constant(),
+            mesh,
+            IOobject::MUST_READ,
+            IOobject::NO_WRITE,
+            false
+        )
+    ),
+    nu_(readViscosity(transportProperties_)),
+    U_(fieldIO("U", IOobject::MUST_READ), mesh),
+    p_(fieldIO("p", IOobject::MUST_READ), mesh),
+    phi_(fieldIO("phi", IOobject::READ_IF_PRESENT), fvc::flux(U_)),
+    pRefCell_(0),
+    pRefValue_(0),
+    convergence_(mesh, controls_)
+{
+    checkControls();
+    checkFinite(U_);
+    checkFinite(p_);
+    checkFinite(phi_);
+
+    setRefCell(p_, controls_, pRefCell_, pRefValue_);
+    mesh_.setFluxRequired(p_.name());
+    convergence_.restart(U_, phi_);
+
+    // One line a second tells more than several in each iteration
+    SolverPerformance<scalar>::debug = 0;
+    SolverPerformance<vector>::debug = 0;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::steadyFlow::converged()
+{
+    const volVectorField URead(U_);
+    const volScalarField pRead(p_);
+    const surfaceScalarField phiRead(phi_);
+
+    iterate();
+    const bool arrived = convergence_.sound() && convergence_.reachedBefore();
+
+    U_ == URead;
+    p_ == pRead;
+    phi_ == phiRead;
+
+    if (arrived)
+    {
+        Info<< "flow: already converged (" << convergence_.measures().c_str()
+            << "), not solved again: as stored in " << instance_ << endl;
+    }
+    convergence_.restart(U_, phi_);
+
+    return arrived;
+}
+
+
+void Foam::steadyFlow::solve()
+{
+    Info<< "flow: solved from that in " << instance_ << " by "
+        << (consistent_ ? "SIMPLEC" : "SIMPLE") << endl;
+
+    const clockTime clock;
+    scalar reported = -1;
+    label iteration = 0;
+
+    do
+    {
+        if (iteration == maxIterations_)
+        {
+            FatalIOErrorInFunction(controls_)
+                << "The flow is not steady after " << iteration
+                << " iterations:" << nl
+                << convergence_.shortcomings().c_str()
+                << "Nothing was written. Raise maxIterations or the U entry of"
+                << " relaxationFactors, or loosen residualControl or"
+                << " fluxTolerance." << exit(FatalIOError);
+        }
+
+        iterate();
+        ++iteration;
+
+        if (!convergence_.sound())
+        {
+            FatalIOErrorInFunction(controls_)
+                << "The flow diverges: iteration " << iteration << " left "
+                << convergence_.measures().c_str() << ", mean speed "
+                << text(convergence_.meanSpeed()) << " m/s" << nl
+                << "Nothing was written. Lower the relaxationFactors, or check"
+                << " the boundary conditions and nu." << exit(FatalIOError);
+        }
+
+        // About a line a second
+        if (clock.elapsedTime() > reported + 1)
+        {
+            reported = clock.elapsedTime();
+            reportProgress(iteration);
+        }
+    } while (!convergence_.reached());
+
+    reportProgress(iteration);
+    Info<< "flow: converged in " << iteration << " iterations, "
+        << text(clock.elapsedTime()) << " s" << endl;
+}
+
+
+void Foam::steadyFlow::write()
+{
+    // Enough digits to read back the same numbers
+    const unsigned asked = IOstream::defaultPrecision
+    (
+        std::numeric_limits<scalar>::max_digits10
+    );
+
+    phi_.write();
+    p_.write();
+    U_.write();
+    Info<< "flow: written to " << mesh_.time().timeName() << endl;
+
+    IOstream::defaultPrecision(asked);
+}
+
+
+void Foam::steadyFlow::report() const
+{
+    scalar inflow = 0, inletArea = 0;
+    scalar inP = 0, outflow = 0, outP = 0;
+
+    for (const label patchi : convergence_.openPatches())
+    {
+        const scalarField& phip = phi_.boundaryField()[patchi];
+        const scalarField& pp = p_.boundaryField()[patchi];
+        const scalarField& magSf = mesh_.magSf().boundaryField()[patchi];
+
+        const scalar flux = gSum(phip);
+        const scalar area = gSum(magSf);
+        const scalar patchP = gSum(pp*magSf)/area;
+
+        Info<< "flow: " << mesh_.boundary()[patchi].name() << ": "
+            << text(mag(flux)) << " m3/s " << (flux < 0 ? "in" : "out")
+            << ", mean p " << text(patchP) << " m2/s2" << endl;
+
+        if (flux < 0)
+        {
+            inflow -= flux;
+            inletArea += area;
+            inP -= flux*patchP;
+        }
+        else
+        {
+            outflow += flux;
+            outP += flux*patchP;
+        }
+    }
+
+    if (inflow > 0 && outflow > 0)
+    {
+        const scalar drop = inP/inflow - outP/outflow;
+
+        Info<< "flow: mean inlet speed " << text(inflow/inletArea) << " m/s" << nl
+            << "flow: pressure drop " << text(drop) << " m2/s2";
+
+        if (transportProperties_.found("rho"))
+        {
+            const dimensionedScalar rho
+            (
+                "rho",
+                dimDensity,
+                transportProperties_
+            );
+            Info<< " (" << text(rho.value()*drop) << " Pa)";
+        }
+        Info<< endl;
+    }
+    else
+    {
+        Info<< "flow: mean speed " << text(convergence_.meanSpeed()) << " m/s"
+            << endl;
+    }
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,454 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    ellipsoid.h - the only public header of the core.
+
+    One rigid ellipsoid carried by a given flow and touching given walls:
+    thirteen stiff equations (velocity, position, angular velocity,
+    quaternion) advanced by a fourth-order adaptive Rosenbrock method.
+
+    SI units throughout. Frames:
+      lab    x  = (x1, x2, x3)
+      body   x^ = the principal axes of the ellipsoid, R(q) turns body to lab:
+             v = R v^,  R = (eta^2 - eps.eps) I + 2 eps eps^T + 2 eta [eps]x
+             with the unit quaternion q = (eps1, eps2, eps3, eta), scalar last.
+
+    The core keeps no state of its own: it does not allocate, print, exit or
+    hold mutable static data, so any number of threads may call it. Every
+    function that can fail returns an ellipsoid_status; on failure the state
+    it was given is as it was.
+
+    Sources: Kim et al., Lab Chip 11, 1089 (2011), supplement ("paper");
+    Oberbeck (1876), Jeffery (1922), Brenner (1964); Hairer & Wanner,
+    Solving ODEs II (1996). Equations are listed in docs/theory.md.
+*/
+#ifndef ELLIPSOID_H
+#define ELLIPSOID_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* -------------------------------------------------------------- status */
+
+/* Every status with its text, in one list. */
+#define ELLIPSOID_STATUS_LIST(X)                                               \
+    X(OK, "success")                                                           \
+    X(STOPPED, "stopped by the observer")                                      \
+    X(BAD_OPTION, "an option is outside its range")                            \
+    X(NON_FINITE, "the flow or the walls gave a value that is not finite")     \
+    X(FLOW_FAILED, "the flow gave up at the cell's position")                  \
+    X(WALLS_FAILED, "the walls gave up at the cell's position")                \
+    X(STEP_UNDERFLOW, "the step fell below the smallest step")                 \
+    X(TOO_MANY_STEPS, "the number of steps is exhausted")                      \
+    X(TOO_MANY_FACETS, "too many wall facets near one cell")
+
+#define ELLIPSOID_STATUS_ENUM(name, text) ELLIPSOID_##name,
+typedef enum ellipsoid_status
+{
+    ELLIPSOID_STATUS_LIST(ELLIPSOID_STATUS_ENUM)
+    ELLIPSOID_STATUS_COUNT
+} ellipsoid_status;
+#undef ELLIPSOID_STATUS_ENUM
+
+/* The text of a status; never NULL. */
+const char *ellipsoid_status_text(ellipsoid_status status);
+
+/* ------------------------------------------------------------- options */
+
+/* How the surface beads are laid out (docs/theory.md, "Contact"). */
+typedef enum ellipsoid_bead_layout
+{
+    ELLIPSOID_BEADS_STAGGERED, /* centres on the ellipsoid shrunk by r_b */
+    ELLIPSOID_BEADS_PAPER,     /* the paper's, literally, without duplicates */
+    ELLIPSOID_BEADS_SURFACE    /* staggered, centres on the ellipsoid */
+} ellipsoid_bead_layout;
+
+/* The undisturbed flow's force on the fluid the body displaces. */
+typedef enum ellipsoid_pressure_gradient
+{
+    ELLIPSOID_PRESSURE_NONE,
+    ELLIPSOID_PRESSURE_DUDT, /* m_f (u_f . grad) u_f */
+    ELLIPSOID_PRESSURE_GRADP /* -V grad p, for comparison only */
+} ellipsoid_pressure_gradient;
+
+#define ELLIPSOID_MAX_BEADS 256
+
+/*
+    Everything that says what body moves in what fluid under which forces.
+    Copyable; start from ellipsoid_options_default().
+*/
+typedef struct ellipsoid_options
+{
+    /* body */
+    double semi_axes[3]; /* [m] along x^1, x^2, x^3; (0.5, 2, 0.5)e-6 */
+    double density;      /* [kg/m3] 1040 */
+
+    /* fluid */
+    double fluid_density;       /* [kg/m3] 997.5 */
+    double kinematic_viscosity; /* [m2/s] 1e-6 */
+
+    /* forces */
+    int drag;         /* hydrodynamic force and torque, 1 */
+    int buoyancy;     /* (m_p - m_f) g, 1 */
+    ellipsoid_pressure_gradient pressure_gradient; /* DUDT */
+    double gravity[3];         /* [m/s2] lab, (0, 0, -9.81) */
+    double external_force[3];  /* [N] lab, 0 */
+    double external_torque[3]; /* [N m] lab, 0 */
+
+    /* contact */
+    int contact;              /* beads against wall facets, 1 */
+    ellipsoid_bead_layout bead_layout; /* STAGGERED */
+    int bead_count;           /* 32; 1 to ELLIPSOID_MAX_BEADS */
+    double bead_radius;       /* [m] 0.285e-6; below the smallest semi-axis */
+    double contact_modulus;   /* [Pa] effective modulus E*, 1e6 */
+
+    /* integrator */
+    double tolerance;    /* [-] local error: x against the largest semi-axis,
+                            q against 1; 1e-5; 1e-14 to 1e-1 */
+    double initial_step; /* [s] first step of a fresh controller, 1e-8 */
+    double minimum_step; /* [s] 1e-18 */
+    double maximum_step; /* [s] 1 */
+    long maximum_steps;  /* per call of ellipsoid_advance, 10000000 */
+} ellipsoid_options;
+
+ellipsoid_options ellipsoid_options_default(void);
+
+/*
+    OK or BAD_OPTION. On BAD_OPTION, *field names the member at fault and
+    *range its allowed range (static strings; both pointers may be NULL).
+*/
+ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
+                                         const char **field,
+                                         const char **range);
+
+/* --------------------------------------------------------------- model */
+
+/* What follows from the options once and for all; read-only afterwards. */
+typedef struct ellipsoid_model
+{
+    ellipsoid_options options;
+    double volume;          /* [m3] V = 4/3 pi a1 a2 a3 */
+    double mass;            /* [kg] m_p */
+    double fluid_mass;      /* [kg] m_f, displaced */
+    double viscosity;       /* [Pa s] mu = rho_f nu, dynamic */
+    double inertia[3];      /* [kg m2] body axes */
+    double resistance[3];   /* [m] K^_i: F = mu R K^ R^T (u_f - u) */
+    double rotation_resistance[3]; /* [m3] C_i = c_i (a_j^2 + a_k^2) / mu:
+                                      T^_i = mu C_i (W^_i - w^_i + ...) */
+    double strain_factor[3]; /* [-] (a_j^2 - a_k^2)/(a_j^2 + a_k^2), cyclic:
+                               T^_1 = mu C_1 (s_1 e^23 + W^_1 - w^_1) */
+    double relaxation_time;          /* [s] slowest translational m/(mu K^) */
+    double rotation_relaxation_time; /* [s] slowest I/(mu C) */
+    double reach;           /* [m] farthest contact surface from the centre */
+    int bead_count;
+    double bead[ELLIPSOID_MAX_BEADS][3]; /* [m] body frame, bead centres */
+} ellipsoid_model;
+
+/* Checks the options and derives the model; *model is untouched on failure. */
+ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
+                                      const ellipsoid_options *options);
+
+/*
+    Translation and rotation coefficients of an ellipsoid of any three
+    semi-axes [m] in Stokes flow: K^ [m] and C [m3] as in ellipsoid_model.
+    Sphere of radius a: K^ = 6 pi a, C = 8 pi a^3.
+*/
+void ellipsoid_resistance(const double semi_axes[3],
+                          double resistance[3],
+                          double rotation_resistance[3]);
+
+/* Carlson's symmetric integrals R_F(x,y,z) and R_D(x,y,z), to rounding. */
+double ellipsoid_carlson_rf(double x, double y, double z);
+double ellipsoid_carlson_rd(double x, double y, double z);
+
+/* ---------------------------------------------------------------- flow */
+
+/*
+    The undisturbed flow at a point, lab frame. G_ij = du_i/dx_j.
+    velocity_jacobian is the derivative of `velocity` as interpolated, and
+    gradient_jacobian[i][j][k] = dG_ij/dx_k; both are read only where
+    derivatives were asked for, and only serve the Jacobian.
+*/
+typedef struct ellipsoid_flow_sample
+{
+    double velocity[3];                /* [m/s] */
+    double gradient[3][3];             /* [1/s] */
+    double pressure_gradient[3];       /* [Pa/m]; only for PRESSURE_GRADP */
+    double velocity_jacobian[3][3];    /* [1/s] */
+    double gradient_jacobian[3][3][3]; /* [1/(m s)] */
+} ellipsoid_flow_sample;
+
+/*
+    Samples the flow at x [m, lab]. derivatives: 0 or 1.
+    Returns 0; > 0: not here, shorten the step; < 0: give up.
+*/
+typedef int (*ellipsoid_flow_function)(void *context,
+                                       const double x[3],
+                                       int derivatives,
+                                       ellipsoid_flow_sample *sample);
+
+/* --------------------------------------------------------------- walls */
+
+/* How the wall turns at an edge, seen from the fluid. */
+typedef enum ellipsoid_edge
+{
+    ELLIPSOID_EDGE_FLAT,   /* the neighbour lies in the same plane */
+    ELLIPSOID_EDGE_CONVEX, /* the solid protrudes; also a free rim */
+    ELLIPSOID_EDGE_CONCAVE
+} ellipsoid_edge;
+
+/* A triangle of the wall. Edge k runs from vertex k to vertex (k+1)%3. */
+typedef struct ellipsoid_facet
+{
+    double vertex[3][3]; /* [m] lab, counter-clockwise seen from the fluid */
+    double normal[3];    /* unit, into the fluid */
+    ellipsoid_edge edge[3];
+    double edge_inward[3][3]; /* unit, perpendicular to edge k, in the plane of
+                                 the facet ACROSS edge k, pointing into it */
+    double neighbour_normal[3][3]; /* unit normal of the facet across edge k */
+    const double (*star[3])[3]; /* star[k]: unit directions of all wall edges
+                                   that leave vertex k */
+    int star_count[3];
+    int surface; /* label of the wall patch, for reports */
+} ellipsoid_facet;
+
+/* Facets are named by their index in one array that outlives the cells. */
+typedef struct ellipsoid_facet_list
+{
+    const ellipsoid_facet *facets; /* the whole array */
+    const int *index;              /* the candidates, ascending */
+    int count;
+    double reach; /* [m] >= the reach asked for: no facet outside the list is
+                     nearer to the centre than this */
+} ellipsoid_facet_list;
+
+/*
+    Lists all facets nearer than `reach` [m] to `centre` [m, lab]. The list's
+    memory is the callee's and stays valid until its next call.
+    Returns 0; > 0: shorten the step; < 0: give up.
+*/
+typedef int (*ellipsoid_walls_function)(void *context,
+                                        const double centre[3],
+                                        double reach,
+                                        ellipsoid_facet_list *list);
+
+/* What surrounds a cell. walls may be NULL: no walls. flow may be NULL: vacuum
+   (drag and pressure gradient are then zero). */
+typedef struct ellipsoid_surroundings
+{
+    ellipsoid_flow_function flow;
+    void *flow_context;
+    ellipsoid_walls_function walls;
+    void *walls_context;
+} ellipsoid_surroundings;
+
+/* --------------------------------------------------------------- state */
+
+#define ELLIPSOID_STATE_SIZE 13
+
+/* The thirteen unknowns, in this order wherever they form a vector. */
+typedef struct ellipsoid_state
+{
+    double u[3];     /* [m/s] velocity, lab */
+    double x[3];     /* [m] centre, lab */
+    double omega[3]; /* [rad/s] angular velocity, body */
+    double q[4];     /* quaternion (eps1, eps2, eps3, eta), body to lab */
+} ellipsoid_state;
+
+/* R(q), row-major: lab = R body. q need not be exactly of length one. */
+void ellipsoid_rotation(const double q[4], double rotation[3][3]);
+
+/* The paper's Euler angles (phi, theta, psi) [rad], z-x-z, and back. */
+void ellipsoid_euler_from_quaternion(const double q[4], double euler[3]);
+void ellipsoid_quaternion_from_euler(const double euler[3], double q[4]);
+
+/* Quaternion that turns the body axis x^2 to the unit vector `axis` (lab),
+   followed in the body by a spin [rad] about it. */
+void ellipsoid_quaternion_from_axis(const double axis[3], double spin,
+                                    double q[4]);
+
+/* Uniform orientation from three numbers uniform in [0, 1) (Shoemake 1992). */
+void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
+
+/* ------------------------------------------------------------- contact */
+
+#define ELLIPSOID_MAX_PAIRS 2048
+#define ELLIPSOID_MAX_TOUCHED 8
+
+/*
+    Which facets each bead may touch, kept while the cell moves little. One per
+    cell; its content never changes a result, only its cost. Opaque.
+*/
+typedef struct ellipsoid_contact_cache
+{
+    int valid;
+    int pair_count;
+    double margin;      /* [m] */
+    double x[3], q[4];  /* pose at which the pairs were collected */
+    double clearance;   /* [m] > 0: no facet while the centre moves less */
+    const ellipsoid_facet *facets;
+    struct
+    {
+        int bead, facet;
+    } pair[ELLIPSOID_MAX_PAIRS]; /* ascending by bead, then facet */
+} ellipsoid_contact_cache;
+
+void ellipsoid_contact_cache_clear(ellipsoid_contact_cache *cache);
+
+/* The wall's action on a cell in one pose. */
+typedef struct ellipsoid_contact
+{
+    double force[3];        /* [N] lab */
+    double torque[3];       /* [N m] body */
+    double deepest;         /* [m] deepest overlap of a bead, 0 if none */
+    double gap;             /* [m] smallest gap between a bead and the walls,
+                               -deepest where they overlap; at most the bead
+                               radius, beyond which nobody looks; HUGE_VAL
+                               without walls */
+    int touching_beads;
+    int touched_count;      /* distinct surfaces, at most MAX_TOUCHED listed */
+    int touched[ELLIPSOID_MAX_TOUCHED]; /* labels, in order of first touch */
+} ellipsoid_contact;
+
+/* Derivatives of force (lab) and torque (body) by x (lab) and by the four
+   components of q, R(q) taken as the polynomial above. */
+typedef struct ellipsoid_contact_jacobian
+{
+    double force_x[3][3];  /* [N/m] */
+    double force_q[3][4];  /* [N] */
+    double torque_x[3][3]; /* [N] */
+    double torque_q[3][4]; /* [N m] */
+} ellipsoid_contact_jacobian;
+
+/*
+    Beads against facets: Hertz, F = 4/3 E* sqrt(r_b) d^(3/2) along the normal
+    of each contact; the contacts of one bead add up as sum w_i f_i n_i,
+    w_i = f_i / sum_j f_j max(0, n_i.n_j) (see touch.c where they are nearly
+    parallel). jacobian may be NULL. The result is that of the pose alone, to
+    the last bit, whatever the cache has seen before. STEP_UNDERFLOW: the walls
+    ask for a shorter step.
+*/
+ellipsoid_status ellipsoid_contact_evaluate(
+    const ellipsoid_model *model,
+    const ellipsoid_surroundings *surroundings,
+    const double x[3],
+    const double q[4],
+    ellipsoid_contact_cache *cache,
+    ellipsoid_contact *contact,
+    ellipsoid_contact_jacobian *jacobian);
+
+/*
+    Contact of one bead [m, lab] of given radius with the listed facets: force
+    and its derivative by the bead's centre (may be NULL); for tests and tools.
+    stiffness = 4/3 E* sqrt(r_b) [N/m^1.5]. Returns the number of contacts.
+*/
+int ellipsoid_bead_force(const double centre[3], double radius,
+                         double stiffness, const ellipsoid_facet *facets,
+                         const int *index, int count, double force[3],
+                         double force_x[3][3]);
+
+/*
+    Bead centres of a layout on an ellipsoid (body frame) into bead[][3];
+    returns how many (PAPER drops duplicates), 0 if the options do not allow it.
+*/
+int ellipsoid_beads(const ellipsoid_options *options,
+                    double bead[ELLIPSOID_MAX_BEADS][3]);
+
+/*
+    Whether the ellipsoid itself, not its beads, cuts a wall facet; exact. The
+    cell's centre is taken to be on the fluid's side. *overlaps is 0 or 1.
+*/
+ellipsoid_status
+ellipsoid_overlaps_walls(const ellipsoid_model *model,
+                         const ellipsoid_surroundings *surroundings,
+                         const double x[3], const double q[4], int *overlaps);
+
+/* -------------------------------------------------------------- random */
+
+/*
+    `count` numbers uniform in [0, 1), a function of the key alone: the same
+    for any order of calls, any number of threads or ranks, and after a
+    restart. Streams keep independent uses of one cell apart.
+*/
+void ellipsoid_random_uniform(uint64_t seed, uint32_t id, uint32_t stream,
+                              uint32_t index, int count, double *uniform);
+
+/* ----------------------------------------------------------- equations */
+
+/* The thirteen time derivatives at a state, paper eqs. (1)-(4). */
+ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
+                               const ellipsoid_surroundings *surroundings,
+                               const ellipsoid_state *state,
+                               ellipsoid_contact_cache *cache,
+                               ellipsoid_state *derivative);
+
+/* Their derivatives by the thirteen unknowns, row-major. */
+ellipsoid_status
+ellipsoid_jacobian(const ellipsoid_model *model,
+                   const ellipsoid_surroundings *surroundings,
+                   const ellipsoid_state *state,
+                   ellipsoid_contact_cache *cache,
+                   double jacobian[ELLIPSOID_STATE_SIZE][ELLIPSOID_STATE_SIZE]);
+
+/* ------------------------------------------------------------- advance */
+
+/* What step control remembers between calls: part of a cell's state. */
+typedef struct ellipsoid_controller
+{
+    double step;           /* [s] proposed next step; 0: initial_step */
+    double previous_error; /* [-] of the last accepted step; 0: none */
+} ellipsoid_controller;
+
+/* Running totals; never reset by the core. */
+typedef struct ellipsoid_statistics
+{
+    long accepted, rejected; /* steps */
+    long rhs, jacobians;     /* evaluations */
+    double deepest;          /* [m] deepest overlap at the end of a step */
+} ellipsoid_statistics;
+
+/* An accepted step, for dense output: see ellipsoid_step_state(). */
+typedef struct ellipsoid_step
+{
+    double start, end;           /* [s] */
+    ellipsoid_state before, after;
+    double dense[2][ELLIPSOID_STATE_SIZE]; /* continuous extension */
+    ellipsoid_contact contact;   /* at the end */
+} ellipsoid_step;
+
+/* The state at time start <= t <= end, third order. */
+void ellipsoid_step_state(const ellipsoid_step *step, double t,
+                          ellipsoid_state *state);
+
+/* Sees every accepted step. Returns non-zero to stop there. */
+typedef int (*ellipsoid_observer)(void *context, const ellipsoid_step *step);
+
+/*
+    Advances *state from *t to `end` [s]. All of state, t, controller and
+    statistics are updated at every accepted step; on a failure they are those
+    of the last accepted step. observer may be NULL.
+    Returns OK, STOPPED (by the observer; *t is the end of that step), or why
+    it could not go on.
+*/
+ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
+                                   const ellipsoid_surroundings *surroundings,
+                                   ellipsoid_state *state,
+                                   double *t,
+                                   double end,
+                                   ellipsoid_controller *controller,
+                                   ellipsoid_contact_cache *cache,
+                                   ellipsoid_observer observer,
+                                   void *observer_context,
+                                   ellipsoid_statistics *statistics);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

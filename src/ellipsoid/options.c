@@ -1,0 +1,169 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    options.c - defaults (here and nowhere else) and their checker.
+*/
+#include "ellipsoid.h"
+
+#include <math.h>
+
+ellipsoid_options ellipsoid_options_default(void)
+{
+    const ellipsoid_options options = {
+        .semi_axes = {0.5e-6, 2e-6, 0.5e-6},
+        .density = 1040,
+        .fluid_density = 997.5,
+        .kinematic_viscosity = 1e-6,
+        .drag = 1,
+        .buoyancy = 1,
+        .pressure_gradient = ELLIPSOID_PRESSURE_DUDT,
+        .gravity = {0, 0, -9.81},
+        .external_force = {0, 0, 0},
+        .external_torque = {0, 0, 0},
+        .contact = 1,
+        .bead_layout = ELLIPSOID_BEADS_STAGGERED,
+        .bead_count = 32,
+        .bead_radius = 0.285e-6,
+        .contact_modulus = 1e6,
+        .tolerance = 1e-5,
+        .initial_step = 1e-8,
+        .minimum_step = 1e-18,
+        .maximum_step = 1,
+        .maximum_steps = 10000000,
+    };
+
+    return options;
+}
+
+/* Where a member was found at fault, if any yet. */
+typedef struct verdict
+{
+    const char *field, *range;
+} verdict;
+
+/* NaN fails every comparison, hence the form: require what must be true. */
+static void require(verdict *v, int holds, const char *field, const char *range)
+{
+    if (!holds && !v->field)
+    {
+        v->field = field;
+        v->range = range;
+    }
+}
+
+static int within(double value, double low, double high)
+{
+    return value >= low && value <= high;
+}
+
+static int all_within(const double value[3], double low, double high)
+{
+    return within(value[0], low, high) && within(value[1], low, high)
+        && within(value[2], low, high);
+}
+
+static int all_finite(const double value[3])
+{
+    return isfinite(value[0]) && isfinite(value[1]) && isfinite(value[2]);
+}
+
+static int is_switch(int value)
+{
+    return value == 0 || value == 1;
+}
+
+/* The ranges keep every derived quantity a normal, finite number. */
+static void check_body_and_fluid(verdict *v, const ellipsoid_options *o)
+{
+    require(v, all_within(o->semi_axes, 1e-12, 1e3), "semi_axes",
+            "1e-12 to 1e3 m");
+    require(v, within(o->density, 1e-12, 1e12), "density",
+            "1e-12 to 1e12 kg/m3");
+    require(v, within(o->fluid_density, 1e-12, 1e12), "fluid_density",
+            "1e-12 to 1e12 kg/m3");
+    require(v, within(o->kinematic_viscosity, 1e-15, 1e12),
+            "kinematic_viscosity", "1e-15 to 1e12 m2/s");
+}
+
+static void check_forces(verdict *v, const ellipsoid_options *o)
+{
+    require(v, is_switch(o->drag), "drag", "0 or 1");
+    require(v, is_switch(o->buoyancy), "buoyancy", "0 or 1");
+    require(v,
+            o->pressure_gradient == ELLIPSOID_PRESSURE_NONE
+                || o->pressure_gradient == ELLIPSOID_PRESSURE_DUDT
+                || o->pressure_gradient == ELLIPSOID_PRESSURE_GRADP,
+            "pressure_gradient", "NONE, DUDT or GRADP");
+    require(v, all_finite(o->gravity), "gravity", "finite");
+    require(v, all_finite(o->external_force), "external_force", "finite");
+    require(v, all_finite(o->external_torque), "external_torque", "finite");
+}
+
+static void check_contact(verdict *v, const ellipsoid_options *o)
+{
+    const double *a = o->semi_axes;
+    const double smallest = fmin(a[0], fmin(a[1], a[2]));
+
+    require(v, is_switch(o->contact), "contact", "0 or 1");
+    if (!o->contact)
+    {
+        return;
+    }
+    require(v,
+            o->bead_layout == ELLIPSOID_BEADS_STAGGERED
+                || o->bead_layout == ELLIPSOID_BEADS_PAPER
+                || o->bead_layout == ELLIPSOID_BEADS_SURFACE,
+            "bead_layout", "STAGGERED, PAPER or SURFACE");
+    require(v, o->bead_count >= 1 && o->bead_count <= ELLIPSOID_MAX_BEADS,
+            "bead_count", "1 to 256");
+    require(v, o->bead_radius > 0 && o->bead_radius < smallest, "bead_radius",
+            "above 0, below the smallest semi-axis");
+    require(v, within(o->contact_modulus, 1e-12, 1e15), "contact_modulus",
+            "1e-12 to 1e15 Pa");
+    if (!v->field)
+    {
+        double bead[ELLIPSOID_MAX_BEADS][3];
+
+        require(v, ellipsoid_beads(o, bead) > 0, "bead_count",
+                "one the layout allows: 2 + 3 n, or 1; 32 for PAPER");
+    }
+}
+
+static void check_integrator(verdict *v, const ellipsoid_options *o)
+{
+    require(v, within(o->tolerance, 1e-14, 1e-1), "tolerance", "1e-14 to 1e-1");
+    require(v, o->minimum_step > 0 && isfinite(o->minimum_step), "minimum_step",
+            "above 0 s");
+    require(v, o->maximum_step >= o->minimum_step && isfinite(o->maximum_step),
+            "maximum_step", "minimum_step or more, finite");
+    require(v, within(o->initial_step, o->minimum_step, o->maximum_step),
+            "initial_step", "minimum_step to maximum_step");
+    require(v, o->maximum_steps >= 1, "maximum_steps", "1 or more");
+}
+
+ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
+                                         const char **field, const char **range)
+{
+    verdict v = {NULL, NULL};
+
+    check_body_and_fluid(&v, options);
+    check_forces(&v, options);
+    check_contact(&v, options);
+    check_integrator(&v, options);
+
+    if (!v.field)
+    {
+        return ELLIPSOID_OK;
+    }
+    if (field)
+    {
+        *field = v.field;
+    }
+    if (range)
+    {
+        *range = v.range;
+    }
+    return ELLIPSOID_BAD_OPTION;
+}

@@ -1,0 +1,126 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    overlap.c - whether an ellipsoid cuts a wall, for seeding cells.
+*/
+#include "ellipsoidInternal.h"
+
+/* Least squared distance of the origin from the triangle p, Ericson,
+   Real-Time Collision Detection (2005), section 5.1.5. */
+static double distance_squared(double p[3][3])
+{
+    double ab[3], ac[3], nearest[3];
+
+    for (int i = 0; i < 3; ++i)
+    {
+        ab[i] = p[1][i] - p[0][i];
+        ac[i] = p[2][i] - p[0][i];
+    }
+
+    const double d1 = -ellipsoid_dot(ab, p[0]), d2 = -ellipsoid_dot(ac, p[0]);
+    const double d3 = -ellipsoid_dot(ab, p[1]), d4 = -ellipsoid_dot(ac, p[1]);
+    const double d5 = -ellipsoid_dot(ab, p[2]), d6 = -ellipsoid_dot(ac, p[2]);
+    const double va = d3 * d6 - d5 * d4;
+    const double vb = d5 * d2 - d1 * d6;
+    const double vc = d1 * d4 - d3 * d2;
+    double v, w; /* nearest = p0 + v ab + w ac */
+
+    if (d1 <= 0 && d2 <= 0)
+    {
+        v = w = 0;
+    }
+    else if (d3 >= 0 && d4 <= d3)
+    {
+        v = 1;
+        w = 0;
+    }
+    else if (d6 >= 0 && d5 <= d6)
+    {
+        v = 0;
+        w = 1;
+    }
+    else if (vc <= 0 && d1 >= 0 && d3 <= 0)
+    {
+        v = d1 / (d1 - d3);
+        w = 0;
+    }
+    else if (vb <= 0 && d2 >= 0 && d6 <= 0)
+    {
+        v = 0;
+        w = d2 / (d2 - d6);
+    }
+    else if (va <= 0 && d4 >= d3 && d5 >= d6)
+    {
+        w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        v = 1 - w;
+    }
+    else
+    {
+        v = vb / (va + vb + vc);
+        w = vc / (va + vb + vc);
+    }
+
+    for (int i = 0; i < 3; ++i)
+    {
+        nearest[i] = p[0][i] + v * ab[i] + w * ac[i];
+    }
+
+    return ellipsoid_dot(nearest, nearest);
+}
+
+ellipsoid_status
+ellipsoid_overlaps_walls(const ellipsoid_model *model,
+                         const ellipsoid_surroundings *surroundings,
+                         const double x[3], const double q[4], int *overlaps)
+{
+    const double *axes = model->options.semi_axes;
+    ellipsoid_facet_list list;
+    double rotation[3][3];
+
+    *overlaps = 0;
+
+    if (!surroundings->walls)
+    {
+        return ELLIPSOID_OK;
+    }
+
+    if (surroundings->walls(surroundings->walls_context, x, model->reach,
+                            &list))
+    {
+        return ELLIPSOID_WALLS_FAILED;
+    }
+
+    ellipsoid_rotation(q, rotation);
+
+    for (int n = 0; n < list.count; ++n)
+    {
+        /* Where the ellipsoid is the unit sphere, distances tell */
+        const ellipsoid_facet *facet = &list.facets[list.index[n]];
+        double p[3][3];
+
+        for (int k = 0; k < 3; ++k)
+        {
+            for (int i = 0; i < 3; ++i)
+            {
+                p[k][i] = 0;
+
+                for (int j = 0; j < 3; ++j)
+                {
+                    p[k][i] += rotation[j][i] * (facet->vertex[k][j] - x[j]);
+                }
+
+                p[k][i] /= axes[i];
+            }
+        }
+
+        if (distance_squared(p) < 1)
+        {
+            *overlaps = 1;
+            return ELLIPSOID_OK;
+        }
+    }
+
+    return ELLIPSOID_OK;
+}

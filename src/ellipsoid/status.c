@@ -1,0 +1,24 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    status.c - the texts of the status codes.
+*/
+#include "ellipsoid.h"
+
+const char *ellipsoid_status_text(ellipsoid_status status)
+{
+#define ELLIPSOID_STATUS_TEXT(name, text)                                      \
+    case ELLIPSOID_##name:                                                     \
+        return text;
+
+    switch (status)
+    {
+        ELLIPSOID_STATUS_LIST(ELLIPSOID_STATUS_TEXT)
+        case ELLIPSOID_STATUS_COUNT:
+            break;
+    }
+#undef ELLIPSOID_STATUS_TEXT
+    return "unknown status";
+}

@@ -1,0 +1,360 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "captureStatistics.H"
+#include "polyBoundaryMesh.H"
+#include "wallPolyPatch.H"
+#include "wordRes.H"
+#include "OSspecific.H"
+#include "IOmanip.H"
+
+#include <algorithm>
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::captureStatistics::eventType>
+Foam::captureStatistics::eventNames
+({
+    { eventType::injected, "injected" },
+    { eventType::caught, "caught" },
+    { eventType::released, "released" },
+    { eventType::stalled, "stalled" },
+    { eventType::escaped, "escaped" },
+    { eventType::lost, "lost" }
+});
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::cellState::fateType Foam::captureStatistics::fateAfter
+(
+    const packedEvent& event
+)
+{
+    switch (eventType(label(event[2])))
+    {
+        case caught: return cellState::caught;
+        case stalled: return cellState::stalled;
+        case escaped: return cellState::escaped;
+        case lost: return cellState::lost;
+        case injected:
+        case released: break;
+    }
+
+    return cellState::inFlight;
+}
+
+
+Foam::word Foam::captureStatistics::patchName(const label patchi) const
+{
+    return patchi < 0 ? word("-") : patchNames_[patchi];
+}
+
+
+void Foam::captureStatistics::count(const packedEvent& event)
+{
+    const label id(event[1]);
+
+    if (!cells_.found(id))
+    {
+        cells_.insert(id, record{event, event, -1, -1});
+    }
+    else
+    {
+        record& cell = cells_[id];
+        --counts_[fateAfter(cell.last)];
+        cell.last = event;
+    }
+
+    record& cell = cells_[id];
+    ++counts_[fateAfter(event)];
+
+    if (fateAfter(event) == cellState::caught && cell.firstSieve < 0)
+    {
+        cell.firstCatch = event[0];
+        cell.firstSieve = label(event[3]);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::captureStatistics::captureStatistics
+(
+    const dictionary& dict,
+    const polyBoundaryMesh& patches,
+    const scalar inletSpeed,
+    const fileName& folder
+)
+:
+    patchNames_(patches.names()),
+    sieves_(),
+    slowSpeed_
+    (
+        inletSpeed
+       *ellipsoidProperties::getAboveOrDefault(dict, "speedFraction", 0, 0.01)
+    ),
+    holdTime_
+    (
+        ellipsoidProperties::getAboveOrDefault(dict, "holdTime", 0, 0.05)
+    ),
+    folder_(folder),
+    pending_(),
+    cells_(),
+    counts_(Zero),
+    log_()
+{
+    ellipsoidProperties::checkKeywords
+    (
+        dict, {"sieves", "speedFraction", "holdTime"}
+    );
+
+    const wordRes names(dict.getOrDefault("sieves", wordRes()));
+
+    for (const wordRe& name : names)
+    {
+        DynamicList<label> matched;
+
+        forAll(patches, patchi)
+        {
+            if (name.match(patches[patchi].name()))
+            {
+                if (!isA<wallPolyPatch>(patches[patchi]))
+                {
+                    FatalIOErrorInFunction(dict)
+                        << "sieve " << patches[patchi].name()
+                        << " is not a wall"
+                        << exit(FatalIOError);
+                }
+                matched.append(patchi);
+            }
+        }
+
+        if (matched.empty())
+        {
+            FatalIOErrorInFunction(dict)
+                << "no patch matches sieve " << name << nl
+                << "    patches: " << flatOutput(patchNames_)
+                << exit(FatalIOError);
+        }
+
+        sieves_.append(matched);
+    }
+
+    if (Pstream::master())
+    {
+        mkDir(folder_);
+        log_.reset(new OFstream(folder_/"events.csv"));
+        log_->precision(12);
+        *log_ << "t,id,event,patch,x1,x2,x3,eps1,eps2,eps3,eta" << endl;
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::captureStatistics::note(const eventType what, const cellState& cell)
+{
+    packedEvent event;
+    event[0] = cell.time;
+    event[1] = cell.id;
+    event[2] = what;
+    event[3] = cell.patch;
+    std::copy_n(cell.body.x, 3, event.begin() + 4);
+    std::copy_n(cell.body.q, 4, event.begin() + 7);
+
+    pending_.append(event);
+}
+
+
+void Foam::captureStatistics::judge
+(
+    cellState& cell,
+    const scalar dt,
+    const scalar meanSpeed,
+    const UList<label>& touched
+)
+{
+    if (meanSpeed >= slowSpeed_)
+    {
+        cell.slowTime = 0;
+
+        if (cell.fate == cellState::caught || cell.fate == cellState::stalled)
+        {
+            note(released, cell);
+            cell.fate = cellState::inFlight;
+            cell.patch = -1;
+        }
+        return;
+    }
+
+    cell.slowTime += dt;
+
+    if (cell.slowTime < holdTime_ || cell.fate == cellState::caught)
+    {
+        return;
+    }
+
+    for (const label patchi : touched)
+    {
+        if (sieves_.found(patchi))
+        {
+            cell.fate = cellState::caught;
+            cell.patch = patchi;
+            note(caught, cell);
+            return;
+        }
+    }
+
+    if (cell.fate != cellState::stalled)
+    {
+        cell.fate = cellState::stalled;
+        cell.patch = touched.empty() ? -1 : touched[0];
+        note(stalled, cell);
+    }
+}
+
+
+void Foam::captureStatistics::gather()
+{
+    if (!returnReduce(pending_.size(), sumOp<label>()))
+    {
+        return;
+    }
+
+    List<List<packedEvent>> all(Pstream::nProcs());
+    all[Pstream::myProcNo()] = pending_;
+    pending_.clear();
+    Pstream::gatherList(all);
+
+    if (!Pstream::master())
+    {
+        return;
+    }
+
+    DynamicList<packedEvent> events;
+    for (const List<packedEvent>& some : all)
+    {
+        events.append(some);
+    }
+
+    // By time and cell, whatever rank they come from
+    std::stable_sort
+    (
+        events.begin(),
+        events.end(),
+        [](const packedEvent& a, const packedEvent& b)
+        {
+            return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
+        }
+    );
+
+    for (const packedEvent& event : events)
+    {
+        count(event);
+
+        *log_
+            << event[0] << ',' << label(event[1]) << ','
+            << eventNames[eventType(label(event[2]))] << ','
+            << patchName(label(event[3]));
+
+        for (label i = 4; i < event.size(); ++i)
+        {
+            *log_ << ',' << event[i];
+        }
+        *log_ << nl;
+    }
+
+    log_->flush();
+}
+
+
+void Foam::captureStatistics::report(Ostream& os) const
+{
+    os  << "cells: " << cells_.size() << " injected, "
+        << counts_[cellState::caught] << " caught, "
+        << counts_[cellState::escaped] << " escaped, "
+        << counts_[cellState::stalled] << " stalled, "
+        << counts_[cellState::inFlight] << " in flight, "
+        << counts_[cellState::lost] << " lost";
+}
+
+
+void Foam::captureStatistics::write(Ostream& os) const
+{
+    OFstream cells(folder_/"cells.csv");
+    cells.precision(12);
+    cells
+        << "id,tInjected,x1,x2,x3,eps1,eps2,eps3,eta,fate,patch,tFate,"
+        << "firstSieve,tFirstCatch" << nl;
+
+    Map<DynamicList<scalar>> held;
+
+    for (const label id : cells_.sortedToc())
+    {
+        const record& cell = cells_[id];
+        const cellState::fateType fate = fateAfter(cell.last);
+
+        cells << id << ',' << cell.injection[0];
+        for (label i = 4; i < cell.injection.size(); ++i)
+        {
+            cells << ',' << cell.injection[i];
+        }
+        cells
+            << ',' << cellState::fateNames[fate] << ','
+            << patchName
+               (
+                   fate == cellState::inFlight ? -1 : label(cell.last[3])
+               )
+            << ',' << cell.last[0] << ',' << patchName(cell.firstSieve) << ',';
+
+        if (cell.firstSieve >= 0)
+        {
+            cells << cell.firstCatch;
+        }
+        cells << nl;
+
+        if (fate == cellState::caught)
+        {
+            held(label(cell.last[3])).append(cell.last[0]);
+        }
+    }
+
+    OFstream captures(folder_/"captures.csv");
+    captures << "sieve,cells,t" << nl;
+
+    os  << nl << "sieve   cells   caught at [s]" << nl;
+
+    for (const label patchi : sieves_)
+    {
+        DynamicList<scalar> times(held.lookup(patchi, DynamicList<scalar>()));
+        std::sort(times.begin(), times.end());
+
+        std::ostringstream list;
+        list.precision(4);
+        for (const scalar t : times)
+        {
+            list << ' ' << t;
+        }
+
+        os  << setw(5) << patchNames_[patchi].c_str()
+            << setw(8) << times.size() << "  " << list.str().c_str() << nl;
+
+        captures
+            << patchNames_[patchi] << ',' << times.size() << ','
+            << list.str().c_str() << nl;
+    }
+
+    os << nl;
+    report(os);
+    os << endl;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,330 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "cellInjection.H"
+#include "cellSurroundings.H"
+#include "unitConversion.H"
+
+#include <algorithm>
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    defineTypeNameAndDebug(cellInjection, 0);
+    defineRunTimeSelectionTable(cellInjection, dictionary);
+
+    //- Independent uses of a cell's random numbers
+    enum randomStream { rsTime, rsPose };
+}
+
+const Foam::Enum<Foam::cellInjection::orientationType>
+Foam::cellInjection::orientationNames_
+({
+    { orientationType::otRandom, "random" },
+    { orientationType::otAligned, "aligned" },
+    { orientationType::otQuaternion, "quaternion" },
+    { orientationType::otEuler, "euler" }
+});
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::cellInjection::readOrientation()
+{
+    switch (orientation_)
+    {
+        case otRandom:
+        {
+            break;
+        }
+        case otAligned:
+        {
+            const vector axis(dict_.get<vector>("axis"));
+
+            if (!(mag(axis) > VSMALL))
+            {
+                FatalIOErrorInFunction(dict_)
+                    << "axis " << axis << " has no direction"
+                    << exit(FatalIOError);
+            }
+
+            ellipsoid_quaternion_from_axis((axis/mag(axis)).v_, 0, q_);
+            break;
+        }
+        case otQuaternion:
+        {
+            const FixedList<scalar, 4> q
+            (
+                dict_.get<FixedList<scalar, 4>>("quaternion")
+            );
+            const scalar length =
+                sqrt(sqr(q[0]) + sqr(q[1]) + sqr(q[2]) + sqr(q[3]));
+
+            if (!(mag(length - 1) < 1e-3))
+            {
+                FatalIOErrorInFunction(dict_)
+                    << "quaternion " << q << " is not of length 1"
+                    << exit(FatalIOError);
+            }
+
+            for (int d = 0; d < 4; ++d)
+            {
+                q_[d] = q[d]/length;
+            }
+            break;
+        }
+        case otEuler:
+        {
+            const vector degrees(dict_.get<vector>("eulerAngles"));
+            const vector radians(degrees*degToRad());
+
+            ellipsoid_quaternion_from_euler(radians.v_, q_);
+            break;
+        }
+    }
+}
+
+
+bool Foam::cellInjection::overlaps(const newCell& cell) const
+{
+    wallFacets::neighbourhood near;
+    cellSurroundings here(flow_, walls_, cell.at, near);
+    const ellipsoid_surroundings around(here.core());
+
+    int cuts = 0;
+    ellipsoid_overlaps_walls(&model_, &around, cell.x, cell.q, &cuts);
+
+    if (cuts || !model_.options.contact)
+    {
+        return cuts;
+    }
+
+    // Beads may stand out of the ellipsoid
+    ellipsoid_contact_cache cache;
+    ellipsoid_contact contact;
+    ellipsoid_contact_cache_clear(&cache);
+
+    return
+        ellipsoid_contact_evaluate
+        (
+            &model_, &around, cell.x, cell.q, &cache, &contact, nullptr
+        )
+     || contact.touching_beads;
+}
+
+
+void Foam::cellInjection::draw(newCell& cell) const
+{
+    const label maxAttempts = drawn() ? 1000 : 1;
+
+    for (label attempt = 0; attempt < maxAttempts; ++attempt)
+    {
+        scalar uniform[6];
+        ellipsoid_random_uniform
+        (
+            seed_, cell.id, rsPose, attempt, 6, uniform
+        );
+
+        point x(Zero);
+        const bool inside = position(cell.id - firstId_, uniform, x, cell.at);
+        std::copy_n(x.v_, 3, cell.x);
+
+        if (orientation_ == otRandom)
+        {
+            ellipsoid_quaternion_from_uniform(uniform + 3, cell.q);
+        }
+        else
+        {
+            std::copy_n(q_, 4, cell.q);
+        }
+        orientation(cell.id - firstId_, cell.q);
+
+        if (inside && !overlaps(cell))
+        {
+            return;
+        }
+    }
+
+    FatalIOErrorInFunction(dict_)
+        << "cell " << cell.id << " of injection " << dict_.dictName()
+        << " at " << point(cell.x[0], cell.x[1], cell.x[2])
+        << " lies outside the mesh or overlaps a wall" << nl
+        << "    " << maxAttempts << " position(s) tried"
+        << exit(FatalIOError);
+}
+
+
+// * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+void Foam::cellInjection::setTimes(const label number)
+{
+    const scalar start = dict_.getOrDefault<scalar>("start", 0);
+    const scalar duration = dict_.getOrDefault<scalar>("duration", 0);
+
+    if (!(duration >= 0 && duration < GREAT))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "duration " << duration << " is out of range" << nl
+            << "    allowed: 0 or above"
+            << exit(FatalIOError);
+    }
+
+    times_.setSize(number);
+
+    forAll(times_, i)
+    {
+        scalar uniform;
+        ellipsoid_random_uniform(seed_, firstId_ + i, rsTime, 0, 1, &uniform);
+
+        times_[i].first() = start + duration*uniform;
+        times_[i].second() = firstId_ + i;
+    }
+
+    std::sort
+    (
+        times_.begin(),
+        times_.end(),
+        [](const Tuple2<scalar, label>& a, const Tuple2<scalar, label>& b)
+        {
+            return
+                a.first() < b.first()
+             || (a.first() == b.first() && a.second() < b.second());
+        }
+    );
+}
+
+
+Foam::label Foam::cellInjection::readNumber(const scalar flux) const
+{
+    const label nGiven =
+        label(dict_.found("number"))
+      + label(dict_.found("rate"))
+      + label(dict_.found("concentration"));
+
+    if (nGiven != 1 || (dict_.found("concentration") && flux <= 0))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "injection " << dict_.dictName() << " needs exactly one of "
+            << "number, rate and, at a patch with inflow, concentration"
+            << exit(FatalIOError);
+    }
+
+    if (dict_.found("number"))
+    {
+        return label
+        (
+            ellipsoidProperties::getAbove(dict_, "number", 0) + 0.5
+        );
+    }
+
+    const scalar duration =
+        ellipsoidProperties::getAbove(dict_, "duration", 0);
+
+    const scalar rate =
+        dict_.found("rate")
+      ? ellipsoidProperties::getAbove(dict_, "rate", 0)
+      : ellipsoidProperties::getAbove(dict_, "concentration", 0)*flux;
+
+    return label(rate*duration + 0.5);
+}
+
+
+void Foam::cellInjection::checkKeywords(const wordList& more) const
+{
+    wordList allowed
+    ({
+        "type", "start", "duration", "number", "rate", "concentration",
+        "orientation", "axis", "quaternion", "eulerAngles"
+    });
+    allowed.append(more);
+
+    ellipsoidProperties::checkKeywords(dict_, allowed);
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::cellInjection::cellInjection
+(
+    const dictionary& dict,
+    const setting& from,
+    const label firstId
+)
+:
+    orientation_(orientationNames_.getOrDefault("orientation", dict, otRandom)),
+    q_{0, 0, 0, 1},
+    firstId_(firstId),
+    times_(),
+    dict_(dict),
+    flow_(from.flow),
+    walls_(from.walls),
+    model_(from.model),
+    seed_(from.seed)
+{
+    readOrientation();
+}
+
+
+Foam::autoPtr<Foam::cellInjection> Foam::cellInjection::New
+(
+    const dictionary& dict,
+    const setting& from,
+    const label firstId
+)
+{
+    const word type(dict.get<word>("type"));
+
+    const auto found = dictionaryConstructorTablePtr_->cfind(type);
+
+    if (!found.found())
+    {
+        FatalIOErrorInFunction(dict)
+            << "unknown injection type " << type << nl
+            << "    allowed: "
+            << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
+            << exit(FatalIOError);
+    }
+
+    return (*found)(dict, from, firstId);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::cellInjection::append
+(
+    const scalar start,
+    const scalar end,
+    DynamicList<newCell>& cells
+) const
+{
+    auto next = std::lower_bound
+    (
+        times_.begin(),
+        times_.end(),
+        start,
+        [](const Tuple2<scalar, label>& a, const scalar t)
+        {
+            return a.first() < t;
+        }
+    );
+
+    for (; next != times_.end() && next->first() < end; ++next)
+    {
+        newCell cell;
+        cell.time = next->first();
+        cell.id = next->second();
+        draw(cell);
+        cells.append(cell);
+    }
+}
+
+
+// ************************************************************************* //

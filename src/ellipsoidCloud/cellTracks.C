@@ -1,0 +1,288 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "cellTracks.H"
+#include "OSspecific.H"
+#include "Pstream.H"
+#include "PstreamReduceOps.H"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::cellTracks::append
+(
+    cellState& cell,
+    const scalar t,
+    const ellipsoid_state& body
+)
+{
+    row r;
+    r[0] = t;
+    r[1] = cell.id;
+    std::copy_n(body.x, 3, r.begin() + 2);
+    std::copy_n(body.u, 3, r.begin() + 5);
+    std::copy_n(body.q, 4, r.begin() + 8);
+    std::copy_n(body.omega, 3, r.begin() + 12);
+    r[15] = cell.fate;
+    r[16] = cell.patch;
+    rows_.append(r);
+
+    std::copy_n(body.x, 3, cell.lastRow);
+    std::copy_n(body.q, 4, cell.lastRow + 3);
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::cellTracks::cellTracks
+(
+    const dictionary& dict,
+    const wordList& patchNames,
+    const scalar length,
+    const fileName& folder
+)
+:
+    patchNames_(patchNames),
+    interval_
+    (
+        ellipsoidProperties::getAboveOrDefault(dict, "interval", 0, 1e-3)
+    ),
+    minimumMove_
+    (
+        length
+       *ellipsoidProperties::getAboveOrDefault(dict, "minimumMove", 0, 0.01)
+    ),
+    minimumTurn_(minimumMove_/length),
+    folder_(folder),
+    rows_(),
+    file_()
+{
+    ellipsoidProperties::checkKeywords(dict, {"interval", "minimumMove"});
+
+    if (Pstream::master())
+    {
+        mkDir(folder_);
+        file_.reset(new OFstream(folder_/"tracks.csv"));
+        file_->precision(9);
+        *file_
+            << "t,id,x1,x2,x3,u1,u2,u3,eps1,eps2,eps3,eta,"
+            << "omega1,omega2,omega3,O1,O2,O3,fate,patch" << endl;
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::cellTracks::start(cellState& cell)
+{
+    append(cell, cell.time, cell.body);
+    cell.nextRow = (std::floor(cell.time/interval_) + 1)*interval_;
+}
+
+
+void Foam::cellTracks::add(cellState& cell, const ellipsoid_step& step)
+{
+    while (cell.nextRow <= step.end)
+    {
+        ellipsoid_state body;
+        ellipsoid_step_state(&step, max(cell.nextRow, step.start), &body);
+
+        scalar move = 0;
+        scalar alike = 0;
+        for (int d = 0; d < 3; ++d)
+        {
+            move += sqr(body.x[d] - cell.lastRow[d]);
+        }
+        for (int d = 0; d < 4; ++d)
+        {
+            alike += body.q[d]*cell.lastRow[3 + d];
+        }
+
+        // |q1.q2| is the cosine of half the angle between two poses
+        const scalar turn = 2*sqrt(max(1 - sqr(alike), scalar(0)));
+
+        if (move > sqr(minimumMove_) || turn > minimumTurn_)
+        {
+            append(cell, cell.nextRow, body);
+        }
+
+        cell.nextRow = (std::floor(cell.nextRow/interval_ + 0.5) + 1)*interval_;
+    }
+}
+
+
+void Foam::cellTracks::finish(cellState& cell)
+{
+    append(cell, cell.time, cell.body);
+}
+
+
+void Foam::cellTracks::flush()
+{
+    List<List<row>> all(Pstream::nProcs());
+    all[Pstream::myProcNo()] = rows_;
+    rows_.clear();
+    Pstream::gatherList(all);
+
+    if (!Pstream::master())
+    {
+        return;
+    }
+
+    DynamicList<row> rows;
+    for (const List<row>& some : all)
+    {
+        rows.append(some);
+    }
+
+    std::sort
+    (
+        rows.begin(),
+        rows.end(),
+        [](const row& a, const row& b)
+        {
+            return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
+        }
+    );
+
+    for (const row& r : rows)
+    {
+        *file_ << r[0] << ',' << label(r[1]);
+
+        for (label i = 2; i < 15; ++i)
+        {
+            *file_ << ',' << r[i];
+        }
+
+        // O, the long axis, is the second column of the rotation
+        double rotation[3][3];
+        ellipsoid_rotation(&r[8], rotation);
+
+        const label patchi(r[16]);
+
+        *file_
+            << ',' << rotation[0][1]
+            << ',' << rotation[1][1]
+            << ',' << rotation[2][1]
+            << ',' << cellState::fateNames[cellState::fateType(label(r[15]))]
+            << ',' << (patchi < 0 ? "-" : patchNames_[patchi].c_str())
+            << nl;
+    }
+
+    file_->flush();
+}
+
+
+void Foam::cellTracks::writeVTP()
+{
+    // The rows of each cell, from the file: they may be of earlier runs too
+    struct vtkPoint { scalar t; scalar values[12]; int fate; };
+    Map<DynamicList<vtkPoint>> cells;
+    label nPoints = 0;
+
+    std::ifstream csv(folder_/"tracks.csv");
+    std::string line;
+    std::getline(csv, line);
+
+    while (std::getline(csv, line))
+    {
+        std::istringstream fields(line);
+        std::string field;
+        scalar values[18];
+        vtkPoint p;
+
+        for (scalar& value : values)
+        {
+            std::getline(fields, field, ',');
+            value = std::atof(field.c_str());
+        }
+        std::getline(fields, field, ',');
+
+        p.t = values[0];
+        std::copy_n(values + 2, 6, p.values);
+        std::copy_n(values + 12, 6, p.values + 6);
+        p.fate = cellState::fateNames[word(field)];
+
+        cells(label(values[1])).append(p);
+        ++nPoints;
+    }
+
+    std::ofstream os(folder_/"tracks.vtp");
+    os.precision(9);
+
+    const auto array =
+        [&]
+        (
+            const char* type,
+            const char* name,
+            const int nComponents,
+            const std::function<void(label, const vtkPoint&)>& write
+        )
+        {
+            os  << "<DataArray type=\"" << type << "\" Name=\"" << name
+                << "\" NumberOfComponents=\"" << nComponents
+                << "\" format=\"ascii\">\n";
+            for (const label id : cells.sortedToc())
+            {
+                for (const vtkPoint& p : cells[id])
+                {
+                    write(id, p);
+                    os << '\n';
+                }
+            }
+            os << "</DataArray>\n";
+        };
+
+    const auto triple =
+        [&](const int first)
+        {
+            return
+                [&os, first](label, const vtkPoint& p)
+                {
+                    os  << p.values[first] << ' ' << p.values[first + 1] << ' '
+                        << p.values[first + 2];
+                };
+        };
+
+    os  << "<?xml version=\"1.0\"?>\n"
+        << "<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
+        << "<Piece NumberOfPoints=\"" << nPoints << "\" NumberOfLines=\""
+        << cells.size() << "\">\n<Points>\n";
+    array("Float64", "x", 3, triple(0));
+    os  << "</Points>\n<PointData>\n";
+    array("Float64", "t", 1, [&](label, const vtkPoint& p) { os << p.t; });
+    array("Int32", "id", 1, [&](label id, const vtkPoint&) { os << id; });
+    array("Float64", "U", 3, triple(3));
+    array("Float64", "omega", 3, triple(6));
+    array("Float64", "O", 3, triple(9));
+    array("Int32", "fate", 1, [&](label, const vtkPoint& p) { os << p.fate; });
+    os  << "</PointData>\n<Lines>\n"
+        << "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
+    for (label i = 0; i < nPoints; ++i)
+    {
+        os << i << '\n';
+    }
+    os  << "</DataArray>\n"
+        << "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
+    label offset = 0;
+    for (const label id : cells.sortedToc())
+    {
+        offset += cells[id].size();
+        os << offset << '\n';
+    }
+    os  << "</DataArray>\n</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,536 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "ellipsoidCloud.H"
+#include "cellSurroundings.H"
+#include "emptyPolyPatch.H"
+#include "symmetryPolyPatch.H"
+#include "symmetryPlanePolyPatch.H"
+#include "wedgePolyPatch.H"
+#include "PstreamBuffers.H"
+#include "clockTime.H"
+
+#include <algorithm>
+#include <limits>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    static inline point pointOf(const scalar x[3])
+    {
+        return point(x[0], x[1], x[2]);
+    }
+
+    //- What the observer of a cell's steps needs
+    struct cellJourney
+    {
+        const frozenFlow& flow;
+        cellTracks& tracks;
+        cellState& cell;
+        frozenFlow::probe at;
+        frozenFlow::placeType place;
+        ellipsoid_step last;
+    };
+
+    //- An ellipsoid_observer: stops a cell that has left the mesh
+    static int observe(void* context, const ellipsoid_step* step)
+    {
+        cellJourney& journey = *static_cast<cellJourney*>(context);
+
+        const frozenFlow::probe before(journey.at);
+
+        journey.last = *step;
+        journey.place =
+            journey.flow.place(pointOf(step->after.x), journey.at);
+
+        if (journey.place == frozenFlow::pInside)
+        {
+            journey.tracks.add(journey.cell, *step);
+            return 0;
+        }
+
+        journey.at.tet = before.tet;
+        return 1;
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::ellipsoidCloud::inletSpeed(const volVectorField& U)
+{
+    scalar inflow = 0;
+    scalar area = 0;
+
+    forAll(U.boundaryField(), patchi)
+    {
+        const fvPatchVectorField& pU = U.boundaryField()[patchi];
+        const scalar flux = -sum(pU & pU.patch().Sf());
+
+        if (isType<polyPatch>(pU.patch().patch()) && flux > 0)
+        {
+            inflow += flux;
+            area += sum(pU.patch().magSf());
+        }
+    }
+
+    return inflow > 0 ? inflow/area : max(mag(U.primitiveField()));
+}
+
+
+void Foam::ellipsoidCloud::checkPatches() const
+{
+    for (const polyPatch& pp : mesh_.boundaryMesh())
+    {
+        if
+        (
+            isA<emptyPolyPatch>(pp)
+         || isA<wedgePolyPatch>(pp)
+         || isA<symmetryPolyPatch>(pp)
+         || isA<symmetryPlanePolyPatch>(pp)
+        )
+        {
+            FatalErrorInFunction
+                << "patch " << pp.name() << " is of type " << pp.type() << nl
+                << "    A cell is a body in three dimensions: it needs walls "
+                << "(type wall) and open ends (type patch)"
+                << exit(FatalError);
+        }
+    }
+}
+
+
+void Foam::ellipsoidCloud::makeInjections(const undecomposedFlow& whole)
+{
+    const dictionary& dict = properties_.subDict("injection");
+    const cellInjection::setting from
+    {
+        whole, *flow_, *walls_, model_, properties_.seed()
+    };
+
+    label nCells = 0;
+
+    for (const entry& e : dict)
+    {
+        injections_.append(cellInjection::New(e.dict(), from, nCells).ptr());
+        nCells += injections_.last().size();
+    }
+
+    Info<< "ellipsoidCloud: " << nCells << " cells to enter by "
+        << flatOutput(dict.toc()) << endl;
+}
+
+
+void Foam::ellipsoidCloud::inject(const scalar start, const scalar end)
+{
+    DynamicList<cellInjection::newCell> cells;
+
+    for (const cellInjection& injection : injections_)
+    {
+        injection.append(start, end, cells);
+    }
+
+    for (const cellInjection::newCell& cell : cells)
+    {
+        const label celli = flow_->cell(cell.at);
+
+        if (cellRank_[celli] != Pstream::myProcNo())
+        {
+            continue;
+        }
+
+        cellState state = cellState();
+        std::copy_n(cell.x, 3, state.body.x);
+        std::copy_n(cell.q, 4, state.body.q);
+        state.time = cell.time;
+        state.injectionTime = cell.time;
+        state.id = cell.id;
+        state.tet = cell.at.tet;
+        state.fate = cellState::inFlight;
+        state.patch = -1;
+
+        ellipsoid_flow_sample sample;
+        frozenFlow::probe at(cell.at);
+        flow_->sample(cell.x, at, false, sample);
+        std::copy_n(sample.velocity, 3, state.body.u);
+
+        tracks_->start(state);
+        statistics_->note(captureStatistics::injected, state);
+        addParticle(new ellipsoidParcel(mesh_, cellLocal_[celli], state));
+    }
+}
+
+
+void Foam::ellipsoidCloud::stopAtPatch
+(
+    const frozenFlow& flow,
+    const ellipsoid_step& step,
+    frozenFlow::probe at,
+    cellState& cell
+)
+{
+    // Bisection: inside at the start of the step, beyond at its end
+    scalar inside = step.start;
+    scalar beyond = step.end;
+
+    for (label i = 0; i < 40; ++i)
+    {
+        const scalar middle = 0.5*(inside + beyond);
+        ellipsoid_step_state(&step, middle, &cell.body);
+
+        const frozenFlow::placeType place =
+            flow.place(pointOf(cell.body.x), at);
+
+        (place == frozenFlow::pInside ? inside : beyond) = middle;
+    }
+
+    ellipsoid_step_state(&step, inside, &cell.body);
+    cell.time = inside;
+}
+
+
+bool Foam::ellipsoidCloud::move(ellipsoidParcel& parcel, const scalar end)
+{
+    cellState& cell = parcel.state();
+    ellipsoidParcel::cache& cache = parcel.surroundings();
+    const frozenFlow::probe at{cell.tet, -1};
+
+    cellSurroundings here(*flow_, *walls_, at, cache.near);
+    const ellipsoid_surroundings around(here.core());
+
+    cellJourney journey
+    {
+        *flow_, *tracks_, cell, at, frozenFlow::pInside, ellipsoid_step()
+    };
+
+    const point from(pointOf(cell.body.x));
+    const scalar start = cell.time;
+
+    const ellipsoid_status status = ellipsoid_advance
+    (
+        &model_,
+        &around,
+        &cell.body,
+        &cell.time,
+        end,
+        &cell.controller,
+        &cache.contact,
+        observe,
+        &journey,
+        &totals_
+    );
+
+    cell.tet = journey.at.tet;
+
+    const ellipsoid_contact& contact = journey.last.contact;
+    cell.deepest = max(cell.deepest, contact.deepest);
+
+    if (status == ELLIPSOID_OK)
+    {
+        statistics_->judge
+        (
+            cell,
+            end - start,
+            mag(pointOf(cell.body.x) - from)/(end - start),
+            UList<label>
+            (
+                const_cast<label*>(contact.touched), contact.touched_count
+            )
+        );
+        return true;
+    }
+
+    if
+    (
+        status == ELLIPSOID_STOPPED
+     && journey.place == frozenFlow::pBeyondOpen
+    )
+    {
+        stopAtPatch(*flow_, journey.last, journey.at, cell);
+        cell.fate = cellState::escaped;
+        cell.patch = journey.at.patch;
+        statistics_->note(captureStatistics::escaped, cell);
+    }
+    else
+    {
+        cell.fate = cellState::lost;
+        cell.patch = -1;
+        statistics_->note(captureStatistics::lost, cell);
+
+        Pout<< "ellipsoidCloud: cell " << cell.id << " is lost at t = "
+            << cell.time << " s, " << pointOf(cell.body.x) << " m: "
+            << ellipsoid_status_text(status) << endl;
+    }
+
+    tracks_->finish(cell);
+
+    return false;
+}
+
+
+void Foam::ellipsoidCloud::handOver()
+{
+    List<DynamicList<cellState>> leaving(Pstream::nProcs());
+
+    for (ellipsoidParcel& parcel : *this)
+    {
+        const frozenFlow::probe at{parcel.state().tet, -1};
+        const label celli = flow_->cell(at);
+        const label ranki = cellRank_[celli];
+
+        if (ranki == Pstream::myProcNo())
+        {
+            parcel.settle(cellLocal_[celli]);
+        }
+        else
+        {
+            leaving[ranki].append(parcel.state());
+            deleteParticle(parcel);
+        }
+    }
+
+    if (!Pstream::parRun())
+    {
+        return;
+    }
+
+    PstreamBuffers buffers(Pstream::commsTypes::nonBlocking);
+
+    forAll(leaving, ranki)
+    {
+        if (leaving[ranki].size())
+        {
+            UOPstream os(ranki, buffers);
+            os << leaving[ranki].size();
+            os.write
+            (
+                reinterpret_cast<const char*>(leaving[ranki].cdata()),
+                leaving[ranki].size()*sizeof(cellState)
+            );
+        }
+    }
+
+    labelList nBytes(Pstream::nProcs());
+    buffers.finishedSends(nBytes);
+
+    forAll(nBytes, ranki)
+    {
+        if (!nBytes[ranki])
+        {
+            continue;
+        }
+
+        UIPstream is(ranki, buffers);
+        List<cellState> arriving(readLabel(is));
+        is.read
+        (
+            reinterpret_cast<char*>(arriving.data()),
+            arriving.size()*sizeof(cellState)
+        );
+
+        for (const cellState& state : arriving)
+        {
+            const frozenFlow::probe at{state.tet, -1};
+
+            addParticle
+            (
+                new ellipsoidParcel
+                (
+                    mesh_, cellLocal_[flow_->cell(at)], state
+                )
+            );
+        }
+    }
+}
+
+
+void Foam::ellipsoidCloud::report()
+{
+    const scalar now = mesh_.time().elapsedClockTime();
+
+    if (now < reportTime_ + 1)
+    {
+        return;
+    }
+
+    const scalar start = mesh_.time().startTime().value();
+    const scalar end = mesh_.time().endTime().value();
+    const scalar left =
+        trackingTime_*(end - time_)/max(time_ - start, VSMALL);
+
+    Info<< "t = " << time_ << " s, ";
+    statistics_->report(Info);
+    Info<< ", about " << label(left + 0.5) << " s to go" << endl;
+
+    reportTime_ = now;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::ellipsoidCloud::ellipsoidCloud
+(
+    const volVectorField& U,
+    const volScalarField& p
+)
+:
+    Cloud<ellipsoidParcel>
+    (
+        U.mesh(),
+        "ellipsoidCloud",
+        IDLList<ellipsoidParcel>()
+    ),
+    mesh_(U.mesh()),
+    properties_(U.mesh()),
+    model_(),
+    flow_(),
+    walls_(),
+    cellRank_(),
+    cellLocal_(),
+    injections_(),
+    statistics_(),
+    tracks_(),
+    time_(U.time().value()),
+    totals_(),
+    trackingTime_(0),
+    reportTime_(0)
+{
+    checkPatches();
+
+    const ellipsoid_options& options = properties_.options();
+
+    if (ellipsoid_model_init(&model_, &options) != ELLIPSOID_OK)
+    {
+        FatalIOErrorInFunction(properties_)
+            << "the options are not those that were checked"
+            << abort(FatalIOError);
+    }
+
+    const scalar length =
+        *std::max_element(options.semi_axes, options.semi_axes + 3);
+
+    const undecomposedFlow whole(U, p);
+
+    flow_.reset
+    (
+        new frozenFlow(whole, options.fluid_density, properties_.scheme())
+    );
+    walls_.reset
+    (
+        new wallFacets(Pstream::master() ? &whole.mesh() : nullptr, length)
+    );
+    cellRank_ = whole.cellRank();
+    cellLocal_ = whole.cellLocal();
+
+    scalar speed = 0;
+    if (Pstream::master())
+    {
+        const undecomposedFlow::serialScope serial;
+        speed = inletSpeed(whole.U());
+    }
+    Pstream::scatter(speed);
+
+    const fileName folder
+    (
+        mesh_.time().globalPath()/"postProcessing"/"ellipsoidCloud"
+       /mesh_.time().timeName()
+    );
+
+    makeInjections(whole);
+
+    statistics_.reset
+    (
+        new captureStatistics
+        (
+            properties_.section("capture"),
+            mesh_.boundaryMesh(),
+            speed,
+            folder
+        )
+    );
+    tracks_.reset
+    (
+        new cellTracks
+        (
+            properties_.section("tracks"),
+            mesh_.boundaryMesh().names(),
+            length,
+            folder
+        )
+    );
+
+    Info<< "ellipsoidCloud: " << flow_->nTets() << " tetrahedra, "
+        << walls_->size() << " wall facets, mean inlet speed " << speed
+        << " m/s" << endl;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::ellipsoidCloud::evolve()
+{
+    const clockTime timer;
+    const scalar end = mesh_.time().value();
+
+    inject(time_, end);
+
+    for (ellipsoidParcel& parcel : *this)
+    {
+        if (!move(parcel, end))
+        {
+            deleteParticle(parcel);
+        }
+    }
+
+    handOver();
+    statistics_->gather();
+    time_ = end;
+
+    if (mesh_.time().writeTime())
+    {
+        tracks_->flush();
+    }
+
+    trackingTime_ += timer.elapsedTime();
+    report();
+}
+
+
+void Foam::ellipsoidCloud::finish()
+{
+    for (ellipsoidParcel& parcel : *this)
+    {
+        tracks_->finish(parcel.state());
+    }
+    tracks_->flush();
+
+    const scalar deepest = returnReduce(totals_.deepest, maxOp<scalar>());
+    const scalar longest = returnReduce(trackingTime_, maxOp<scalar>());
+
+    // Counts beyond a label's range are likely
+    const scalar accepted =
+        returnReduce(scalar(totals_.accepted), sumOp<scalar>());
+    const scalar rejected =
+        returnReduce(scalar(totals_.rejected), sumOp<scalar>());
+
+    Info<< nl << "tracking: " << longest << " s, " << accepted
+        << " steps, " << rejected << " rejected" << nl
+        << "deepest overlap of a bead with a wall: " << deepest*1e9 << " nm, "
+        << 100*deepest/model_.options.bead_radius << " % of its radius" << nl;
+
+    if (Pstream::master())
+    {
+        statistics_->write(Info);
+        tracks_->writeVTP();
+    }
+}
+
+
+// ************************************************************************* //

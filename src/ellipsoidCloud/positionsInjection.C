@@ -1,0 +1,93 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "positionsInjection.H"
+#include "addToRunTimeSelectionTable.H"
+
+#include <algorithm>
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    defineTypeNameAndDebug(positionsInjection, 0);
+    addToRunTimeSelectionTable(cellInjection, positionsInjection, dictionary);
+}
+
+
+// * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+bool Foam::positionsInjection::position
+(
+    const label i,
+    const scalar[3],
+    point& x,
+    frozenFlow::probe& at
+) const
+{
+    x = positions_[i];
+
+    return flow_.find(x, at);
+}
+
+
+bool Foam::positionsInjection::orientation(const label i, scalar q[4]) const
+{
+    if (orientations_.empty())
+    {
+        return false;
+    }
+
+    std::copy_n(orientations_[i].cdata(), 4, q);
+
+    return true;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::positionsInjection::positionsInjection
+(
+    const dictionary& dict,
+    const setting& from,
+    const label firstId
+)
+:
+    cellInjection(dict, from, firstId),
+    positions_(dict.get<pointField>("positions")),
+    orientations_
+    (
+        dict.getOrDefault<List<FixedList<scalar, 4>>>("orientations", {})
+    )
+{
+    checkKeywords({"positions", "orientations"});
+
+    if (orientations_.size() && orientations_.size() != positions_.size())
+    {
+        FatalIOErrorInFunction(dict_)
+            << positions_.size() << " positions but " << orientations_.size()
+            << " orientations"
+            << exit(FatalIOError);
+    }
+
+    for (const FixedList<scalar, 4>& q : orientations_)
+    {
+        if (!(mag(sqr(q[0]) + sqr(q[1]) + sqr(q[2]) + sqr(q[3]) - 1) < 1e-6))
+        {
+            FatalIOErrorInFunction(dict_)
+                << "orientation " << q << " is not of length 1"
+                << exit(FatalIOError);
+        }
+    }
+
+    setTimes(positions_.size());
+}
+
+
+// ************************************************************************* //

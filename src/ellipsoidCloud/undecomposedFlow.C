@@ -1,0 +1,307 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "undecomposedFlow.H"
+#include "labelIOList.H"
+#include "calculatedFvPatchFields.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- UPstream::parRun(bool) sets the flag in newer versions, ...
+    template<class PstreamType>
+    auto setParRun(const bool on, int) -> decltype(PstreamType::parRun(on), void())
+    {
+        PstreamType::parRun(on);
+    }
+
+    //- ... and parRun() gives a reference to it in older ones
+    template<class PstreamType>
+    void setParRun(const bool on, long)
+    {
+        PstreamType::parRun() = on;
+    }
+
+    //- Addressing that decomposePar left beside the mesh of this rank
+    static labelList readAddressing(const word& name, const polyMesh& mesh)
+    {
+        return labelIOList
+        (
+            IOobject
+            (
+                name,
+                mesh.facesInstance(),
+                polyMesh::meshSubDir,
+                mesh,
+                IOobject::MUST_READ,
+                IOobject::NO_WRITE,
+                false
+            )
+        );
+    }
+}
+
+
+Foam::undecomposedFlow::serialScope::serialScope()
+:
+    parRun_(Pstream::parRun())
+{
+    setParRun<UPstream>(false, 0);
+}
+
+
+Foam::undecomposedFlow::serialScope::~serialScope()
+{
+    setParRun<UPstream>(parRun_, 0);
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::undecomposedFlow::readMesh(const Time& runTime)
+{
+    const fileName casePath(runTime.rootPath()/runTime.globalCaseName());
+
+    if (!isDir(casePath/runTime.constant()/polyMesh::meshSubDir))
+    {
+        FatalErrorInFunction
+            << "no undecomposed mesh in " << casePath/runTime.constant()
+            << nl << "    The cells see the whole flow, so constant/polyMesh "
+            << "has to stay where decomposePar found it"
+            << exit(FatalError);
+    }
+
+    time_.reset
+    (
+        new Time
+        (
+            Time::controlDictName,
+            runTime.rootPath(),
+            runTime.globalCaseName(),
+            "system",
+            "constant",
+            false,
+            false
+        )
+    );
+
+    mesh_.reset
+    (
+        new fvMesh
+        (
+            IOobject
+            (
+                polyMesh::defaultRegion,
+                time_->constant(),
+                *time_,
+                IOobject::MUST_READ
+            )
+        )
+    );
+}
+
+
+template<class Type>
+Foam::autoPtr<Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh>>
+Foam::undecomposedFlow::gather
+(
+    const GeometricField<Type, fvPatchField, volMesh>& field,
+    const labelList& cellAddressing,
+    const labelList& faceAddressing
+) const
+{
+    typedef GeometricField<Type, fvPatchField, volMesh> fieldType;
+
+    const polyMesh& mesh = field.mesh();
+
+    // Boundary values go with the label of their face in the whole mesh;
+    // those of processor patches are inner faces there
+    DynamicList<label> faces(mesh.nFaces() - mesh.nInternalFaces());
+    DynamicList<Type> faceValues(faces.capacity());
+
+    forAll(field.boundaryField(), patchi)
+    {
+        const fvPatchField<Type>& pf = field.boundaryField()[patchi];
+
+        if (!isA<processorPolyPatch>(pf.patch().patch()))
+        {
+            forAll(pf, i)
+            {
+                faces.append(mag(faceAddressing[pf.patch().start() + i]) - 1);
+                faceValues.append(pf[i]);
+            }
+        }
+    }
+
+    List<labelList> allCells(Pstream::nProcs());
+    List<Field<Type>> allValues(Pstream::nProcs());
+    List<labelList> allFaces(Pstream::nProcs());
+    List<List<Type>> allFaceValues(Pstream::nProcs());
+
+    allCells[Pstream::myProcNo()] = cellAddressing;
+    allValues[Pstream::myProcNo()] = field.primitiveField();
+    allFaces[Pstream::myProcNo()] = faces;
+    allFaceValues[Pstream::myProcNo()] = faceValues;
+
+    Pstream::gatherList(allCells);
+    Pstream::gatherList(allValues);
+    Pstream::gatherList(allFaces);
+    Pstream::gatherList(allFaceValues);
+
+    if (!Pstream::master())
+    {
+        return autoPtr<fieldType>();
+    }
+
+    const serialScope serial;
+
+    autoPtr<fieldType> whole
+    (
+        new fieldType
+        (
+            IOobject
+            (
+                field.name(),
+                time_->timeName(),
+                *mesh_,
+                IOobject::NO_READ,
+                IOobject::NO_WRITE
+            ),
+            *mesh_,
+            dimensioned<Type>("zero", field.dimensions(), Zero),
+            calculatedFvPatchField<Type>::typeName
+        )
+    );
+
+    Field<Type>& values = whole->primitiveFieldRef();
+
+    forAll(allCells, ranki)
+    {
+        UIndirectList<Type>(values, allCells[ranki]) = allValues[ranki];
+
+        forAll(allFaces[ranki], i)
+        {
+            const label facei = allFaces[ranki][i];
+            const label patchi = mesh_->boundaryMesh().whichPatch(facei);
+            fvPatchField<Type>& pf = whole->boundaryFieldRef()[patchi];
+
+            // An empty patch has faces but no values
+            if (pf.size())
+            {
+                pf[facei - pf.patch().start()] = allFaceValues[ranki][i];
+            }
+        }
+    }
+
+    return whole;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::undecomposedFlow::undecomposedFlow
+(
+    const volVectorField& U,
+    const volScalarField& p
+)
+:
+    time_(),
+    mesh_(),
+    UGathered_(),
+    pGathered_(),
+    U_(&U),
+    p_(&p),
+    cellRank_(),
+    cellLocal_()
+{
+    const polyMesh& mesh = U.mesh();
+
+    labelList cellAddressing;
+    labelList faceAddressing;
+
+    if (Pstream::parRun())
+    {
+        cellAddressing = readAddressing("cellProcAddressing", mesh);
+        faceAddressing = readAddressing("faceProcAddressing", mesh);
+
+        if (Pstream::master())
+        {
+            const serialScope serial;
+            readMesh(mesh.time());
+        }
+
+        UGathered_ = gather(U, cellAddressing, faceAddressing);
+        pGathered_ = gather(p, cellAddressing, faceAddressing);
+
+        if (Pstream::master())
+        {
+            U_ = UGathered_.get();
+            p_ = pGathered_.get();
+        }
+    }
+    else
+    {
+        cellAddressing = identity(mesh.nCells());
+    }
+
+    List<labelList> allCells(Pstream::nProcs());
+    allCells[Pstream::myProcNo()] = cellAddressing;
+    Pstream::gatherList(allCells);
+    Pstream::scatterList(allCells);
+
+    label nCells = 0;
+    for (const labelList& cells : allCells)
+    {
+        nCells += cells.size();
+    }
+
+    label nWhole = (Pstream::master() ? U_->mesh().nCells() : 0);
+    Pstream::scatter(nWhole);
+
+    if (nWhole != nCells)
+    {
+        FatalErrorInFunction
+            << "the decomposed mesh has " << nCells
+            << " cells, the undecomposed one " << nWhole << nl
+            << "    Run decomposePar -force again"
+            << exit(FatalError);
+    }
+
+    cellRank_.setSize(nCells);
+    cellLocal_.setSize(nCells);
+
+    forAll(allCells, ranki)
+    {
+        forAll(allCells[ranki], i)
+        {
+            cellRank_[allCells[ranki][i]] = ranki;
+            cellLocal_[allCells[ranki][i]] = i;
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
+
+Foam::undecomposedFlow::~undecomposedFlow()
+{
+    if (mesh_.valid())
+    {
+        const serialScope serial;
+
+        pGathered_.clear();
+        UGathered_.clear();
+        mesh_.clear();
+        time_.clear();
+    }
+}
+
+
+// ************************************************************************* //

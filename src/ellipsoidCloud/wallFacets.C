@@ -1,0 +1,341 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "wallFacets.H"
+#include "wallPolyPatch.H"
+#include "polyMeshTetDecomposition.H"
+#include "triPointRef.H"
+#include "treeBoundBox.H"
+#include "Pstream.H"
+
+#include <algorithm>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    static inline point pointOf(const scalar v[3])
+    {
+        return point(v[0], v[1], v[2]);
+    }
+
+    static inline void copyTo(scalar to[3], const vector& from)
+    {
+        std::copy_n(from.v_, 3, to);
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::triSurface Foam::wallFacets::triangulate(const polyMesh& mesh)
+{
+    const labelList& basePoints = mesh.tetBasePtIs();
+    DynamicList<labelledTri> triangles;
+
+    forAll(mesh.boundaryMesh(), patchi)
+    {
+        const polyPatch& pp = mesh.boundaryMesh()[patchi];
+
+        if (!isA<wallPolyPatch>(pp))
+        {
+            continue;
+        }
+
+        forAll(pp, i)
+        {
+            const face& f = pp[i];
+            const label base = max(basePoints[pp.start() + i], label(0));
+
+            for (label trii = 1; trii < f.size() - 1; ++trii)
+            {
+                // Faces point out of the mesh, facets into the fluid
+                triangles.append
+                (
+                    labelledTri
+                    (
+                        f[base],
+                        f[(base + trii + 1) % f.size()],
+                        f[(base + trii) % f.size()],
+                        patchi
+                    )
+                );
+            }
+        }
+    }
+
+    // Only the points of the walls
+    const triSurface all(List<labelledTri>(triangles), mesh.points());
+
+    List<labelledTri> localTriangles(all.size());
+    forAll(all, faceti)
+    {
+        const triFace& f = all.localFaces()[faceti];
+
+        localTriangles[faceti] =
+            labelledTri(f[0], f[1], f[2], all[faceti].region());
+    }
+
+    return triSurface(localTriangles, all.localPoints());
+}
+
+
+void Foam::wallFacets::setFacets()
+{
+    facets_.setSize(surface_.size());
+
+    forAll(facets_, faceti)
+    {
+        ellipsoid_facet& f = facets_[faceti];
+        const labelledTri& triangle = surface_[faceti];
+
+        for (label k = 0; k < 3; ++k)
+        {
+            copyTo(f.vertex[k], surface_.points()[triangle[k]]);
+        }
+
+        const vector area(triangle.areaNormal(surface_.points()));
+
+        if (mag(area) < VSMALL)
+        {
+            FatalErrorInFunction
+                << "a wall triangle at " << pointOf(f.vertex[0])
+                << " has no area: checkMesh says more"
+                << exit(FatalError);
+        }
+
+        copyTo(f.normal, area/mag(area));
+        f.surface = triangle.region();
+    }
+}
+
+
+void Foam::wallFacets::setEdges()
+{
+    // A turn smaller than this [rad] is the mesh's rounding
+    const scalar flat = 1e-6;
+
+    forAll(surface_, faceti)
+    {
+        ellipsoid_facet& f = facets_[faceti];
+        const triFace& local = surface_.localFaces()[faceti];
+
+        for (label k = 0; k < 3; ++k)
+        {
+            // A rim, where the wall ends at an open patch, is convex, and the
+            // zero vector lets every direction past it count
+            f.edge[k] = ELLIPSOID_EDGE_CONVEX;
+            copyTo(f.edge_inward[k], Zero);
+            std::copy_n(f.normal, 3, f.neighbour_normal[k]);
+
+            const edge e(local[k], local[(k + 1) % 3]);
+
+            for (const label edgei : surface_.faceEdges()[faceti])
+            {
+                if (surface_.edges()[edgei] != e)
+                {
+                    continue;
+                }
+
+                for (const label otheri : surface_.edgeFaces()[edgei])
+                {
+                    if (otheri == faceti)
+                    {
+                        continue;
+                    }
+
+                    const vector n(pointOf(f.normal));
+                    const vector otherN(pointOf(facets_[otheri].normal));
+                    const vector t
+                    (
+                        normalised
+                        (
+                            pointOf(f.vertex[(k + 1) % 3])
+                          - pointOf(f.vertex[k])
+                        )
+                    );
+
+                    // How much the neighbour faces this one
+                    const scalar turn = (n ^ t) & otherN;
+
+                    f.edge[k] =
+                        mag(turn) < flat && (n & otherN) > 0
+                      ? ELLIPSOID_EDGE_FLAT
+                      : turn > 0 ? ELLIPSOID_EDGE_CONCAVE
+                      : ELLIPSOID_EDGE_CONVEX;
+
+                    copyTo(f.edge_inward[k], t ^ otherN);
+                    copyTo(f.neighbour_normal[k], otherN);
+                }
+            }
+        }
+    }
+}
+
+
+void Foam::wallFacets::setStars()
+{
+    const labelListList& pointEdges = surface_.pointEdges();
+    const edgeList& edges = surface_.edges();
+    const pointField& points = surface_.localPoints();
+
+    labelList start(points.size() + 1, Zero);
+    forAll(pointEdges, pointi)
+    {
+        start[pointi + 1] = start[pointi] + pointEdges[pointi].size();
+    }
+
+    stars_.setSize(start.last());
+
+    forAll(pointEdges, pointi)
+    {
+        forAll(pointEdges[pointi], i)
+        {
+            const edge& e = edges[pointEdges[pointi][i]];
+
+            copyTo
+            (
+                stars_[start[pointi] + i].data(),
+                normalised(points[e.otherVertex(pointi)] - points[pointi])
+            );
+        }
+    }
+
+    forAll(facets_, faceti)
+    {
+        for (label k = 0; k < 3; ++k)
+        {
+            const label pointi = surface_.localFaces()[faceti][k];
+
+            facets_[faceti].star_count[k] = pointEdges[pointi].size();
+            facets_[faceti].star[k] =
+                reinterpret_cast<const double (*)[3]>
+                (
+                    stars_.cdata() + start[pointi]
+                );
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::wallFacets::wallFacets(const polyMesh* wholeMesh, const scalar searchMargin)
+:
+    margin_(searchMargin)
+{
+    List<labelledTri> triangles;
+    pointField points;
+
+    if (Pstream::master())
+    {
+        const triSurface surface(triangulate(*wholeMesh));
+        triangles = surface;
+        points = surface.points();
+    }
+
+    Pstream::scatter(triangles);
+    Pstream::scatter(points);
+
+    surface_ = triSurface(triangles, points);
+
+    setFacets();
+    setEdges();
+    setStars();
+
+    if (surface_.size())
+    {
+        const boundBox box(points, false);
+        const vector margin(0.01*box.mag()*vector::one);
+
+        tree_.reset
+        (
+            new indexedOctree<treeDataTriSurface>
+            (
+                treeDataTriSurface(true, surface_, 1e-6),
+                treeBoundBox(box.min() - margin, box.max() + margin),
+                10,
+                10,
+                3
+            )
+        );
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+int Foam::wallFacets::list
+(
+    const scalar centre[3],
+    const scalar reach,
+    neighbourhood& near,
+    ellipsoid_facet_list& list
+) const
+{
+    const point c(pointOf(centre));
+
+    if (near.reach < 0 || mag(c - near.centre) + reach > near.reach)
+    {
+        near.centre = c;
+        near.facets.clear();
+        near.reach = GREAT;
+
+        if (facets_.size())
+        {
+            near.reach = reach + margin_;
+
+            const pointIndexHit nearest
+            (
+                tree_->findNearest(c, sqr(1000*near.reach))
+            );
+
+            const scalar distance =
+                nearest.hit() ? mag(nearest.hitPoint() - c) : 1000*near.reach;
+
+            if (distance > near.reach)
+            {
+                near.reach = distance;
+            }
+            else
+            {
+                const vector half(vector::one*near.reach);
+
+                labelList found
+                (
+                    tree_->findBox(treeBoundBox(c - half, c + half))
+                );
+                std::sort(found.begin(), found.end());
+
+                for (const label faceti : found)
+                {
+                    const triPointRef triangle
+                    (
+                        surface_[faceti].tri(surface_.points())
+                    );
+
+                    if (triangle.nearestPoint(c).distance() <= near.reach)
+                    {
+                        near.facets.append(faceti);
+                    }
+                }
+            }
+        }
+    }
+
+    list.facets = facets_.cdata();
+    list.index = near.facets.cdata();
+    list.count = near.facets.size();
+    list.reach = near.reach - mag(c - near.centre);
+
+    return 0;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,152 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    coreTest.h - what the tests of the core share.
+*/
+#ifndef CORE_TEST_H
+#define CORE_TEST_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "ellipsoidInternal.h"
+
+static const double test_pi = 3.14159265358979323846;
+
+/* |actual - expected| <= tolerance; a NaN fails. */
+#define assert_near(actual, expected, tolerance)                               \
+    test_near(actual, expected, tolerance, #actual, __FILE__, __LINE__)
+
+static inline void test_near(double actual, double expected, double tolerance,
+                             const char *what, const char *file, int line)
+{
+    if (!(fabs(actual - expected) <= tolerance))
+    {
+        print_error("%s = %.17g, not %.17g within %g\n", what, actual, expected,
+                    tolerance);
+        _fail(file, line);
+    }
+}
+
+#define assert_relative(actual, expected, tolerance)                           \
+    test_near(actual, expected, (tolerance)*fabs(expected), #actual, __FILE__, \
+              __LINE__)
+
+#define assert_ok(status) assert_int_equal(status, ELLIPSOID_OK)
+
+/* splitmix64: the same numbers everywhere. */
+static inline double test_uniform(uint64_t *seed)
+{
+    uint64_t z = (*seed += 0x9e3779b97f4a7c15u);
+
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (double)((z ^ (z >> 31)) >> 11) / 9007199254740992.0;
+}
+
+/* Uniform in (-1, 1). */
+static inline double test_signed(uint64_t *seed)
+{
+    return 2 * test_uniform(seed) - 1;
+}
+
+static inline void test_orientation(uint64_t *seed, double q[4])
+{
+    double uniform[3];
+
+    for (int i = 0; i < 3; i++)
+    {
+        uniform[i] = test_uniform(seed);
+    }
+    ellipsoid_quaternion_from_uniform(uniform, q);
+}
+
+/* A flow that is a quadratic polynomial of the position (context). */
+typedef struct test_quadratic
+{
+    double u[3], g[3][3];
+    double h[3][3][3]; /* dg_ij/dx_k, symmetric in j and k */
+    double pressure_gradient[3];
+    int answer; /* what the callback returns */
+} test_quadratic;
+
+static inline int test_quadratic_flow(void *context, const double x[3],
+                                      int derivatives,
+                                      ellipsoid_flow_sample *sample)
+{
+    const test_quadratic *f = context;
+
+    for (int i = 0; i < 3; i++)
+    {
+        sample->velocity[i] = f->u[i];
+        sample->pressure_gradient[i] = f->pressure_gradient[i];
+        for (int j = 0; j < 3; j++)
+        {
+            double change = 0;
+
+            for (int k = 0; k < 3; k++)
+            {
+                change += f->h[i][j][k] * x[k];
+            }
+            sample->gradient[i][j] = f->g[i][j] + change;
+            sample->velocity[i] += (f->g[i][j] + change / 2) * x[j];
+        }
+    }
+    if (derivatives)
+    {
+        memcpy(sample->velocity_jacobian, sample->gradient,
+               sizeof(sample->gradient));
+        memcpy(sample->gradient_jacobian, f->h, sizeof(f->h));
+    }
+    return f->answer;
+}
+
+/* u = (rate x2, 0, 0) */
+static inline test_quadratic test_shear(double rate)
+{
+    test_quadratic flow = {.answer = 0};
+
+    flow.g[0][1] = rate;
+    return flow;
+}
+
+/* The paper's cell without walls and weight. */
+static inline ellipsoid_options test_free_cell(void)
+{
+    ellipsoid_options options = ellipsoid_options_default();
+
+    options.contact = 0;
+    options.buoyancy = 0;
+    return options;
+}
+
+static inline ellipsoid_model test_model(const ellipsoid_options *options)
+{
+    ellipsoid_model model;
+
+    assert_ok(ellipsoid_model_init(&model, options));
+    return model;
+}
+
+/* Advances without walls or observer. */
+static inline ellipsoid_status
+test_advance(const ellipsoid_model *model, test_quadratic *flow,
+             ellipsoid_state *state, double *t, double end,
+             ellipsoid_controller *controller, ellipsoid_statistics *statistics)
+{
+    const ellipsoid_surroundings surroundings = {
+        .flow = flow ? test_quadratic_flow : NULL, .flow_context = flow};
+
+    return ellipsoid_advance(model, &surroundings, state, t, end, controller,
+                             NULL, NULL, NULL, statistics);
+}
+
+#endif
