@@ -197,7 +197,7 @@ setup_install_packages()    # LOG PACKAGE...
         fi
     fi
 
-    setup_say "installing Debian packages: $* (about a minute)"
+    setup_say "installing Debian packages: $* (one to three minutes)"
     offset=$(stat -c %s "$log")
     local -a apt=("${sudo[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get -q -y
         -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
@@ -382,7 +382,8 @@ setup_environment()     # build|run|test
         dir=$cache/openfoam-$version
     fi
 
-    setup_source_bashrc "$dir"
+    # An environment that is complete may hold settings of the user's: keep it
+    if [ -z "$WM_PROJECT_DIR" ] || [ -z "$WM_OPTIONS" ]; then setup_source_bashrc "$dir"; fi
     export WM_NCOMPPROCS=${WM_NCOMPPROCS:-$(nproc)}
     # Open MPI asks root twice; a container's only user is often root
     if [ "$(id -u)" -eq 0 ]; then
@@ -392,5 +393,5 @@ setup_environment()     # build|run|test
         ELLIPSOID_PYTHON=$(setup_find_python)
         export ELLIPSOID_PYTHON
     fi
-    setup_say "OpenFOAM v$FOAM_API in $WM_PROJECT_DIR ($(setup_seconds_since "$start"))"
+    setup_say "OpenFOAM v$(setup_openfoam_api "$dir") in $dir ($(setup_seconds_since "$start"))"
 }

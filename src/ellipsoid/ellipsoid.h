@@ -110,7 +110,7 @@ typedef struct ellipsoid_options
 
     /* integrator */
     double tolerance;    /* [-] local error: x against the largest semi-axis,
-                            q against 1; 1e-5; 1e-14 to 1e-1 */
+                            q against 1; 1e-6; 1e-14 to 1e-1 */
     double initial_step; /* [s] first step of a fresh controller, 1e-8 */
     double minimum_step; /* [s] 1e-18 */
     double maximum_step; /* [s] 1 */

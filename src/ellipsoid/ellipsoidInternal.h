@@ -77,6 +77,7 @@ typedef struct ellipsoid_problem
     double rate;          /* [1/s] 1/tau of u, 0 in vacuum */
     double rotation_rate; /* [1/s] 1/tau of omega, 0 in vacuum */
     int walls;
+    int observed; /* is the whole of ellipsoid_step asked for? */
 } ellipsoid_problem;
 
 /* The equations at the start of a step, kept while steps are rejected. */
@@ -93,6 +94,8 @@ typedef struct ellipsoid_stages
 {
     double k[ELLIPSOID_STAGES][ELLIPSOID_STATE_SIZE];
     double y[ELLIPSOID_STATE_SIZE]; /* result, q not yet normalised */
+    double x[ELLIPSOID_STAGES][3], q[ELLIPSOID_STAGES][4]; /* where sampled, */
+    double gap[ELLIPSOID_STAGES]; /* and the gap there; only with walls */
 } ellipsoid_stages;
 
 /* ellipsoid_evaluate(), counted. blocks may be NULL. */
@@ -112,7 +115,7 @@ ellipsoid_status ellipsoid_rosenbrock_step(const ellipsoid_problem *problem,
 
 /* The continuous extension of such a step. */
 void ellipsoid_rosenbrock_dense(
-    const ellipsoid_stages *stages,
+    ellipsoid_stages *stages,
     double dense[2][ELLIPSOID_STATE_SIZE]);
 
 /* ------------------------------------------------------------- contact */

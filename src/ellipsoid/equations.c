@@ -16,167 +16,185 @@
 _Static_assert(sizeof(ellipsoid_state) == ELLIPSOID_STATE_SIZE * sizeof(double),
                "the state is thirteen doubles without padding");
 
+/*
+    The small loops over three components are written out where speed counts:
+    compilers then keep the numbers in registers.
+*/
+static inline void set3(double v[3], double a, double b, double c)
+{
+    v[0] = a;
+    v[1] = b;
+    v[2] = c;
+}
+
+/* m v; m is not const as C11 would not take a plain matrix then. */
+static inline void product(double m[3][3], const double v[3], double result[3])
+{
+    set3(result, ellipsoid_dot(m[0], v), ellipsoid_dot(m[1], v),
+         ellipsoid_dot(m[2], v));
+}
+
+/* m^T v = a m_0 + b m_1 + c m_2 */
+static inline void combination(double m[3][3], double a, double b, double c,
+                               double result[3])
+{
+    set3(result, a * m[0][0] + b * m[1][0] + c * m[2][0],
+         a * m[0][1] + b * m[1][1] + c * m[2][1],
+         a * m[0][2] + b * m[1][2] + c * m[2][2]);
+}
+
+static inline void add3(double v[3], const double change[3])
+{
+    v[0] += change[0];
+    v[1] += change[1];
+    v[2] += change[2];
+}
+
 /* What one evaluation shares between values and derivatives. */
 typedef struct evaluation
 {
     const ellipsoid_model *model;
     const ellipsoid_state *state;
     ellipsoid_flow_sample flow;
-    double axis[3][3];    /* body axes in the lab: the columns of R(q) */
-    double slip[3];       /* u_f - u, lab */
-    double resisted[3];   /* mu K^ R^T (u_f - u), body */
-    double turning[3][3]; /* [i]: (p G - m G^T) r_j, see add_torque() */
-    double force[3];      /* lab */
-    double torque[3];     /* body */
+    double axis[3][3];      /* r_i: body axes in the lab, the columns of R(q) */
+    double slip[3];         /* u_f - u, lab */
+    double resisted[3];     /* mu K^ R^T (u_f - u), body */
+    double stretch[3][3];   /* G r_i */
+    double back[3][3];      /* G^T r_i; only for the Jacobian */
+    double change[3][3][3]; /* [i][s][l]: sum_t dG_st/dx_l r_i[t]; likewise */
+    double force[3];        /* lab */
+    double torque[3];       /* body */
 } evaluation;
 
-/* (m^T v)_column; m is not const as C11 would not take a plain matrix then */
-static double column_dot(double m[3][3], int column, const double v[3])
-{
-    return m[0][column] * v[0] + m[1][column] * v[1] + m[2][column] * v[2];
-}
-
 /* (m_p - m_f) g and the constant external force and torque. */
-static void set_constant_forces(evaluation *e)
+static void set_constant_forces(const ellipsoid_model *m, double force[3],
+                                double torque[3])
 {
-    const ellipsoid_model *m = e->model;
-    const double weight = m->options.buoyancy ? m->mass - m->fluid_mass : 0;
+    const ellipsoid_options *o = &m->options;
+    const double weight = o->buoyancy ? m->mass - m->fluid_mass : 0;
 
-    for (int i = 0; i < 3; i++)
-    {
-        e->force[i] =
-            weight * m->options.gravity[i] + m->options.external_force[i];
-        e->torque[i] = m->options.external_torque[i];
-    }
+    set3(force, weight * o->gravity[0] + o->external_force[0],
+         weight * o->gravity[1] + o->external_force[1],
+         weight * o->gravity[2] + o->external_force[2]);
+    set3(torque, o->external_torque[0], o->external_torque[1],
+         o->external_torque[2]);
 }
 
 /* F_H = mu R K^ R^T (u_f - u): Oberbeck (1876), Brenner (1964). */
-static void add_drag(evaluation *e)
+static inline void add_drag(evaluation *e)
 {
-    const ellipsoid_model *m = e->model;
+    const double mu = e->model->viscosity, *k = e->model->resistance;
+    const double *u_f = e->flow.velocity, *u = e->state->u;
+    double force[3], *slip = e->slip, *body = e->resisted;
 
-    for (int i = 0; i < 3; i++)
-    {
-        e->slip[i] = e->flow.velocity[i] - e->state->u[i];
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        e->resisted[i] = m->viscosity * m->resistance[i]
-                       * ellipsoid_dot(e->axis[i], e->slip);
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        e->force[i] += column_dot(e->axis, i, e->resisted);
-    }
+    set3(slip, u_f[0] - u[0], u_f[1] - u[1], u_f[2] - u[2]);
+    set3(body, mu * k[0] * ellipsoid_dot(e->axis[0], slip),
+         mu * k[1] * ellipsoid_dot(e->axis[1], slip),
+         mu * k[2] * ellipsoid_dot(e->axis[2], slip));
+    combination(e->axis, body[0], body[1], body[2], force);
+    add3(e->force, force);
 }
 
 /*
-    Jeffery (1922), eqs. (36): T^_i = mu C_i (s_i e^_jk + W^_i - w^_i), i, j, k
+    Jeffery (1922), eqs. 36: T^_i = mu C_i (s_i e^_jk + W^_i - w^_i), i, j, k
     cyclic. With G^ = R^T G R that is mu C_i (p G^_kj - m G^_jk - w^_i),
     p = (1 + s_i)/2, m = (1 - s_i)/2: strain and vorticity merge.
 */
-static void add_torque(evaluation *e)
+static inline double torque_about(const evaluation *e, int i, int j, int k)
 {
     const ellipsoid_model *model = e->model;
+    const double p = 0.5 + 0.5 * model->strain_factor[i];
+    const double m = 0.5 - 0.5 * model->strain_factor[i];
 
-    for (int i = 0; i < 3; i++)
-    {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        const double p = 0.5 * (1 + model->strain_factor[i]);
-        const double m = 0.5 * (1 - model->strain_factor[i]);
+    return model->viscosity * model->rotation_resistance[i]
+         * (p * ellipsoid_dot(e->axis[k], e->stretch[j])
+            - m * ellipsoid_dot(e->axis[j], e->stretch[k])
+            - e->state->omega[i]);
+}
 
-        for (int a = 0; a < 3; a++)
-        {
-            e->turning[i][a] =
-                p * ellipsoid_dot(e->flow.gradient[a], e->axis[j])
-                - m * column_dot(e->flow.gradient, a, e->axis[j]);
-        }
-        e->torque[i] +=
-            model->viscosity * model->rotation_resistance[i]
-            * (ellipsoid_dot(e->axis[k], e->turning[i]) - e->state->omega[i]);
-    }
+static inline void add_torque(evaluation *e)
+{
+    product(e->flow.gradient, e->axis[0], e->stretch[0]);
+    product(e->flow.gradient, e->axis[1], e->stretch[1]);
+    product(e->flow.gradient, e->axis[2], e->stretch[2]);
+    e->torque[0] += torque_about(e, 0, 1, 2);
+    e->torque[1] += torque_about(e, 1, 2, 0);
+    e->torque[2] += torque_about(e, 2, 0, 1);
 }
 
 /* F_PG: m_f (u_f . grad) u_f, or -V grad p. */
-static void add_pressure_gradient(evaluation *e)
+static inline void add_pressure_gradient(evaluation *e)
 {
     const ellipsoid_model *m = e->model;
 
     if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_DUDT)
     {
-        for (int i = 0; i < 3; i++)
-        {
-            e->force[i] += m->fluid_mass
-                         * ellipsoid_dot(e->flow.gradient[i], e->flow.velocity);
-        }
+        const double *u_f = e->flow.velocity;
+
+        e->force[0] += m->fluid_mass * ellipsoid_dot(e->flow.gradient[0], u_f);
+        e->force[1] += m->fluid_mass * ellipsoid_dot(e->flow.gradient[1], u_f);
+        e->force[2] += m->fluid_mass * ellipsoid_dot(e->flow.gradient[2], u_f);
     }
     else if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
     {
-        for (int i = 0; i < 3; i++)
-        {
-            e->force[i] -= m->volume * e->flow.pressure_gradient[i];
-        }
+        e->force[0] -= m->volume * e->flow.pressure_gradient[0];
+        e->force[1] -= m->volume * e->flow.pressure_gradient[1];
+        e->force[2] -= m->volume * e->flow.pressure_gradient[2];
     }
 }
 
 /* Derivatives [n][i] = dr_i/dq_n of the body axes, the columns of R(q). */
-static void axis_derivatives(const double q[4], double d[4][3][3])
+static inline void axis_derivatives(const double q[4], double d[4][3][3])
 {
     const double a = 2 * q[0], b = 2 * q[1], c = 2 * q[2], n = 2 * q[3];
-    const double table[4][3][3] = {
-        {{a, b, c}, {b, -a, n}, {c, -n, -a}},
-        {{-b, a, -n}, {a, b, c}, {n, c, -b}},
-        {{-c, n, a}, {-n, -c, b}, {a, b, c}},
-        {{n, c, -b}, {-c, n, a}, {b, -a, n}},
-    };
 
-    memcpy(d, table, sizeof(table));
+    set3(d[0][0], a, b, c);
+    set3(d[0][1], b, -a, n);
+    set3(d[0][2], c, -n, -a);
+    set3(d[1][0], -b, a, -n);
+    set3(d[1][1], a, b, c);
+    set3(d[1][2], n, c, -b);
+    set3(d[2][0], -c, n, a);
+    set3(d[2][1], -n, -c, b);
+    set3(d[2][2], a, b, c);
+    set3(d[3][0], n, c, -b);
+    set3(d[3][1], -c, n, a);
+    set3(d[3][2], b, -a, n);
 }
 
 /* Derivatives of the drag: F = sum_i r_i mu K^_i (r_i . slip). */
 static void drag_blocks(evaluation *e, double d[4][3][3], ellipsoid_blocks *b)
 {
     const ellipsoid_model *m = e->model;
-    double scaled[3][3], resistance[3][3];
+    const double *f = e->resisted;
+    double scaled[3][3];
 
     for (int i = 0; i < 3; i++)
     {
-        for (int j = 0; j < 3; j++)
-        {
-            scaled[i][j] = m->viscosity * m->resistance[i] * e->axis[i][j];
-        }
+        const double k = m->viscosity * m->resistance[i];
+
+        set3(scaled[i], k * e->axis[i][0], k * e->axis[i][1],
+             k * e->axis[i][2]);
     }
     for (int i = 0; i < 3; i++)
     {
-        for (int j = 0; j < 3; j++)
-        {
-            resistance[i][j] = e->axis[0][i] * scaled[0][j]
-                             + e->axis[1][i] * scaled[1][j]
-                             + e->axis[2][i] * scaled[2][j];
-            b->uu[i][j] -= resistance[i][j];
-        }
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        for (int j = 0; j < 3; j++)
-        {
-            b->ux[i][j] +=
-                column_dot(e->flow.velocity_jacobian, j, resistance[i]);
-        }
+        double row[3];
+
+        combination(scaled, e->axis[0][i], e->axis[1][i], e->axis[2][i], row);
+        set3(b->uu[i], -row[0], -row[1], -row[2]);
+        combination(e->flow.velocity_jacobian, row[0], row[1], row[2],
+                    b->ux[i]);
     }
     for (int n = 0; n < 4; n++)
     {
-        double turned[3];
+        double turned[3], moved[3], carried[3];
 
-        for (int i = 0; i < 3; i++)
-        {
-            turned[i] = ellipsoid_dot(d[n][i], e->slip);
-        }
-        for (int i = 0; i < 3; i++)
-        {
-            b->uq[i][n] += column_dot(d[n], i, e->resisted)
-                         + column_dot(scaled, i, turned);
-        }
+        product(d[n], e->slip, turned);
+        combination(d[n], f[0], f[1], f[2], moved);
+        combination(scaled, turned[0], turned[1], turned[2], carried);
+        b->uq[0][n] = moved[0] + carried[0];
+        b->uq[1][n] = moved[1] + carried[1];
+        b->uq[2][n] = moved[2] + carried[2];
     }
 }
 
@@ -184,43 +202,52 @@ static void drag_blocks(evaluation *e, double d[4][3][3], ellipsoid_blocks *b)
     Derivatives of Jeffery's torque. As T_i = r_k . (p G - m G^T) r_j, a change
     of the axes adds dr_k . (p G - m G^T) r_j + dr_j . (p G^T - m G) r_k.
 */
-static void torque_blocks(evaluation *e, double d[4][3][3], ellipsoid_blocks *b)
+static inline void torque_blocks_about(evaluation *e, double d[4][3][3],
+                                       ellipsoid_blocks *b, int i, int j, int k)
 {
     const ellipsoid_model *model = e->model;
+    const double c = model->viscosity * model->rotation_resistance[i];
+    const double p = c * (0.5 + 0.5 * model->strain_factor[i]);
+    const double m = c * (0.5 - 0.5 * model->strain_factor[i]);
+    const double *rj = e->axis[j], *rk = e->axis[k];
+    double by_j[3], by_k[3], with[3], against[3];
 
+    for (int l = 0; l < 3; l++)
+    {
+        by_k[l] = p * e->stretch[j][l] - m * e->back[j][l];
+        by_j[l] = p * e->back[k][l] - m * e->stretch[k][l];
+    }
+    for (int n = 0; n < 4; n++)
+    {
+        b->wq[i][n] =
+            ellipsoid_dot(d[n][k], by_k) + ellipsoid_dot(d[n][j], by_j);
+    }
+    combination(e->change[j], p * rk[0], p * rk[1], p * rk[2], with);
+    combination(e->change[k], m * rj[0], m * rj[1], m * rj[2], against);
+    for (int l = 0; l < 3; l++)
+    {
+        b->wx[i][l] = with[l] - against[l];
+        b->ww[i][l] = 0;
+    }
+    b->ww[i][i] = -c;
+}
+
+static void torque_blocks(evaluation *e, double d[4][3][3], ellipsoid_blocks *b)
+{
     for (int i = 0; i < 3; i++)
     {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        const double c = model->viscosity * model->rotation_resistance[i];
-        const double p = 0.5 * c * (1 + model->strain_factor[i]);
-        const double m = 0.5 * c * (1 - model->strain_factor[i]);
-        double other[3];
+        const double *r = e->axis[i];
 
-        for (int a = 0; a < 3; a++)
-        {
-            other[a] = p * column_dot(e->flow.gradient, a, e->axis[k])
-                     - m * ellipsoid_dot(e->flow.gradient[a], e->axis[k]);
-        }
-        b->ww[i][i] -= c;
-        for (int n = 0; n < 4; n++)
-        {
-            b->wq[i][n] += c * ellipsoid_dot(d[n][k], e->turning[i])
-                         + ellipsoid_dot(d[n][j], other);
-        }
+        combination(e->flow.gradient, r[0], r[1], r[2], e->back[i]);
         for (int s = 0; s < 3; s++)
         {
-            for (int t = 0; t < 3; t++)
-            {
-                const double weight = p * e->axis[k][s] * e->axis[j][t]
-                                    - m * e->axis[j][s] * e->axis[k][t];
-
-                for (int l = 0; l < 3; l++)
-                {
-                    b->wx[i][l] += weight * e->flow.gradient_jacobian[s][t][l];
-                }
-            }
+            combination(e->flow.gradient_jacobian[s], r[0], r[1], r[2],
+                        e->change[i][s]);
         }
     }
+    torque_blocks_about(e, d, b, 0, 1, 2);
+    torque_blocks_about(e, d, b, 1, 2, 0);
+    torque_blocks_about(e, d, b, 2, 0, 1);
 }
 
 /* Derivatives of F_PG; the second derivatives of p are not sampled. */
@@ -234,13 +261,15 @@ static void pressure_gradient_blocks(evaluation *e, ellipsoid_blocks *b)
     }
     for (int i = 0; i < 3; i++)
     {
+        const double *u = e->flow.velocity, *g = e->flow.gradient[i];
+        double of_gradient[3], of_velocity[3];
+
+        combination(e->flow.gradient_jacobian[i], u[0], u[1], u[2],
+                    of_gradient);
+        combination(e->flow.velocity_jacobian, g[0], g[1], g[2], of_velocity);
         for (int l = 0; l < 3; l++)
         {
-            b->ux[i][l] +=
-                m->fluid_mass
-                * (column_dot(e->flow.gradient_jacobian[i], l, e->flow.velocity)
-                   + column_dot(e->flow.velocity_jacobian, l,
-                                e->flow.gradient[i]));
+            b->ux[i][l] += m->fluid_mass * (of_gradient[l] + of_velocity[l]);
         }
     }
 }
@@ -308,33 +337,40 @@ static ellipsoid_status add_contact(evaluation *e,
     return ELLIPSOID_OK;
 }
 
-/* Forces to accelerations, paper eqs. (1) and (3), and the kinematics. */
-static ellipsoid_status finish_rates(const evaluation *e,
-                                     ellipsoid_state *derivative)
+/* I w x w */
+static inline double gyroscopic(const double inertia[3], const double w[3],
+                                int j, int k)
 {
-    const double *inertia = e->model->inertia;
+    return (inertia[j] - inertia[k]) * w[j] * w[k];
+}
+
+/* Forces to accelerations, paper eqs. (1) and (3), and the kinematics. */
+static inline ellipsoid_status finish_rates(const evaluation *e,
+                                            ellipsoid_state *derivative)
+{
+    const double *inertia = e->model->inertia, *f = e->force, *t = e->torque;
     const double *w = e->state->omega;
     const double per_mass = 1 / e->model->mass;
-    double sum = 0;
+    ellipsoid_state r;
 
-    for (int i = 0; i < 3; i++)
-    {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-
-        derivative->u[i] = e->force[i] * per_mass;
-        derivative->x[i] = e->state->u[i];
-        derivative->omega[i] =
-            (e->torque[i] + (inertia[j] - inertia[k]) * w[j] * w[k])
-            / inertia[i];
-        sum += derivative->u[i] + derivative->x[i] + derivative->omega[i];
-    }
-    ellipsoid_spin(w, e->state->q, derivative->q);
+    set3(r.u, f[0] * per_mass, f[1] * per_mass, f[2] * per_mass);
+    set3(r.x, e->state->u[0], e->state->u[1], e->state->u[2]);
+    set3(r.omega, (t[0] + gyroscopic(inertia, w, 1, 2)) / inertia[0],
+         (t[1] + gyroscopic(inertia, w, 2, 0)) / inertia[1],
+         (t[2] + gyroscopic(inertia, w, 0, 1)) / inertia[2]);
+    ellipsoid_spin(w, e->state->q, r.q);
     for (int n = 0; n < 4; n++)
     {
-        derivative->q[n] *= 0.5;
-        sum += derivative->q[n];
+        r.q[n] *= 0.5;
     }
-    return isfinite(sum) ? ELLIPSOID_OK : ELLIPSOID_NON_FINITE;
+    *derivative = r;
+
+    /* one NaN or infinity makes the sum one */
+    return isfinite((r.u[0] + r.u[1] + r.u[2]) + (r.x[0] + r.x[1] + r.x[2])
+                    + (r.omega[0] + r.omega[1] + r.omega[2])
+                    + (r.q[0] + r.q[1] + r.q[2] + r.q[3]))
+             ? ELLIPSOID_OK
+             : ELLIPSOID_NON_FINITE;
 }
 
 static void finish_blocks(const evaluation *e, ellipsoid_blocks *b)
@@ -377,15 +413,16 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_model *model,
 
     e.model = model;
     e.state = state;
-    set_constant_forces(&e);
-    if (blocks)
+    set_constant_forces(model, e.force, e.torque);
+    if (blocks && !(surroundings->flow && model->options.drag))
     {
         memset(blocks, 0, sizeof(*blocks));
     }
     if (surroundings->flow)
     {
-        const double conjugate[4] = {-state->q[0], -state->q[1], -state->q[2],
-                                     state->q[3]};
+        const double *q = state->q;
+        const double conjugate[4] = {q[0], q[1], q[2],
+                                     -q[3]}; /* or its minus */
         const int answer = surroundings->flow(
             surroundings->flow_context, state->x, blocks != NULL, &e.flow);
 

@@ -18,7 +18,7 @@
 
 /* How far a bead may move before pairs are collected again, in bead radii:
    few pairs to look at against few collections. */
-static const double pair_margin = 0.25;
+static const double pair_margin = 0.5;
 
 /* Where pairs are too many: smaller margins, each by this factor. */
 static const double smaller = 0.25;
@@ -35,6 +35,11 @@ void ellipsoid_contact_cache_clear(ellipsoid_contact_cache *cache)
     memset(cache->q, 0, sizeof cache->q);
 }
 
+static double product(const double p[4], const double q[4])
+{
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+}
+
 /*
     How far the turn from p to q can move a point at unit distance: with d the
     shorter of q - p and q + p, q r q* - p r p* = d r q* + p r d*, whence
@@ -42,16 +47,7 @@ void ellipsoid_contact_cache_clear(ellipsoid_contact_cache *cache)
 */
 static double turn_between(const double p[4], const double q[4])
 {
-    double pp = 0, qq = 0, pq = 0;
-
-    for (int i = 0; i < 4; i++)
-    {
-        pp += p[i] * p[i];
-        qq += q[i] * q[i];
-        pq += p[i] * q[i];
-    }
-
-    const double sign = pq < 0 ? -1 : 1;
+    const double sign = product(p, q) < 0 ? -1 : 1;
     double dd = 0;
 
     for (int i = 0; i < 4; i++)
@@ -60,7 +56,7 @@ static double turn_between(const double p[4], const double q[4])
 
         dd += d * d;
     }
-    return sqrt(dd) * (sqrt(pp) + sqrt(qq));
+    return sqrt(dd) * (sqrt(product(p, p)) + sqrt(product(q, q)));
 }
 
 static int serves(const ellipsoid_contact_cache *cache,
@@ -76,14 +72,16 @@ static int serves(const ellipsoid_contact_cache *cache,
     ellipsoid_difference(x, cache->x, d);
 
     const double moved = ellipsoid_dot(d, d);
+    const double arm = model->reach - model->options.bead_radius;
 
     if (cache->clearance > 0)
     {
-        return moved < cache->clearance * cache->clearance;
+        /* R(q) stretches by q.q, which is near 1 but not bound to be */
+        const double longer = product(q, q) - product(cache->q, cache->q);
+        const double left = cache->clearance - arm * (longer > 0 ? longer : 0);
+
+        return left > 0 && moved < left * left;
     }
-
-    const double arm = model->reach - model->options.bead_radius;
-
     return sqrt(moved) + arm * turn_between(cache->q, q) <= cache->margin;
 }
 
@@ -138,35 +136,40 @@ static ellipsoid_status list_facets(const ellipsoid_surroundings *surroundings,
                         : ELLIPSOID_OK;
 }
 
-/* Bead centres, one array for each coordinate so that loops vectorise. */
+/* Bead centres, one array for each coordinate so that loops vectorise, and the
+   box in the body frame that holds them. */
 typedef struct swarm
 {
     int count;
     double x[3][ELLIPSOID_MAX_BEADS];
+    double centre[3], rotation[3][3], half_box[3];
+    double stretch; /* q.q, of lengths by rotation */
 } swarm;
 
 static void place_beads(const ellipsoid_model *model, const double x[3],
                         const double q[4], swarm *beads)
 {
-    double r[3][3];
-
-    ellipsoid_rotation_inline(q, r);
+    ellipsoid_copy(x, beads->centre);
+    ellipsoid_rotation_inline(q, beads->rotation);
+    beads->stretch = product(q, q);
     beads->count = model->bead_count;
+    memset(beads->half_box, 0, sizeof beads->half_box);
     for (int b = 0; b < model->bead_count; b++)
     {
         for (int i = 0; i < 3; i++)
         {
-            beads->x[i][b] = x[i] + ellipsoid_dot(r[i], model->bead[b]);
+            beads->x[i][b] =
+                x[i] + ellipsoid_dot(beads->rotation[i], model->bead[b]);
+            beads->half_box[i] =
+                fmax(beads->half_box[i], fabs(model->bead[b][i]));
         }
     }
 }
 
-/* Squared distances of all beads from the middle of a facet, and the squared
-   radius of the sphere about it that holds the facet. */
-static double measure(const ellipsoid_facet *facet, const swarm *beads,
-                      double squared[ELLIPSOID_MAX_BEADS])
+/* Middle of a facet, and the radius of the sphere about it that holds it. */
+static double bound(const ellipsoid_facet *facet, double middle[3])
 {
-    double middle[3], size = 0;
+    double size = 0;
 
     for (int i = 0; i < 3; i++)
     {
@@ -180,15 +183,27 @@ static double measure(const ellipsoid_facet *facet, const swarm *beads,
         ellipsoid_difference(facet->vertex[k], middle, d);
         size = fmax(size, ellipsoid_dot(d, d));
     }
-    for (int b = 0; b < beads->count; b++)
-    {
-        const double d0 = beads->x[0][b] - middle[0];
-        const double d1 = beads->x[1][b] - middle[1];
-        const double d2 = beads->x[2][b] - middle[2];
+    return sqrt(size);
+}
 
-        squared[b] = d0 * d0 + d1 * d1 + d2 * d2;
+/* Is a point farther than `far` from the box that holds the beads? Spares most
+   facets the look at every bead. */
+static int beyond_box(const swarm *beads, const double point[3], double far)
+{
+    const double squared = beads->stretch * beads->stretch;
+    double d[3], sum = 0;
+
+    ellipsoid_difference(point, beads->centre, d);
+    for (int i = 0; i < 3; i++)
+    {
+        const double along = beads->rotation[0][i] * d[0]
+                           + beads->rotation[1][i] * d[1]
+                           + beads->rotation[2][i] * d[2];
+        const double out = fmax(fabs(along) / squared - beads->half_box[i], 0);
+
+        sum += out * out;
     }
-    return size;
+    return squared * sum > far * far;
 }
 
 /* Fills the pairs; their number, or -1 if they are too many. */
@@ -202,16 +217,22 @@ static int collect_pairs(const ellipsoid_facet_list *list, const swarm *beads,
     for (int k = 0; k < list->count; k++)
     {
         const ellipsoid_facet *facet = &list->facets[list->index[k]];
-        double squared[ELLIPSOID_MAX_BEADS];
-        const double far =
-            1.000001 * (reach + margin) + sqrt(measure(facet, beads, squared));
+        double middle[3];
+        const double size = bound(facet, middle);
+        const double far = 1.000001 * (reach + margin) + size;
 
+        if (beyond_box(beads, middle, far))
+        {
+            continue;
+        }
         for (int b = 0; b < beads->count; b++)
         {
             const double centre[3] = {beads->x[0][b], beads->x[1][b],
                                       beads->x[2][b]};
+            double d[3];
 
-            if (squared[b] > far * far
+            ellipsoid_difference(centre, middle, d);
+            if (ellipsoid_dot(d, d) > far * far
                 || !ellipsoid_facet_concerns(facet, centre, reach, margin))
             {
                 continue;
@@ -260,8 +281,11 @@ static ellipsoid_status fill(ellipsoid_contact_cache *cache,
         return ELLIPSOID_NON_FINITE;
     }
 
-    status = list_facets(surroundings, x, model->reach + horizon + margin,
-                         &list);
+    /* what can matter in this pose lies within */
+    const double reach =
+        (model->reach - radius) * product(q, q) + radius + horizon;
+
+    status = list_facets(surroundings, x, reach + margin, &list);
     if (status != ELLIPSOID_OK)
     {
         return status;
@@ -270,27 +294,26 @@ static ellipsoid_status fill(ellipsoid_contact_cache *cache,
     memcpy(cache->q, q, sizeof cache->q);
     cache->facets = list.facets;
 
-    cache->clearance = nearest_facet(&list, x) - (model->reach + horizon);
-    if (isnan(cache->clearance))
+    double nearest = nearest_facet(&list, x);
+
+    if (isnan(nearest))
     {
         return ELLIPSOID_NON_FINITE;
     }
-    if (cache->clearance >= 0.5 * margin)
+    if (nearest - reach >= 0.5 * margin)
     {
-        /* Far from all walls: a wider look spares many later ones. It may
-           fail where the first did not, and is then not needed. */
-        if (list_facets(surroundings, x, 2 * (model->reach + horizon), &list)
-            == ELLIPSOID_OK)
+        /* Far from all walls. If they do not say how far, a wider look spares
+           many later ones; it may fail where the first did not. */
+        if (nearest >= list.reach && list.reach <= reach + margin
+            && list_facets(surroundings, x, 2 * reach, &list) == ELLIPSOID_OK)
         {
-            cache->clearance = fmax(cache->clearance,
-                                    nearest_facet(&list, x)
-                                        - (model->reach + horizon));
+            nearest = fmax(nearest, nearest_facet(&list, x));
         }
+        cache->clearance = nearest - reach;
         cache->valid = 1;
         return ELLIPSOID_OK;
     }
 
-    cache->clearance = 0;
     place_beads(model, x, q, &beads);
     for (int i = 0; i < ATTEMPTS; i++, margin *= smaller)
     {

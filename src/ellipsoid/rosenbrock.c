@@ -64,111 +64,180 @@ ellipsoid_status ellipsoid_problem_evaluate(const ellipsoid_problem *problem,
 /*
     (g I - J) k = r with g = 1/(gamma h). As dx/dt = u, k_x = (r_x + k_u)/g; as
     Q^2 = -|omega|^2 I, (g I - Q/2)^-1 = (g I + Q/2)/(g^2 + |omega|^2/4) gives
-    k_q from k_omega. A dense 6x6 system in (k_u, k_omega) is left.
+    k_q from k_omega. A dense 6x6 system in (k_u, k_omega) is left. The solution
+    is wanted six times, hence explicit matrices instead of substitutions, in
+    which each number waits for the one before.
 */
 typedef struct stage_system
 {
-    const ellipsoid_state *state;
-    double g, per_g;
-    double per_square;         /* 1/(g^2 + |omega|^2/4) */
-    double length;             /* scales the rows of omega to those of u */
-    double ux[3][3], wx[3][3]; /* blocks / g */
-    double uq[3][4], wq[3][4]; /* blocks (g I - Q/2)^-1 */
-    double lu[6][6], per_pivot[6];
-    int swap[6];
+    double per_g;
+    double to_rates[SIZE][6]; /* transposed: (k_u, k_omega) from r */
+    double q_from_q[4][4];    /* transposed: k_q from r_q */
+    double q_from_w[3][4];    /* transposed: k_q from k_omega */
 } stage_system;
 
-/* LU with row exchanges; 0 if the matrix is singular. */
-static int factor(stage_system *s)
+/* What is needed on the way there. */
+typedef struct elimination
 {
+    const ellipsoid_state *state;
+    double g, per_g;
+    double per_square;    /* 1/(g^2 + |omega|^2/4) */
+    double x[6][3];       /* blocks / g, rows u then omega */
+    double q[6][4];       /* blocks (g I - Q/2)^-1 */
+    double inverse[6][6]; /* transposed */
+} elimination;
+
+static inline double dot4(const double a[4], const double b[4])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+}
+
+static inline void swap(double *a, double *b)
+{
+    const double kept = *a;
+
+    *a = *b;
+    *b = kept;
+}
+
+/* In place, by Gauss and Jordan with row exchanges; 0 if it is singular. */
+static int invert(double m[6][6])
+{
+    int exchanged[6];
+
     for (int c = 0; c < 6; c++)
     {
         int p = c;
 
         for (int i = c + 1; i < 6; i++)
         {
-            if (fabs(s->lu[i][c]) > fabs(s->lu[p][c]))
-            {
-                p = i;
-            }
+            p = fabs(m[i][c]) > fabs(m[p][c]) ? i : p;
         }
-        s->swap[c] = p;
+        exchanged[c] = p;
         if (p != c)
         {
-            double row[6];
-
-            memcpy(row, s->lu[p], sizeof(row));
-            memcpy(s->lu[p], s->lu[c], sizeof(row));
-            memcpy(s->lu[c], row, sizeof(row));
+            for (int n = 0; n < 6; n++)
+            {
+                swap(&m[p][n], &m[c][n]);
+            }
         }
-        if (!(fabs(s->lu[c][c]) > 0))
+        if (!(fabs(m[c][c]) > 0))
         {
             return 0;
         }
-        s->per_pivot[c] = 1 / s->lu[c][c];
-        for (int i = c + 1; i < 6; i++)
-        {
-            const double f = s->lu[i][c] * s->per_pivot[c];
 
-            s->lu[i][c] = f;
-            for (int j = c + 1; j < 6; j++)
+        const double per_pivot = 1 / m[c][c];
+
+        m[c][c] = 1;
+        for (int n = 0; n < 6; n++)
+        {
+            m[c][n] *= per_pivot;
+        }
+        for (int i = 0; i < 6; i++)
+        {
+            const double f = m[i][c];
+
+            if (i == c)
             {
-                s->lu[i][j] -= f * s->lu[c][j];
+                continue;
             }
+            m[i][c] = 0;
+            for (int n = 0; n < 6; n++)
+            {
+                m[i][n] -= f * m[c][n];
+            }
+        }
+    }
+    for (int c = 5; c >= 0; c--)
+    {
+        for (int n = 0; exchanged[c] != c && n < 6; n++)
+        {
+            swap(&m[n][c], &m[n][exchanged[c]]);
         }
     }
     return 1;
 }
 
-static void substitute(const stage_system *s, double b[6])
-{
-    for (int c = 0; c < 6; c++)
-    {
-        const double swapped = b[s->swap[c]];
-
-        b[s->swap[c]] = b[c];
-        b[c] = swapped;
-    }
-    for (int i = 1; i < 6; i++)
-    {
-        for (int c = 0; c < i; c++)
-        {
-            b[i] -= s->lu[i][c] * b[c];
-        }
-    }
-    for (int i = 5; i >= 0; i--)
-    {
-        for (int c = i + 1; c < 6; c++)
-        {
-            b[i] -= s->lu[i][c] * b[c];
-        }
-        b[i] *= s->per_pivot[i];
-    }
-}
-
-/* row (g I - Q/2)^-1; Q is antisymmetric, hence the sign. */
-static void eliminate_quaternion(const stage_system *s, const double row[4],
-                                 double result[4])
+/* (g I + sign Q/2) v / (g^2 + |omega|^2/4): the inverse of g I - sign Q/2.
+   Q is antisymmetric, so a row is multiplied by it with the sign reversed. */
+static inline void turn(const elimination *e, double sign, const double v[4],
+                        double result[4])
 {
     double turned[4];
 
-    ellipsoid_spin(s->state->omega, row, turned);
+    ellipsoid_spin(e->state->omega, v, turned);
     for (int n = 0; n < 4; n++)
     {
-        result[n] = s->per_square * (s->g * row[n] - 0.5 * turned[n]);
+        result[n] = e->per_square * (e->g * v[n] + sign * 0.5 * turned[n]);
     }
 }
 
-/* -row d(Q(omega) q / 2)/domega */
-static void coupling(const double row[4], const double q[4], double result[3])
+/* -row d(Q(omega) q / 2)/domega_i, i, j, k cyclic */
+static inline double coupling(const double row[4], const double q[4], int i,
+                              int j, int k)
 {
+    return -0.5
+         * (row[i] * q[3] + row[j] * q[k] - row[k] * q[j] - row[3] * q[i]);
+}
+
+/*
+    One row of the 6x6 matrix, as a column of the transposed one. In it omega
+    is scaled by a length, for the search of pivots.
+*/
+static inline void eliminate_row(elimination *e, int row, const double of_u[3],
+                                 const double of_x[3], const double of_w[3],
+                                 const double of_q[4], double scale_u,
+                                 double scale_w)
+{
+    const double *q = e->state->q;
+
+    turn(e, -1, of_q, e->q[row]);
+    for (int n = 0; n < 3; n++)
+    {
+        e->x[row][n] = e->per_g * of_x[n];
+        e->inverse[n][row] = -scale_u * (of_u[n] + e->x[row][n]);
+    }
+    e->inverse[3][row] = scale_w * (coupling(e->q[row], q, 0, 1, 2) - of_w[0]);
+    e->inverse[4][row] = scale_w * (coupling(e->q[row], q, 1, 2, 0) - of_w[1]);
+    e->inverse[5][row] = scale_w * (coupling(e->q[row], q, 2, 0, 1) - of_w[2]);
+    e->inverse[row][row] += e->g;
+}
+
+/* result = inverse column, column given as every stride-th number. */
+static inline void apply_inverse(const elimination *e, const double *column,
+                                 int stride, double result[6])
+{
+    for (int n = 0; n < 6; n++)
+    {
+        double sum = e->inverse[0][n] * column[0];
+
+        for (int i = 1; i < 6; i++)
+        {
+            sum += e->inverse[i][n] * column[i * stride];
+        }
+        result[n] = sum;
+    }
+}
+
+static void fill_quaternion_part(const elimination *e, stage_system *s)
+{
+    const double *q = e->state->q;
+    const double spin[3][4] = {
+        {0.5 * q[3], 0.5 * q[2], -0.5 * q[1], -0.5 * q[0]},
+        {-0.5 * q[2], 0.5 * q[3], 0.5 * q[0], -0.5 * q[1]},
+        {0.5 * q[1], -0.5 * q[0], 0.5 * q[3], -0.5 * q[2]}};
+    const double *w = e->state->omega;
+    const double c = e->per_square, d = c * e->g;
+    const double a0 = 0.5 * c * w[0], a1 = 0.5 * c * w[1], a2 = 0.5 * c * w[2];
+    const double table[4][4] = {{d, -a2, a1, -a0},
+                                {a2, d, -a0, -a1},
+                                {-a1, a0, d, -a2},
+                                {a0, a1, a2, d}};
+
+    memcpy(s->q_from_q, table, sizeof(table));
     for (int i = 0; i < 3; i++)
     {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-
-        result[i] =
-            -0.5
-            * (row[i] * q[3] + row[j] * q[k] - row[k] * q[j] - row[3] * q[i]);
+        turn(e, 1, spin[i], s->q_from_w[i]);
     }
 }
 
@@ -176,84 +245,141 @@ static void coupling(const double row[4], const double q[4], double result[3])
 static int prepare(stage_system *s, const ellipsoid_point *start, double h,
                    double length)
 {
+    static const double none[3] = {0, 0, 0};
     const ellipsoid_blocks *b = &start->blocks;
     const double *w = start->state.omega;
+    elimination e;
 
-    s->state = &start->state;
-    s->per_g = ellipsoid_rodas4.gamma * h;
-    s->g = 1 / s->per_g;
-    s->per_square = 1 / (s->g * s->g + 0.25 * ellipsoid_dot(w, w));
-    s->length = length;
+    e.state = &start->state;
+    e.per_g = ellipsoid_rodas4.gamma * h;
+    e.g = 1 / e.per_g;
+    e.per_square = 1 / (e.g * e.g + 0.25 * ellipsoid_dot(w, w));
 
     for (int i = 0; i < 3; i++)
     {
-        double *u_row = s->lu[i], *w_row = s->lu[i + 3];
-
-        eliminate_quaternion(s, b->uq[i], s->uq[i]);
-        eliminate_quaternion(s, b->wq[i], s->wq[i]);
-        coupling(s->uq[i], start->state.q, u_row + 3);
-        coupling(s->wq[i], start->state.q, w_row + 3);
-        for (int j = 0; j < 3; j++)
-        {
-            s->ux[i][j] = s->per_g * b->ux[i][j];
-            s->wx[i][j] = s->per_g * b->wx[i][j];
-            u_row[j] = -b->uu[i][j] - s->ux[i][j];
-            w_row[j] = -s->wx[i][j] * length;
-            w_row[j + 3] = (w_row[j + 3] - b->ww[i][j]) * length;
-        }
-        u_row[i] += s->g;
-        w_row[i + 3] += s->g * length;
+        eliminate_row(&e, i, b->uu[i], b->ux[i], none, b->uq[i], 1, 1 / length);
+        eliminate_row(&e, i + 3, none, b->wx[i], b->ww[i], b->wq[i], length, 1);
     }
-    return factor(s);
+    if (!invert(e.inverse))
+    {
+        return 0;
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        for (int n = 3; n < 6; n++)
+        {
+            e.inverse[i][n] /= length;
+            e.inverse[n][i] *= length;
+        }
+    }
+
+    s->per_g = e.per_g;
+    memcpy(s->to_rates[U], e.inverse[0], 3 * sizeof(e.inverse[0]));
+    memcpy(s->to_rates[W], e.inverse[3], 3 * sizeof(e.inverse[0]));
+    for (int n = 0; n < 3; n++)
+    {
+        apply_inverse(&e, &e.x[0][n], 3, s->to_rates[X + n]);
+    }
+    for (int n = 0; n < 4; n++)
+    {
+        apply_inverse(&e, &e.q[0][n], 4, s->to_rates[Q + n]);
+    }
+    fill_quaternion_part(&e, s);
+    return 1;
 }
 
-static void solve(const stage_system *s, const double r[SIZE], double k[SIZE])
+static inline void solve(const stage_system *s, const double r[SIZE],
+                         double k[SIZE])
 {
-    double b[6], turned[4], v[4];
+    double a[6], q[4];
 
-    for (int i = 0; i < 3; i++)
+    for (int n = 0; n < 6; n++)
     {
-        double u = r[U + i], w = r[W + i];
-
-        for (int j = 0; j < 3; j++)
-        {
-            u += s->ux[i][j] * r[X + j];
-            w += s->wx[i][j] * r[X + j];
-        }
-        for (int n = 0; n < 4; n++)
-        {
-            u += s->uq[i][n] * r[Q + n];
-            w += s->wq[i][n] * r[Q + n];
-        }
-        b[i] = u;
-        b[i + 3] = w * s->length;
+        a[n] = s->to_rates[0][n] * r[0];
     }
-    substitute(s, b);
-    for (int i = 0; i < 3; i++)
+    for (int i = 1; i < SIZE; i++)
     {
-        k[U + i] = b[i];
-        k[X + i] = s->per_g * (r[X + i] + b[i]);
-        k[W + i] = b[i + 3];
+        for (int n = 0; n < 6; n++)
+        {
+            a[n] += s->to_rates[i][n] * r[i];
+        }
     }
-    ellipsoid_spin(k + W, s->state->q, turned);
     for (int n = 0; n < 4; n++)
     {
-        v[n] = r[Q + n] + 0.5 * turned[n];
+        q[n] = (s->q_from_q[0][n] * r[Q] + s->q_from_q[1][n] * r[Q + 1])
+             + (s->q_from_q[2][n] * r[Q + 2] + s->q_from_q[3][n] * r[Q + 3])
+             + (s->q_from_w[0][n] * a[3] + s->q_from_w[1][n] * a[4]
+                + s->q_from_w[2][n] * a[5]);
     }
-    ellipsoid_spin(s->state->omega, v, turned);
-    for (int n = 0; n < 4; n++)
+    for (int i = 0; i < 3; i++)
     {
-        k[Q + n] = s->per_square * (s->g * v[n] + 0.5 * turned[n]);
+        k[U + i] = a[i];
+        k[X + i] = s->per_g * (r[X + i] + a[i]);
+        k[W + i] = a[i + 3];
     }
+    memcpy(k + Q, q, sizeof(q));
 }
 
 /* --------------------------------------------------------------- a step */
+
+/* sum_j<count weight[j] k_j; inlined with a constant count. */
+static inline void weighted_sum(double k[][SIZE], const double *weight,
+                                int count, double sum[SIZE])
+{
+    for (int n = 0; n < SIZE; n++)
+    {
+        double s = weight[0] * k[0][n];
+
+        for (int j = 1; j < count; j++)
+        {
+            s += weight[j] * k[j][n];
+        }
+        sum[n] = s;
+    }
+}
+
+static inline void stage_sums(double k[][SIZE], int stage, double a[SIZE],
+                              double c[SIZE])
+{
+    const double *wa = ellipsoid_rodas4.a[stage];
+    const double *wc = ellipsoid_rodas4.c[stage];
+
+    switch (stage)
+    {
+        case 1:
+            weighted_sum(k, wa, 1, a);
+            weighted_sum(k, wc, 1, c);
+            break;
+        case 2:
+            weighted_sum(k, wa, 2, a);
+            weighted_sum(k, wc, 2, c);
+            break;
+        case 3:
+            weighted_sum(k, wa, 3, a);
+            weighted_sum(k, wc, 3, c);
+            break;
+        case 4:
+            weighted_sum(k, wa, 4, a);
+            weighted_sum(k, wc, 4, c);
+            break;
+        default:
+            weighted_sum(k, wa, 5, a);
+            weighted_sum(k, wc, 5, c);
+    }
+}
+
+static inline void keep_sample(ellipsoid_stages *stages, int stage,
+                               const ellipsoid_state *state, double gap)
+{
+    memcpy(stages->x[stage], state->x, sizeof(state->x));
+    memcpy(stages->q[stage], state->q, sizeof(state->q));
+    stages->gap[stage] = gap;
+}
 
 ellipsoid_status ellipsoid_rosenbrock_step(const ellipsoid_problem *problem,
                                            const ellipsoid_point *start,
                                            double h, ellipsoid_stages *stages)
 {
-    const ellipsoid_rosenbrock_table *table = &ellipsoid_rodas4;
     const double per_h = 1 / h;
     stage_system system;
     double y0[SIZE], r[SIZE];
@@ -265,79 +391,80 @@ ellipsoid_status ellipsoid_rosenbrock_step(const ellipsoid_problem *problem,
     memcpy(y0, &start->state, sizeof(y0));
     memcpy(r, &start->derivative, sizeof(r));
     solve(&system, r, stages->k[0]);
+    if (problem->walls)
+    {
+        keep_sample(stages, 0, &start->state, start->contact.gap);
+    }
 
     for (int i = 1; i < ELLIPSOID_STAGES; i++)
     {
-        ellipsoid_state state, derivative;
+        union
+        {
+            ellipsoid_state state;
+            double y[SIZE];
+        } at, rate;
         ellipsoid_contact contact;
         ellipsoid_status status;
-        double change[SIZE] = {0}, sum = 0;
+        double change[SIZE];
 
-        memcpy(stages->y, y0, sizeof(y0));
-        for (int j = 0; j < i; j++)
-        {
-            const double aij = table->a[i][j], cij = table->c[i][j] * per_h;
-
-            for (int n = 0; n < SIZE; n++)
-            {
-                stages->y[n] += aij * stages->k[j][n];
-                change[n] += cij * stages->k[j][n];
-            }
-        }
+        stage_sums(stages->k, i, at.y, change);
         for (int n = 0; n < SIZE; n++)
         {
-            sum += stages->y[n];
+            at.y[n] += y0[n];
         }
-        if (!isfinite(sum))
+        /* the callbacks are never asked about nowhere */
+        if (!isfinite(at.y[X] + at.y[X + 1] + at.y[X + 2]
+                      + dot4(at.y + Q, at.y + Q)))
         {
             return ELLIPSOID_NON_FINITE;
         }
-        memcpy(&state, stages->y, sizeof(state));
-        status = ellipsoid_problem_evaluate(problem, &state, &derivative,
+        status = ellipsoid_problem_evaluate(problem, &at.state, &rate.state,
                                             &contact, NULL);
         if (status != ELLIPSOID_OK)
         {
             return status;
         }
-        memcpy(r, &derivative, sizeof(r));
+        if (problem->walls)
+        {
+            keep_sample(stages, i, &at.state, contact.gap);
+        }
         for (int n = 0; n < SIZE; n++)
         {
-            r[n] += change[n];
+            rate.y[n] += per_h * change[n];
         }
-        solve(&system, r, stages->k[i]);
-    }
-    for (int n = 0; n < SIZE; n++)
-    {
-        stages->y[n] += stages->k[ELLIPSOID_STAGES - 1][n];
+        solve(&system, rate.y, stages->k[i]);
+        if (i == ELLIPSOID_STAGES - 1)
+        {
+            for (int n = 0; n < SIZE; n++)
+            {
+                stages->y[n] = at.y[n] + stages->k[i][n];
+            }
+        }
     }
     return ELLIPSOID_OK;
 }
 
-void ellipsoid_rosenbrock_dense(const ellipsoid_stages *stages,
+void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,
                                 double dense[2][ELLIPSOID_STATE_SIZE])
 {
-    for (int d = 0; d < 2; d++)
-    {
-        for (int n = 0; n < SIZE; n++)
-        {
-            double sum = 0;
-
-            for (int j = 0; j < ELLIPSOID_STAGES - 1; j++)
-            {
-                sum += ellipsoid_rodas4.dense[d][j] * stages->k[j][n];
-            }
-            dense[d][n] = sum;
-        }
-    }
+    weighted_sum(stages->k, ellipsoid_rodas4.dense[0], ELLIPSOID_STAGES - 1,
+                 dense[0]);
+    weighted_sum(stages->k, ellipsoid_rodas4.dense[1], ELLIPSOID_STAGES - 1,
+                 dense[1]);
 }
 
-/* Hairer & Wanner II, the continuous output of code RODAS. */
+/* Continuous output of code RODAS; at its ends the step's own states. */
 void ellipsoid_step_state(const ellipsoid_step *step, double t,
                           ellipsoid_state *state)
 {
     const double s = (t - step->start) / (step->end - step->start);
     double before[SIZE], after[SIZE], y[SIZE];
 
+    if (t <= step->start || t >= step->end)
+    {
+        *state = t <= step->start ? step->before : step->after;
+        return;
+    }
     memcpy(before, &step->before, sizeof(before));
     memcpy(after, &step->after, sizeof(after));
     for (int n = 0; n < SIZE; n++)

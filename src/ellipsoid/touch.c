@@ -32,6 +32,9 @@ static const double same = 1e-8;
 /* Cosines between which contacts share fully (near 1) or not at all. */
 static const double share_all = 0.8, share_none = 0.5;
 
+/* The part of a common claim beyond which a contact is about to end. */
+static const double spared_first = 0.75;
+
 typedef struct contacts
 {
     int count;
@@ -183,8 +186,9 @@ typedef struct mix
     int count;
     double turn[MAX_CONTACTS][3][3];
     scalar force[MAX_CONTACTS]; /* f_i */
-    scalar share[MAX_CONTACTS]; /* phi_i */
 } mix;
+
+static const scalar unity = {1, {0, 0, 0}};
 
 /* n_i.n_j */
 static scalar cosine(const contacts *all, const mix *m, int i, int j)
@@ -200,49 +204,56 @@ static scalar cosine(const contacts *all, const mix *m, int i, int j)
     return c;
 }
 
-/* s_i f_i, see above */
-static scalar claim(const contacts *all, const mix *m, const scalar *c, int i,
-                    int j)
+/* s_i times i's weight, see above */
+static scalar claim(const contacts *all, const scalar *weight, const scalar *c,
+                    int i, int j)
 {
     const ellipsoid_nearest *a = &all->at[i], *b = &all->at[j];
     const double s = b->height - c->value * a->height;
-    const scalar *f = &m->force[i];
     scalar result = {0, {0, 0, 0}};
 
     if (s > 0)
     {
-        result.value = s * f->value;
+        result.value = s * weight[i].value;
         for (int k = 0; k < 3; k++)
         {
-            result.gradient[k] = s * f->gradient[k]
-                + f->value * (b->normal[k] - c->value * a->normal[k]
-                              - a->height * c->gradient[k]);
+            result.gradient[k] = s * weight[i].gradient[k]
+                + weight[i].value * (b->normal[k] - c->value * a->normal[k]
+                                     - a->height * c->gradient[k]);
         }
     }
     return result;
 }
 
-/* Takes from phi what a neighbour claims: phi *= 1 - degree other/total. */
+/* Takes from phi what of another's claim exceeds a part `spared` of both:
+   phi *= 1 - degree (other/total - spared)/(1 - spared). */
 static void concede(scalar *phi, const scalar *degree, const scalar *other,
-                    const scalar *own)
+                    const scalar *own, double spared)
 {
     const double total = other->value + own->value;
     const double part = other->value / total;
-    const double factor = 1 - degree->value * part;
+    const double taken = (part - spared) / (1 - spared);
+    const double factor = 1 - degree->value * taken;
 
+    if (!(taken > 0))
+    {
+        return;
+    }
     for (int k = 0; k < 3; k++)
     {
         const double part_gradient =
             ((1 - part) * other->gradient[k] - part * own->gradient[k]) / total;
 
         phi->gradient[k] = phi->gradient[k] * factor
-            - phi->value * (degree->gradient[k] * part
-                            + degree->value * part_gradient);
+            - phi->value * (degree->gradient[k] * taken
+                            + degree->value * part_gradient / (1 - spared));
     }
     phi->value *= factor;
 }
 
-static void share_out(const contacts *all, mix *m)
+/* Every two contacts share out what they cover both. */
+static void share_out(const contacts *all, const mix *m, const scalar *weight,
+                      double spared, scalar *share)
 {
     for (int i = 0; i < m->count; i++)
     {
@@ -258,8 +269,8 @@ static void share_out(const contacts *all, mix *m)
                 continue;
             }
 
-            const scalar mine = claim(all, m, &c, i, j);
-            const scalar other = claim(all, m, &c, j, i);
+            const scalar mine = claim(all, weight, &c, i, j);
+            const scalar other = claim(all, weight, &c, j, i);
 
             if (!(mine.value + other.value > 0))
             {
@@ -269,9 +280,47 @@ static void share_out(const contacts *all, mix *m)
             {
                 degree.gradient[k] = c.gradient[k] / (share_all - share_none);
             }
-            concede(&m->share[i], &degree, &other, &mine);
-            concede(&m->share[j], &degree, &mine, &other);
+            concede(&share[i], &degree, &other, &mine, spared);
+            concede(&share[j], &degree, &mine, &other, spared);
         }
+    }
+}
+
+static scalar product(const scalar *a, const scalar *b)
+{
+    scalar result = {a->value * b->value, {0, 0, 0}};
+
+    for (int k = 0; k < 3; k++)
+    {
+        result.gradient[k] =
+            a->gradient[k] * b->value + a->value * b->gradient[k];
+    }
+    return result;
+}
+
+/*
+    g_i = f_i phi_i in two rounds. The first, by heights alone, lets go of those
+    about to end, so that in the second they claim nothing from third ones.
+*/
+static void weigh(const contacts *all, const mix *m, scalar *weight)
+{
+    scalar one[MAX_CONTACTS], share[MAX_CONTACTS];
+
+    for (int i = 0; i < m->count; i++)
+    {
+        one[i] = share[i] = unity;
+    }
+    share_out(all, m, one, spared_first, share);
+    for (int i = 0; i < m->count; i++)
+    {
+        weight[i] = product(&m->force[i], &share[i]);
+        share[i] = unity;
+    }
+    memcpy(one, weight, m->count * sizeof *one);
+    share_out(all, m, one, 0, share);
+    for (int i = 0; i < m->count; i++)
+    {
+        weight[i] = product(&one[i], &share[i]);
     }
 }
 
@@ -327,7 +376,6 @@ static void combine(const ellipsoid_bead *bead, const contacts *all,
 
         turning(&all->at[i], m.turn[i]);
         m.force[i].value = root * depth;
-        m.share[i].value = 1;
         for (int k = 0; k < 3; k++)
         {
             m.force[i].gradient[k] = -1.5 * root * all->at[i].normal[k];
@@ -339,18 +387,7 @@ static void combine(const ellipsoid_bead *bead, const contacts *all,
         return;
     }
 
-    share_out(all, &m);
-    for (int i = 0; i < m.count; i++)
-    {
-        const scalar *f = &m.force[i], *phi = &m.share[i];
-
-        weight[i].value = f->value * phi->value;
-        for (int k = 0; k < 3; k++)
-        {
-            weight[i].gradient[k] =
-                f->gradient[k] * phi->value + f->value * phi->gradient[k];
-        }
-    }
+    weigh(all, &m, weight);
     for (int i = 0; i < m.count; i++)
     {
         const scalar *f = &m.force[i], *g = &weight[i];

@@ -94,8 +94,7 @@ void Foam::cellInjection::readOrientation()
 
 bool Foam::cellInjection::overlaps(const newCell& cell) const
 {
-    wallFacets::neighbourhood near;
-    cellSurroundings here(flow_, walls_, cell.at, near);
+    cellSurroundings here(flow_, walls_, cell.at);
     const ellipsoid_surroundings around(here.core());
 
     int cuts = 0;

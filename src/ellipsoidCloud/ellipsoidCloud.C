@@ -17,7 +17,7 @@ License
 #include "clockTime.H"
 
 #include <algorithm>
-#include <limits>
+#include <cfenv>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -31,10 +31,9 @@ namespace Foam
     //- What the observer of a cell's steps needs
     struct cellJourney
     {
-        const frozenFlow& flow;
+        cellSurroundings& here;
         cellTracks& tracks;
         cellState& cell;
-        frozenFlow::probe at;
         frozenFlow::placeType place;
         ellipsoid_step last;
     };
@@ -44,11 +43,8 @@ namespace Foam
     {
         cellJourney& journey = *static_cast<cellJourney*>(context);
 
-        const frozenFlow::probe before(journey.at);
-
         journey.last = *step;
-        journey.place =
-            journey.flow.place(pointOf(step->after.x), journey.at);
+        journey.place = journey.here.settle(pointOf(step->after.x));
 
         if (journey.place == frozenFlow::pInside)
         {
@@ -56,7 +52,6 @@ namespace Foam
             return 0;
         }
 
-        journey.at.tet = before.tet;
         return 1;
     }
 }
@@ -168,7 +163,7 @@ void Foam::ellipsoidCloud::inject(const scalar start, const scalar end)
 }
 
 
-void Foam::ellipsoidCloud::stopAtPatch
+Foam::label Foam::ellipsoidCloud::stopAtPatch
 (
     const frozenFlow& flow,
     const ellipsoid_step& step,
@@ -179,6 +174,7 @@ void Foam::ellipsoidCloud::stopAtPatch
     // Bisection: inside at the start of the step, beyond at its end
     scalar inside = step.start;
     scalar beyond = step.end;
+    label patchi = -1;
 
     for (label i = 0; i < 40; ++i)
     {
@@ -188,30 +184,44 @@ void Foam::ellipsoidCloud::stopAtPatch
         const frozenFlow::placeType place =
             flow.place(pointOf(cell.body.x), at);
 
-        (place == frozenFlow::pInside ? inside : beyond) = middle;
+        if (place == frozenFlow::pInside)
+        {
+            inside = middle;
+        }
+        else
+        {
+            beyond = middle;
+            patchi = at.patch;
+        }
     }
 
     ellipsoid_step_state(&step, inside, &cell.body);
     cell.time = inside;
+
+    return patchi;
 }
 
 
 bool Foam::ellipsoidCloud::move(ellipsoidParcel& parcel, const scalar end)
 {
     cellState& cell = parcel.state();
-    ellipsoidParcel::cache& cache = parcel.surroundings();
     const frozenFlow::probe at{cell.tet, -1};
 
-    cellSurroundings here(*flow_, *walls_, at, cache.near);
+    cellSurroundings here(*flow_, *walls_, at);
     const ellipsoid_surroundings around(here.core());
 
     cellJourney journey
     {
-        *flow_, *tracks_, cell, at, frozenFlow::pInside, ellipsoid_step()
+        here, *tracks_, cell, frozenFlow::pInside, ellipsoid_step()
     };
 
     const point from(pointOf(cell.body.x));
     const scalar start = cell.time;
+
+    // The core answers what is not finite by a shorter step; OpenFOAM's traps
+    // would end the run
+    std::fenv_t traps;
+    std::feholdexcept(&traps);
 
     const ellipsoid_status status = ellipsoid_advance
     (
@@ -221,13 +231,15 @@ bool Foam::ellipsoidCloud::move(ellipsoidParcel& parcel, const scalar end)
         &cell.time,
         end,
         &cell.controller,
-        &cache.contact,
+        &parcel.cache(),
         observe,
         &journey,
         &totals_
     );
 
-    cell.tet = journey.at.tet;
+    std::fesetenv(&traps);
+
+    cell.tet = here.home().tet;
 
     const ellipsoid_contact& contact = journey.last.contact;
     cell.deepest = max(cell.deepest, contact.deepest);
@@ -253,9 +265,8 @@ bool Foam::ellipsoidCloud::move(ellipsoidParcel& parcel, const scalar end)
      && journey.place == frozenFlow::pBeyondOpen
     )
     {
-        stopAtPatch(*flow_, journey.last, journey.at, cell);
+        cell.patch = stopAtPatch(*flow_, journey.last, here.home(), cell);
         cell.fate = cellState::escaped;
-        cell.patch = journey.at.patch;
         statistics_->note(captureStatistics::escaped, cell);
     }
     else
@@ -424,7 +435,10 @@ Foam::ellipsoidCloud::ellipsoidCloud
     );
     walls_.reset
     (
-        new wallFacets(Pstream::master() ? &whole.mesh() : nullptr, length)
+        new wallFacets
+        (
+            Pstream::master() ? &whole.mesh() : nullptr, length
+        )
     );
     cellRank_ = whole.cellRank();
     cellLocal_ = whole.cellLocal();

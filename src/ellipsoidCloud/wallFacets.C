@@ -10,11 +10,12 @@ License
 #include "wallFacets.H"
 #include "wallPolyPatch.H"
 #include "polyMeshTetDecomposition.H"
-#include "triPointRef.H"
 #include "treeBoundBox.H"
+#include "triPointRef.H"
 #include "Pstream.H"
 
 #include <algorithm>
+#include <cmath>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -224,11 +225,66 @@ void Foam::wallFacets::setStars()
 }
 
 
+void Foam::wallFacets::setBalls()
+{
+    balls_.setSize(facets_.size());
+
+    forAll(balls_, faceti)
+    {
+        const triPointRef triangle(surface_[faceti].tri(surface_.points()));
+
+        ball& b = balls_[faceti];
+        b.middle = triangle.centre();
+        b.radius =
+            max
+            (
+                mag(triangle.a() - b.middle),
+                max(mag(triangle.b() - b.middle), mag(triangle.c() - b.middle))
+            );
+    }
+}
+
+
+const Foam::wallFacets::region& Foam::wallFacets::regionAt
+(
+    const point& x,
+    const scalar reach
+) const
+{
+    const FixedList<label, 3> key
+    ({
+        label(std::floor(x.x()/regionSize_)),
+        label(std::floor(x.y()/regionSize_)),
+        label(std::floor(x.z()/regionSize_))
+    });
+
+    region& here = regions_(key, region{-1, labelList()});
+
+    if (here.reach < reach)
+    {
+        const point corner(regionSize_*vector(key[0], key[1], key[2]));
+        const vector margin(reach*vector::one);
+
+        here.reach = reach;
+        here.facets = tree_->findBox
+        (
+            treeBoundBox
+            (
+                corner - margin, corner + regionSize_*vector::one + margin
+            )
+        );
+        std::sort(here.facets.begin(), here.facets.end());
+    }
+
+    return here;
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::wallFacets::wallFacets(const polyMesh* wholeMesh, const scalar searchMargin)
+Foam::wallFacets::wallFacets(const polyMesh* wholeMesh, const scalar length)
 :
-    margin_(searchMargin)
+    regionSize_(length)
 {
     List<labelledTri> triangles;
     pointField points;
@@ -248,18 +304,19 @@ Foam::wallFacets::wallFacets(const polyMesh* wholeMesh, const scalar searchMargi
     setFacets();
     setEdges();
     setStars();
+    setBalls();
 
     if (surface_.size())
     {
-        const boundBox box(points, false);
-        const vector margin(0.01*box.mag()*vector::one);
+        span_ = boundBox(points, false);
+        span_.inflate(0.01);
 
         tree_.reset
         (
             new indexedOctree<treeDataTriSurface>
             (
                 treeDataTriSurface(true, surface_, 1e-6),
-                treeBoundBox(box.min() - margin, box.max() + margin),
+                treeBoundBox(span_),
                 10,
                 10,
                 3
@@ -275,64 +332,48 @@ int Foam::wallFacets::list
 (
     const scalar centre[3],
     const scalar reach,
-    neighbourhood& near,
+    DynamicList<label>& listed,
     ellipsoid_facet_list& list
 ) const
 {
     const point c(pointOf(centre));
 
-    if (near.reach < 0 || mag(c - near.centre) + reach > near.reach)
+    listed.clear();
+    list.reach = reach;
+
+    if (facets_.empty())
     {
-        near.centre = c;
-        near.facets.clear();
-        near.reach = GREAT;
-
-        if (facets_.size())
+        list.reach = GREAT;
+    }
+    else if (!span_.contains(c))
+    {
+        return 1;
+    }
+    else
+    {
+        for (const label faceti : regionAt(c, reach).facets)
         {
-            near.reach = reach + margin_;
+            const ball& b = balls_[faceti];
 
-            const pointIndexHit nearest
-            (
-                tree_->findNearest(c, sqr(1000*near.reach))
-            );
-
-            const scalar distance =
-                nearest.hit() ? mag(nearest.hitPoint() - c) : 1000*near.reach;
-
-            if (distance > near.reach)
+            if (magSqr(c - b.middle) <= sqr(reach + b.radius))
             {
-                near.reach = distance;
+                listed.append(faceti);
             }
-            else
-            {
-                const vector half(vector::one*near.reach);
+        }
 
-                labelList found
-                (
-                    tree_->findBox(treeBoundBox(c - half, c + half))
-                );
-                std::sort(found.begin(), found.end());
+        if (listed.empty())
+        {
+            // As far as nothing is
+            const scalar far = 1000*reach;
+            const pointIndexHit nearest(tree_->findNearest(c, sqr(far)));
 
-                for (const label faceti : found)
-                {
-                    const triPointRef triangle
-                    (
-                        surface_[faceti].tri(surface_.points())
-                    );
-
-                    if (triangle.nearestPoint(c).distance() <= near.reach)
-                    {
-                        near.facets.append(faceti);
-                    }
-                }
-            }
+            list.reach = nearest.hit() ? mag(nearest.hitPoint() - c) : far;
         }
     }
 
     list.facets = facets_.cdata();
-    list.index = near.facets.cdata();
-    list.count = near.facets.size();
-    list.reach = near.reach - mag(c - near.centre);
+    list.index = listed.cdata();
+    list.count = listed.size();
 
     return 0;
 }

@@ -37,8 +37,8 @@ static inline void test_near(double actual, double expected, double tolerance,
 }
 
 #define assert_relative(actual, expected, tolerance)                           \
-    test_near(actual, expected, (tolerance)*fabs(expected), #actual, __FILE__, \
-              __LINE__)
+    test_near(actual, expected, (tolerance)*fabs((double)(expected)), #actual,     \
+              __FILE__, __LINE__)
 
 #define assert_ok(status) assert_int_equal(status, ELLIPSOID_OK)
 

@@ -241,22 +241,32 @@ static int number_vertices(const wall_mesh *mesh, int *vertex)
     return count;
 }
 
-/* Edge k of facet a is an edge of facet b too. */
-static void join(ellipsoid_facet *a, int k, const ellipsoid_facet *b)
+/*
+    Edge k of facet a is an edge of facet b too. Where more than two meet, as on
+    a baffle, the neighbour is the first met on turning through the fluid.
+*/
+static void join(ellipsoid_facet *a, int k, const ellipsoid_facet *b,
+                 double turned[3])
 {
     double t[3], own_inward[3];
 
     direction(a->vertex[k], a->vertex[(k + 1) % 3], t);
     cross(a->normal, t, own_inward);
-    cross(t, b->normal, a->edge_inward[k]);
-    memcpy(a->neighbour_normal[k], b->normal, sizeof b->normal);
 
-    const double turn = dot(own_inward, b->normal);
+    const double along = dot(a->normal, b->normal);
+    const double facing = dot(own_inward, b->normal);
+    const double turn =
+        along < 0 && fabs(facing) < flat ? -4 : atan2(facing, along);
 
-    a->edge[k] = fabs(turn) < flat && dot(a->normal, b->normal) > 0
-                     ? ELLIPSOID_EDGE_FLAT
-                 : turn > 0 ? ELLIPSOID_EDGE_CONCAVE
-                            : ELLIPSOID_EDGE_CONVEX;
+    if (turn > turned[k])
+    {
+        turned[k] = turn;
+        cross(t, b->normal, a->edge_inward[k]);
+        memcpy(a->neighbour_normal[k], b->normal, sizeof b->normal);
+        a->edge[k] = fabs(turn) < flat ? ELLIPSOID_EDGE_FLAT
+                     : turn > 0        ? ELLIPSOID_EDGE_CONCAVE
+                                       : ELLIPSOID_EDGE_CONVEX;
+    }
 }
 
 static void set_normal(ellipsoid_facet *f)
@@ -342,6 +352,7 @@ void wall_mesh_finish(wall_mesh *mesh)
     const int n = 3 * mesh->count;
     int *vertex = grown(NULL, n * sizeof *vertex);
     half_edge *edges = grown(NULL, n * sizeof *edges);
+    double *turned = grown(NULL, n * sizeof *turned);
     const int vertices = number_vertices(mesh, vertex);
 
     mesh->index = grown(NULL, mesh->count * sizeof *mesh->index);
@@ -358,22 +369,25 @@ void wall_mesh_finish(wall_mesh *mesh)
                                 c / 3, c % 3};
 
         edges[c] = edge;
+        turned[c] = -HUGE_VAL;
     }
     qsort(edges, n, sizeof *edges, compare_edges);
-    for (int e = 1; e < n; e++)
+    for (int e = 0; e < n; e++)
     {
-        if (compare_edges(&edges[e], &edges[e - 1]) == 0)
+        for (int o = e - 1; o >= 0 && compare_edges(&edges[e], &edges[o]) == 0;
+             o--)
         {
             ellipsoid_facet *a = &mesh->facets[edges[e].facet];
-            ellipsoid_facet *b = &mesh->facets[edges[e - 1].facet];
+            ellipsoid_facet *b = &mesh->facets[edges[o].facet];
 
-            join(a, edges[e].k, b);
-            join(b, edges[e - 1].k, a);
+            join(a, edges[e].k, b, turned + 3 * edges[e].facet);
+            join(b, edges[o].k, a, turned + 3 * edges[o].facet);
         }
     }
     set_stars(mesh, edges, n, vertex, vertices);
     free(vertex);
     free(edges);
+    free(turned);
 }
 
 int wall_mesh_list(void *context, const double centre[3], double reach,

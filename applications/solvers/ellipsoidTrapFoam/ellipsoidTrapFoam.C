@@ -13,8 +13,9 @@ Description
     Tracks rigid ellipsoids through a steady incompressible laminar flow.
 
     First the flow is solved, to residual targets and until it is steady, while
-    physical time stands still (see steadyFlow.H for the entries). Then the
-    ellipsoids move through the frozen flow over physical time.
+    physical time stands still. A flow that is steady as it was read is not
+    solved again. Then the ellipsoids move through the frozen flow over physical
+    time.
 
 Usage
     \b ellipsoidTrapFoam [OPTION]
@@ -23,8 +24,8 @@ Usage
       - \par -flowOnly
         Stop after the flow.
 
-    Reads U, p and (if there) phi from the start time, or from the latest
-    earlier time that has them. They are written only if they had to be solved.
+    Entries are described in steadyFlow.H, flowConvergence.H (flow) and
+    ellipsoidProperties.H (ellipsoids).
 
 SourceFiles
     ellipsoidTrapFoam.C
@@ -37,6 +38,7 @@ SourceFiles
 #include "Time.H"
 #include "fvMesh.H"
 #include "columnFvMesh.H"
+#include "ellipsoidCloud.H"
 #include "steadyFlow.H"
 
 using namespace Foam;
@@ -56,6 +58,12 @@ int main(int argc, char *argv[])
     #include "createTime.H"
     #include "createMesh.H"
 
+    const bool flowOnly = args.found("flowOnly");
+
+    // Read before the flow takes its time: bad input ends the run here
+    const scalar density =
+        flowOnly ? 0 : ellipsoidProperties(mesh).options().fluid_density;
+
     steadyFlow flow(mesh);
 
     if (!flow.converged())
@@ -64,7 +72,20 @@ int main(int argc, char *argv[])
         flow.write();
     }
 
-    flow.report();
+    flow.report(density);
+
+    if (!flowOnly)
+    {
+        ellipsoidCloud cells(flow.U(), flow.p());
+
+        while (runTime.loop())
+        {
+            cells.evolve();
+            runTime.write();
+        }
+
+        cells.finish();
+    }
 
     Info<< "End\n" << endl;
 

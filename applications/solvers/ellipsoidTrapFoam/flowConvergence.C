@@ -45,11 +45,9 @@ Foam::scalar Foam::flowConvergence::largestResidual
     scalar largest = 0;
     for (direction cmpt = 0; cmpt < vector::nComponents; ++cmpt)
     {
-        // Not max(), which would drop a NaN
-        const scalar residual = UPerf.initialResidual()[cmpt];
-        if (meanSqr[cmpt] > negligible && !(residual < largest))
+        if (meanSqr[cmpt] > negligible)
         {
-            largest = residual;
+            largest = max(largest, UPerf.initialResidual()[cmpt]);
         }
     }
 

@@ -23,6 +23,8 @@ License
 #include "fvmLaplacian.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
+#include "IOdictionary.H"
+#include "PstreamReduceOps.H"
 #include "sigFpe.H"
 #include "surfaceInterpolate.H"
 
@@ -48,8 +50,33 @@ static void forgetSolverPerformance(const fvMesh& mesh)
 }
 
 
-static dimensionedScalar readViscosity(const dictionary& dict)
+// Before an error that all ranks find: the master speaks for all, the others
+// wait to be ended with it
+static void leaveErrorToMaster()
 {
+    if (!Pstream::master())
+    {
+        label never = 0;
+        reduce(never, sumOp<label>());
+    }
+}
+
+
+static dimensionedScalar readViscosity(const fvMesh& mesh)
+{
+    const IOdictionary dict
+    (
+        IOobject
+        (
+            "transportProperties",
+            mesh.time().constant(),
+            mesh,
+            IOobject::MUST_READ,
+            IOobject::NO_WRITE,
+            false
+        )
+    );
+
     const word model(dict.getOrDefault<word>("transportModel", "Newtonian"));
     if (model != "Newtonian")
     {
@@ -108,6 +135,7 @@ static void checkFinite(const Field& field)
 
     if (!returnReduce(finite, andOp<bool>()))
     {
+        leaveErrorToMaster();
         FatalErrorInFunction
             << "A value of " << field.name() << " is not a finite number in"
             << nl << "    " << field.objectPath() << exit(FatalError);
@@ -326,19 +354,7 @@ Foam::steadyFlow::steadyFlow(const fvMesh& mesh)
         )
     ),
     instance_(mesh.time().findInstance(mesh.dbDir(), "U")),
-    transportProperties_
-    (
-        IOobject
-        (
-            "transportProperties",
-            mesh.time().constant(),
-            mesh,
-            IOobject::MUST_READ,
-            IOobject::NO_WRITE,
-            false
-        )
-    ),
-    nu_(readViscosity(transportProperties_)),
+    nu_(readViscosity(mesh)),
     U_(fieldIO("U", IOobject::MUST_READ), mesh),
     p_(fieldIO("p", IOobject::MUST_READ), mesh),
     phi_(fieldIO("phi", IOobject::READ_IF_PRESENT), fvc::flux(U_)),
@@ -400,6 +416,7 @@ void Foam::steadyFlow::solve()
     {
         if (iteration == maxIterations_)
         {
+            leaveErrorToMaster();
             FatalIOErrorInFunction(controls_)
                 << "The flow is not steady after " << iteration
                 << " iterations:" << nl
@@ -414,6 +431,7 @@ void Foam::steadyFlow::solve()
 
         if (!convergence_.sound())
         {
+            leaveErrorToMaster();
             FatalIOErrorInFunction(controls_)
                 << "The flow diverges: iteration " << iteration << " left "
                 << convergence_.measures().c_str() << ", mean speed "
@@ -453,7 +471,7 @@ void Foam::steadyFlow::write()
 }
 
 
-void Foam::steadyFlow::report() const
+void Foam::steadyFlow::report(const scalar density) const
 {
     scalar inflow = 0, inletArea = 0;
     scalar inP = 0, outflow = 0, outP = 0;
@@ -492,15 +510,9 @@ void Foam::steadyFlow::report() const
         Info<< "flow: mean inlet speed " << text(inflow/inletArea) << " m/s" << nl
             << "flow: pressure drop " << text(drop) << " m2/s2";
 
-        if (transportProperties_.found("rho"))
+        if (density > 0)
         {
-            const dimensionedScalar rho
-            (
-                "rho",
-                dimDensity,
-                transportProperties_
-            );
-            Info<< " (" << text(rho.value()*drop) << " Pa)";
+            Info<< " (" << text(density*drop) << " Pa)";
         }
         Info<< endl;
     }

@@ -1,0 +1,516 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    test_contact.c - the walls' force and torque on a cell in one pose, and that
+    the cache changes nothing but the cost.
+*/
+#include "coreTest.h"
+#include "wallMesh.h"
+
+static const double um = 1e-6;
+
+/* Walls that count their calls and answer as told. */
+typedef struct counted_walls
+{
+    wall_mesh *mesh;
+    int calls, answer;
+    double farther; /* [m] reach of the list beyond that asked for */
+} counted_walls;
+
+static int counted(void *context, const double centre[3], double reach,
+                   ellipsoid_facet_list *list)
+{
+    counted_walls *walls = context;
+
+    walls->calls++;
+    wall_mesh_list(walls->mesh, centre, reach + walls->farther, list);
+    return walls->answer;
+}
+
+static ellipsoid_surroundings around(counted_walls *walls)
+{
+    const ellipsoid_surroundings surroundings = {.walls = counted,
+                                                 .walls_context = walls};
+
+    return surroundings;
+}
+
+/* A box of fluid with a ridge and a step on its floor: all kinds of edges. */
+static wall_mesh room_of(int diagonal)
+{
+    const double low[3] = {-6 * um, -6 * um, 0};
+    const double high[3] = {6 * um, 6 * um, 12 * um};
+    const double ridge_low[3] = {0.5 * um, -4 * um, -1 * um};
+    const double ridge_high[3] = {1.5 * um, 4 * um, 2 * um};
+    wall_mesh mesh;
+
+    wall_mesh_init(&mesh);
+    wall_mesh_box(&mesh, low, high, 1, diagonal, 1);
+    wall_mesh_box(&mesh, ridge_low, ridge_high, 0, 1 - diagonal, 2);
+    wall_mesh_finish(&mesh);
+    return mesh;
+}
+
+static void lay(double q[4], double angle)
+{
+    const double axis[3] = {cos(angle), sin(angle), 0};
+
+    ellipsoid_quaternion_from_axis(axis, 0, q);
+}
+
+/*
+    A sphere on a plane under its weight: Hertz, F = 4/3 E* sqrt(R) d^1.5
+    (Johnson, Contact Mechanics (1985), eq. 4.23).
+*/
+static void test_sphere_on_a_plane(void **unused)
+{
+    ellipsoid_options options = ellipsoid_options_default();
+    wall_mesh mesh = room_of(0);
+    counted_walls walls = {.mesh = &mesh};
+    const ellipsoid_surroundings surroundings = around(&walls);
+    const double q[4] = {0.1, -0.5, 0.3, sqrt(1 - 0.01 - 0.25 - 0.09)};
+    static ellipsoid_contact_cache cache;
+    ellipsoid_contact contact;
+
+    (void)unused;
+    options.semi_axes[1] = 0.5 * um;
+    options.bead_count = 1;
+    options.bead_radius = 0.45 * um;
+
+    const ellipsoid_model model = test_model(&options);
+    const double weight = (model.mass - model.fluid_mass) * 9.81;
+    const double depth =
+        pow(weight / (4.0 / 3 * 1e6 * sqrt(0.45 * um)), 2.0 / 3);
+    const double x[3] = {-2 * um, 1 * um, 0.45 * um - depth};
+
+    ellipsoid_contact_cache_clear(&cache);
+    assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q, &cache,
+                                         &contact, NULL));
+    /* depth is 4e-7 of the radius, so it is known to 1e-9 of itself */
+    assert_relative(contact.force[2], weight, 1e-8);
+    assert_relative(contact.deepest, depth, 1e-8);
+    assert_relative(contact.gap, -depth, 1e-8);
+    assert_true(contact.force[0] == 0 && contact.force[1] == 0);
+    assert_true(ellipsoid_dot(contact.torque, contact.torque) == 0);
+    assert_int_equal(contact.touching_beads, 1);
+    assert_int_equal(contact.touched_count, 1);
+    assert_int_equal(contact.touched[0], 1);
+    wall_mesh_free(&mesh);
+}
+
+/* Standing on its pole, and lying on it: the envelope's figures. */
+static void test_standing_and_lying(void **unused)
+{
+    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_model model = test_model(&options);
+    const double up[3] = {0, 0, 1};
+    wall_mesh mesh = room_of(0);
+    counted_walls walls = {.mesh = &mesh};
+    const ellipsoid_surroundings surroundings = around(&walls);
+    static ellipsoid_contact_cache cache;
+    ellipsoid_contact contact;
+    double x[3] = {-2 * um, 1 * um, 1.999 * um}, q[4];
+    const double k = 4.0 / 3 * 1e6 * sqrt(0.285 * um);
+
+    (void)unused;
+    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_quaternion_from_axis(up, 0.3, q);
+    assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q, &cache,
+                                         &contact, NULL));
+    assert_int_equal(contact.touching_beads, 1);
+    assert_relative(contact.force[2], k * pow(1e-9, 1.5), 1e-6);
+    assert_near(contact.torque[0], 0, 1e-9 * contact.force[2] * um);
+
+    lay(q, 0.7);
+    x[2] = 0.5 * um;
+    assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q, &cache,
+                                         &contact, NULL));
+    assert_true(contact.gap > -0.03 * um && contact.gap < 0.06 * um);
+    wall_mesh_free(&mesh);
+}
+
+/* The sum over beads, from each bead's force alone. */
+static void assert_sum(const ellipsoid_model *model, const wall_mesh *mesh,
+                       const double x[3], const double q[4],
+                       const ellipsoid_contact *contact)
+{
+    const double radius = model->options.bead_radius;
+    const double stiffness =
+        4.0 / 3 * model->options.contact_modulus * sqrt(radius);
+    double rotation[3][3], force[3] = {0, 0, 0}, torque[3] = {0, 0, 0};
+    double lab_torque[3];
+
+    ellipsoid_rotation(q, rotation);
+    for (int b = 0; b < model->bead_count; b++)
+    {
+        double arm[3], centre[3], f[3], t[3];
+
+        for (int i = 0; i < 3; i++)
+        {
+            arm[i] = ellipsoid_dot(rotation[i], model->bead[b]);
+            centre[i] = x[i] + arm[i];
+        }
+        ellipsoid_bead_force(centre, radius, stiffness, mesh->facets,
+                             mesh->index, mesh->count, f, NULL);
+        ellipsoid_cross(arm, f, t);
+        for (int i = 0; i < 3; i++)
+        {
+            force[i] += f[i];
+            torque[i] += t[i];
+        }
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        lab_torque[i] = ellipsoid_dot(rotation[i], contact->torque);
+        assert_near(contact->force[i], force[i], 1e-20);
+        assert_near(lab_torque[i], torque[i], 1e-26);
+    }
+}
+
+/* Somewhere near the floor, the ridge, a wall or a corner. */
+static void random_pose(uint64_t *seed, double x[3], double q[4])
+{
+    x[0] = 6 * um * test_signed(seed);
+    x[1] = 6 * um * test_signed(seed);
+    x[2] = (0.4 + 2.5 * test_uniform(seed)) * um;
+    test_orientation(seed, q);
+}
+
+static void test_sum_over_beads(void **unused)
+{
+    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_model model = test_model(&options);
+    wall_mesh mesh = room_of(1);
+    counted_walls walls = {.mesh = &mesh};
+    const ellipsoid_surroundings surroundings = around(&walls);
+    static ellipsoid_contact_cache cache;
+    uint64_t seed = 1;
+    int touched = 0;
+
+    (void)unused;
+    ellipsoid_contact_cache_clear(&cache);
+    for (int n = 0; n < 2000; n++)
+    {
+        ellipsoid_contact contact;
+        double x[3], q[4];
+
+        random_pose(&seed, x, q);
+        assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+                                             &cache, &contact, NULL));
+        assert_sum(&model, &mesh, x, q, &contact);
+        touched += contact.touching_beads > 0;
+    }
+    assert_true(touched > 500);
+    wall_mesh_free(&mesh);
+}
+
+/*
+    A cell wanders; one cache goes along, another is emptied every time. All
+    results are the same bits, the Jacobian's and the gap's too.
+*/
+static void test_cache_changes_nothing(void **unused)
+{
+    ellipsoid_options options = ellipsoid_options_default();
+    wall_mesh mesh = room_of(0);
+    counted_walls walls = {.mesh = &mesh}, empty = {.mesh = &mesh};
+    const ellipsoid_surroundings surroundings = around(&walls);
+    const ellipsoid_surroundings emptied = around(&empty);
+    static ellipsoid_contact_cache kept, fresh;
+    uint64_t seed = 2;
+    int touched = 0;
+
+    (void)unused;
+    for (options.bead_count = 32; options.bead_count <= 128;
+         options.bead_count += 96)
+    {
+        const ellipsoid_model model = test_model(&options);
+
+        ellipsoid_contact_cache_clear(&kept);
+        walls.calls = empty.calls = 0;
+        for (int walk = 0; walk < 100; walk++)
+        {
+            double x[3], q[4];
+
+            random_pose(&seed, x, q);
+            walls.farther = 3 * um * test_uniform(&seed);
+            for (int n = 0; n < 100; n++)
+            {
+                ellipsoid_contact a, b;
+                ellipsoid_contact_jacobian ja, jb;
+
+                for (int i = 0; i < 3; i++)
+                {
+                    x[i] += 0.02 * um * test_signed(&seed);
+                }
+                for (int i = 0; i < 4; i++)
+                {
+                    q[i] += 0.005 * test_signed(&seed);
+                }
+                ellipsoid_contact_cache_clear(&fresh);
+                assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x,
+                                                     q, &kept, &a, &ja));
+                assert_ok(ellipsoid_contact_evaluate(&model, &emptied, x, q,
+                                                     &fresh, &b, &jb));
+                assert_memory_equal(&a, &b, sizeof a);
+                assert_memory_equal(&ja, &jb, sizeof ja);
+                touched += a.touching_beads > 0;
+            }
+        }
+        assert_true(touched > 2000);
+        assert_true(walls.calls < empty.calls);
+    }
+    wall_mesh_free(&mesh);
+}
+
+/* R(q) is a polynomial: q off the unit sphere, each component by itself. */
+static void test_jacobian_is_exact(void **unused)
+{
+    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_model model = test_model(&options);
+    wall_mesh mesh = room_of(0);
+    counted_walls walls = {.mesh = &mesh};
+    const ellipsoid_surroundings surroundings = around(&walls);
+    static ellipsoid_contact_cache cache;
+    uint64_t seed = 3;
+    int checked = 0;
+
+    (void)unused;
+    ellipsoid_contact_cache_clear(&cache);
+    for (int n = 0; n < 3000; n++)
+    {
+        ellipsoid_contact contact, moved;
+        ellipsoid_contact_jacobian exact;
+        double y[7], difference[7][6];
+        int smooth;
+
+        random_pose(&seed, y, y + 3);
+        for (int i = 3; i < 7; i++)
+        {
+            y[i] *= 1.01;
+        }
+        assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, y, y + 3,
+                                             &cache, &contact, &exact));
+
+        /* beads that begin to touch within the difference have no slope yet */
+        smooth = contact.deepest > 0.002 * um && contact.deepest < 0.2 * um;
+        for (int k = 0; k < 7; k++)
+        {
+            const double h = k < 3 ? 1e-6 * um : 1e-6;
+            const double middle = y[k];
+
+            for (int side = -1; side <= 1; side += 2)
+            {
+                y[k] = middle + side * h;
+                assert_ok(ellipsoid_contact_evaluate(
+                    &model, &surroundings, y, y + 3, &cache, &moved, NULL));
+                smooth = smooth
+                      && moved.touching_beads == contact.touching_beads;
+                for (int i = 0; i < 3; i++)
+                {
+                    const double f = side * moved.force[i] / (2 * h);
+                    const double t = side * moved.torque[i] / (2 * h);
+
+                    difference[k][i] = side < 0 ? f : difference[k][i] + f;
+                    difference[k][i + 3] =
+                        side < 0 ? t : difference[k][i + 3] + t;
+                }
+            }
+            y[k] = middle;
+        }
+        for (int k = 0; k < 7 && smooth; k++)
+        {
+            /* stiffness of one bead at this depth, times the arms */
+            const double stiffness = 1e6 * sqrt(contact.deepest * 0.3 * um);
+            const double arm = k < 3 ? 1 : 4 * um;
+
+            for (int i = 0; i < 3; i++)
+            {
+                const double f =
+                    k < 3 ? exact.force_x[i][k] : exact.force_q[i][k - 3];
+                const double t =
+                    k < 3 ? exact.torque_x[i][k] : exact.torque_q[i][k - 3];
+
+                /* h^2 f''' of a bead just touching, and rounding / h */
+                assert_near(f, difference[k][i], 1e-3 * stiffness * arm);
+                assert_near(t, difference[k][i + 3],
+                            1e-3 * stiffness * arm * 2 * um);
+            }
+        }
+        checked += smooth;
+    }
+    assert_true(checked > 300);
+    wall_mesh_free(&mesh);
+}
+
+/* Far from walls: one comparison, and results as near a distant wall. */
+static void test_far_from_walls(void **unused)
+{
+    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_model model = test_model(&options);
+    const double low[3] = {-60 * um, -60 * um, -60 * um};
+    const double high[3] = {60 * um, 60 * um, 60 * um};
+    wall_mesh mesh;
+    counted_walls walls = {.mesh = &mesh};
+    const ellipsoid_surroundings surroundings = around(&walls);
+    static ellipsoid_contact_cache cache;
+    double x[3] = {0, 0, 0};
+    const double q[4] = {0, 0, 0, 1};
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    wall_mesh_box(&mesh, low, high, 1, 0, 0);
+    wall_mesh_finish(&mesh);
+    ellipsoid_contact_cache_clear(&cache);
+    for (x[0] = 0; x[0] < 57 * um; x[0] += 0.01 * um)
+    {
+        ellipsoid_contact contact;
+
+        assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+                                             &cache, &contact, NULL));
+        assert_true(contact.gap == options.bead_radius);
+        assert_int_equal(contact.touching_beads, 0);
+        assert_true(ellipsoid_dot(contact.force, contact.force) == 0);
+    }
+    assert_true(walls.calls < 80); /* two for each reach travelled */
+
+    /* walls that know how far they are are asked less often */
+    walls.calls = 0;
+    walls.farther = 30 * um;
+    for (x[0] = 0; x[0] < 40 * um; x[0] += 0.01 * um)
+    {
+        ellipsoid_contact contact;
+
+        assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+                                             &cache, &contact, NULL));
+    }
+    assert_true(walls.calls < 8);
+    wall_mesh_free(&mesh);
+}
+
+static void test_no_walls(void **unused)
+{
+    ellipsoid_options options = ellipsoid_options_default();
+    wall_mesh mesh = room_of(0);
+    counted_walls walls = {.mesh = &mesh};
+    const ellipsoid_surroundings with = around(&walls), without = {0};
+    const double x[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1};
+    ellipsoid_contact contact;
+    ellipsoid_contact_jacobian jacobian;
+
+    (void)unused;
+    for (options.contact = 0; options.contact < 2; options.contact++)
+    {
+        const ellipsoid_model model = test_model(&options);
+
+        assert_ok(ellipsoid_contact_evaluate(
+            &model, options.contact ? &without : &with, x, q, NULL, &contact,
+            &jacobian));
+        assert_true(contact.gap == HUGE_VAL);
+        assert_true(contact.deepest == 0);
+        assert_true(ellipsoid_dot(contact.force, contact.force) == 0);
+        assert_true(jacobian.force_x[2][2] == 0);
+    }
+    assert_int_equal(walls.calls, 0);
+    wall_mesh_free(&mesh);
+}
+
+static void test_failures_have_names(void **unused)
+{
+    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_model model = test_model(&options);
+    const double u[3] = {4 * um, 0, 0}, v[3] = {0, 4 * um, 0};
+    const double corner[3] = {-2 * um, -2 * um, 0};
+    double x[3] = {0, 0, 0.5 * um}, q[4] = {0, 0, 0, 1};
+    wall_mesh mesh = room_of(0);
+    counted_walls walls = {.mesh = &mesh};
+    const ellipsoid_surroundings surroundings = around(&walls);
+    static ellipsoid_contact_cache cache;
+    ellipsoid_contact contact;
+
+    (void)unused;
+    ellipsoid_contact_cache_clear(&cache);
+    walls.answer = 1;
+    assert_int_equal(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+                                                &cache, &contact, NULL),
+                     ELLIPSOID_STEP_UNDERFLOW);
+    walls.answer = -1;
+    assert_int_equal(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+                                                &cache, &contact, NULL),
+                     ELLIPSOID_WALLS_FAILED);
+    walls.answer = 0;
+    x[1] = NAN;
+    assert_int_equal(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+                                                &cache, &contact, NULL),
+                     ELLIPSOID_NON_FINITE);
+    x[1] = 0;
+    mesh.facets[0].vertex[1][2] = INFINITY;
+    walls.farther = 100 * um;
+    assert_int_equal(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+                                                &cache, &contact, NULL),
+                     ELLIPSOID_NON_FINITE);
+    wall_mesh_free(&mesh);
+
+    /* facets of 10 nm: smaller margins, and then too many */
+    wall_mesh_init(&mesh);
+    wall_mesh_plane(&mesh, corner, u, v, 400, 400, 0, 0);
+    wall_mesh_finish(&mesh);
+    walls.farther = 0;
+    lay(q, 0.1);
+    assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q, &cache,
+                                         &contact, NULL));
+    wall_mesh_free(&mesh);
+    wall_mesh_init(&mesh);
+    wall_mesh_plane(&mesh, corner, u, v, 4, 40000, 0, 0);
+    wall_mesh_finish(&mesh);
+    ellipsoid_contact_cache_clear(&cache);
+    assert_int_equal(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+                                                &cache, &contact, NULL),
+                     ELLIPSOID_TOO_MANY_FACETS);
+    wall_mesh_free(&mesh);
+}
+
+/* In order of bead, then facet; each surface once. */
+static void test_touched_surfaces(void **unused)
+{
+    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_model model = test_model(&options);
+    wall_mesh mesh = room_of(0);
+    counted_walls walls = {.mesh = &mesh};
+    const ellipsoid_surroundings surroundings = around(&walls);
+    const double across[3] = {1, 0, 0};
+    static ellipsoid_contact_cache cache;
+    ellipsoid_contact contact;
+    double q[4];
+
+    /* from the wall at -6 to the ridge at 0.5: between them, on the floor */
+    const double x[3] = {0.5 * um - 1.995 * um, 0, 0.46 * um};
+
+    (void)unused;
+    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_quaternion_from_axis(across, 0, q);
+    assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q, &cache,
+                                         &contact, NULL));
+    assert_int_equal(contact.touched_count, 2);
+    assert_int_equal(contact.touched[0] + contact.touched[1], 3);
+    assert_true(contact.touching_beads > 2);
+    wall_mesh_free(&mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sphere_on_a_plane),
+        cmocka_unit_test(test_standing_and_lying),
+        cmocka_unit_test(test_sum_over_beads),
+        cmocka_unit_test(test_cache_changes_nothing),
+        cmocka_unit_test(test_jacobian_is_exact),
+        cmocka_unit_test(test_far_from_walls),
+        cmocka_unit_test(test_no_walls),
+        cmocka_unit_test(test_failures_have_names),
+        cmocka_unit_test(test_touched_surfaces),
+    };
+
+    return cmocka_run_group_tests_name("contact", tests, NULL, NULL);
+}

@@ -1,0 +1,401 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    test_motion.c - the motion of a free cell against known solutions.
+*/
+#include "coreTest.h"
+
+/* The long axis x^2 in the lab. */
+static void long_axis(const ellipsoid_state *state, double axis[3])
+{
+    double r[3][3];
+
+    ellipsoid_rotation(state->q, r);
+    for (int i = 0; i < 3; i++)
+    {
+        axis[i] = r[i][1];
+    }
+}
+
+/* ------------------------------------------------------------ Jeffery orbits */
+
+/*
+    Jeffery (1922), eqs. 48-49: with a spheroid of aspect ratio r in the shear
+    u = (rate x2, 0, 0), its axis at the angle phi from x2 towards x1 follows
+    tan(phi) = r tan(rate t/(r + 1/r)), and, out of the plane,
+    tan(theta) = C r/sqrt(r^2 cos^2 phi + sin^2 phi): C is constant.
+    The angle phi counted through all turns, from an axis and the phase it
+    should have.
+*/
+static double orbit_constant(const double axis[3], double r)
+{
+    const double across = axis[0] * axis[0] / (r * r) + axis[1] * axis[1];
+
+    return sqrt(across) / fabs(axis[2]);
+}
+
+/* Deviation from Jeffery's axis after `turns` of its period; the shear's rate
+   is 1000/s. */
+static double jeffery_deviation(double density, double tolerance, double r,
+                                double turns, double *constant)
+{
+    ellipsoid_options o = test_free_cell();
+    test_quadratic flow = test_shear(1000);
+    ellipsoid_state s = {.q = {0, 0, 0, 1}};
+    ellipsoid_controller controller = {0};
+    ellipsoid_statistics statistics = {0};
+    ellipsoid_model model;
+    const double period = 2 * test_pi * (r + 1 / r) / 1000;
+    const double start[3] = {0, 0.8, 0.6};
+    const double c = orbit_constant(start, r);
+    double t = 0, axis[3], phase, phi, theta, expected[3];
+
+    o.semi_axes[1] = r * 0.5e-6;
+    o.density = density;
+    o.pressure_gradient = ELLIPSOID_PRESSURE_NONE;
+    o.tolerance = tolerance;
+    model = test_model(&o);
+    ellipsoid_quaternion_from_axis(start, 0, s.q);
+    assert_ok(test_advance(&model, &flow, &s, &t, turns * period, &controller,
+                           &statistics));
+    long_axis(&s, axis);
+    *constant = orbit_constant(axis, r) / c - 1;
+
+    phase = 2 * test_pi * turns;
+    phi = atan2(r * sin(phase), cos(phase));
+    theta = atan2(c * r, sqrt(r * r * cos(phi) * cos(phi)
+                              + sin(phi) * sin(phi)));
+    expected[0] = sin(theta) * sin(phi);
+    expected[1] = sin(theta) * cos(phi);
+    expected[2] = cos(theta);
+    return sqrt((axis[0] - expected[0]) * (axis[0] - expected[0])
+                + (axis[1] - expected[1]) * (axis[1] - expected[1])
+                + (axis[2] - expected[2]) * (axis[2] - expected[2]));
+}
+
+/*
+    As the density goes to zero so does the Stokes number, and the thirteen
+    equations follow Jeffery's orbit: at St = 1e-9 to the integrator's
+    tolerance, here 1e-10 per step over some thousand steps.
+*/
+static void test_jeffery_without_inertia(void **unused)
+{
+    const double ratio[] = {0.25, 4, 10};
+
+    (void)unused;
+    for (int n = 0; n < 3; n++)
+    {
+        double constant;
+        const double d =
+            jeffery_deviation(1e-3, 1e-10, ratio[n], 2.15, &constant);
+
+        assert_near(d, 0, 2e-8);
+        assert_near(constant, 0, 2e-8);
+    }
+}
+
+/* The deviation due to inertia is proportional to the Stokes number: ten
+   times the density, ten times the deviation, to first order in St = 1e-4. */
+static void test_jeffery_with_inertia(void **unused)
+{
+    double constant, d[3];
+
+    (void)unused;
+    d[0] = jeffery_deviation(10.4, 1e-11, 4, 1.3, &constant);
+    d[1] = jeffery_deviation(104, 1e-11, 4, 1.3, &constant);
+    d[2] = jeffery_deviation(1040, 1e-11, 4, 1.3, &constant);
+    print_message("# deviation from Jeffery at the cell's density: %.1e\n",
+                  d[2]);
+    assert_relative(d[1] / d[0], 10, 0.02);
+    assert_relative(d[2] / d[1], 10, 0.02);
+}
+
+/* Log-rolling is a fixed point: nothing moves but the spin, shear/2. */
+static void test_log_rolling(void **unused)
+{
+    const ellipsoid_options o = test_free_cell();
+    const ellipsoid_model model = test_model(&o);
+    test_quadratic flow = test_shear(1000);
+    ellipsoid_state s;
+    ellipsoid_controller controller = {0};
+    ellipsoid_statistics statistics = {0};
+    double t = 0, axis[3];
+
+    (void)unused;
+    memset(&s, 0, sizeof(s));
+    ellipsoid_quaternion_from_axis((const double[3]){0, 0, 1}, 0, s.q);
+    assert_ok(
+        test_advance(&model, &flow, &s, &t, 0.06, &controller, &statistics));
+    long_axis(&s, axis);
+    assert_near(axis[2], 1, 1e-14);
+    assert_relative(s.omega[1], -500, 1e-6);
+}
+
+/* ---------------------------------------------------- translation, rotation */
+
+/*
+    Along a principal axis m du/dt = -mu K u: u = u0 exp(-t/tau). The first
+    step of 1e-8 s resolves tau of about 1e-7 s. Allowed errors are, per step,
+    tolerance/tau for the spin and tolerance a/tau for u; ten of them here.
+*/
+static void test_relaxation(void **unused)
+{
+    ellipsoid_options o = test_free_cell();
+    test_quadratic still = {.answer = 0};
+    ellipsoid_model model;
+
+    (void)unused;
+    o.tolerance = 1e-10;
+    model = test_model(&o);
+    for (int i = 0; i < 3; i++)
+    {
+        ellipsoid_state s = {.q = {0, 0, 0, 1}};
+        ellipsoid_controller controller = {0};
+        ellipsoid_statistics statistics = {0};
+        const double u0 = 4e-3, w0 = 1000;
+        const double tau =
+            model.mass / (model.viscosity * model.resistance[i]);
+        const double turn = model.inertia[i]
+                          / (model.viscosity * model.rotation_resistance[i]);
+        double t = 0;
+
+        s.u[i] = u0;
+        s.omega[i] = w0;
+        assert_ok(test_advance(&model, &still, &s, &t, tau, &controller,
+                               &statistics));
+        assert_near(s.omega[i], w0 * exp(-tau / turn),
+                    10 * o.tolerance / model.rotation_relaxation_time);
+        if (i == 1)
+        {
+            /* along the axis it spins about: the drag stays the same */
+            assert_near(s.u[i], u0 * exp(-1),
+                        10 * o.tolerance * 2e-6 / model.relaxation_time);
+            assert_near(s.x[i], u0 * tau * (1 - exp(-1)),
+                        10 * o.tolerance * 2e-6);
+        }
+    }
+}
+
+/*
+    Sedimentation of an inclined spheroid: mu R K^ R^T u = (m_p - m_f) g, so it
+    drifts sideways; it does not turn. The rest of the start is damped by every
+    step, so the tolerance does not matter after some long ones: 1e-10.
+*/
+static void test_inclined_sedimentation(void **unused)
+{
+    ellipsoid_options o = test_free_cell();
+    test_quadratic still = {.answer = 0};
+    ellipsoid_state s;
+    ellipsoid_controller controller = {0};
+    ellipsoid_statistics statistics = {0};
+    ellipsoid_model m;
+    const double inclination = 0.7;
+    double t = 0, along, across, weight, before[4];
+
+    (void)unused;
+    o.buoyancy = 1;
+    o.tolerance = 1e-8;
+    m = test_model(&o);
+    memset(&s, 0, sizeof(s));
+    ellipsoid_quaternion_from_axis(
+        (const double[3]){sin(inclination), 0, cos(inclination)}, 0, s.q);
+    memcpy(before, s.q, sizeof(before));
+    assert_ok(test_advance(&m, &still, &s, &t, 1e4 * m.relaxation_time,
+                           &controller, &statistics));
+
+    weight = (m.mass - m.fluid_mass) * -9.81;
+    along = weight * cos(inclination) / (m.viscosity * m.resistance[1]);
+    across = -weight * sin(inclination) / (m.viscosity * m.resistance[0]);
+    assert_relative(s.u[2],
+                    along * cos(inclination) - across * sin(inclination),
+                    1e-10);
+    assert_relative(s.u[0],
+                    along * sin(inclination) + across * cos(inclination),
+                    1e-10);
+    assert_near(s.u[1], 0, 1e-20);
+    for (int n = 0; n < 4; n++)
+    {
+        assert_near(s.q[n], before[n], 1e-15);
+    }
+}
+
+/*
+    Euler's free asymmetric top, in vacuum: energy and the angular momentum in
+    the lab are constant. 1000 turns at the tightest useful tolerance.
+*/
+static void test_free_top(void **unused)
+{
+    ellipsoid_options o = test_free_cell();
+    ellipsoid_state s = {.omega = {0.3, 0.2, 1}, .q = {0, 0, 0, 1}};
+    ellipsoid_controller controller = {0};
+    ellipsoid_statistics statistics = {0};
+    ellipsoid_model m;
+    double t = 0, energy[2] = {0, 0}, momentum[2][3];
+
+    (void)unused;
+    o.semi_axes[0] = 1;
+    o.semi_axes[1] = 1.6;
+    o.semi_axes[2] = 0.7;
+    o.tolerance = 1e-14;
+    o.maximum_steps = 100000000;
+    m = test_model(&o);
+    for (int n = 0; n < 2; n++)
+    {
+        double r[3][3];
+
+        ellipsoid_rotation(s.q, r);
+        for (int i = 0; i < 3; i++)
+        {
+            energy[n] += m.inertia[i] * s.omega[i] * s.omega[i] / 2;
+            momentum[n][i] = 0;
+            for (int j = 0; j < 3; j++)
+            {
+                momentum[n][i] += r[i][j] * m.inertia[j] * s.omega[j];
+            }
+        }
+        if (n == 0)
+        {
+            assert_ok(test_advance(&m, NULL, &s, &t, 2000 * test_pi,
+                                   &controller, &statistics));
+        }
+    }
+    print_message("# free top: %ld steps, energy changes by %.1e\n",
+                  statistics.accepted, energy[1] / energy[0] - 1);
+    assert_relative(energy[1], energy[0], 1e-10);
+    for (int i = 0; i < 3; i++)
+    {
+        assert_near(momentum[1][i], momentum[0][i],
+                    1e-10 * ellipsoid_length(momentum[0]));
+    }
+}
+
+/* -------------------------------------------------------------- plane slit */
+
+/* The paper's cell in a slit 10 um high, mean speed 4 mm/s, along x2. */
+static const double slit_half = 5e-6, slit_fastest = 6e-3;
+
+static test_quadratic slit_flow(void)
+{
+    test_quadratic flow = {.answer = 0};
+
+    flow.u[1] = slit_fastest;
+    flow.h[1][2][2] = -2 * slit_fastest / (slit_half * slit_half);
+    return flow;
+}
+
+static ellipsoid_state slit_state(int n)
+{
+    uint64_t seed = 100 + (uint64_t)n;
+    ellipsoid_state s;
+    double u;
+
+    memset(&s, 0, sizeof(s));
+    test_orientation(&seed, s.q);
+    s.x[2] = 0.8 * slit_half * test_signed(&seed);
+    u = s.x[2] / slit_half;
+    s.u[1] = slit_fastest * (1 - u * u);
+    return s;
+}
+
+/*
+    60 ms in the slit at a tolerance of 1e-6: the stiffness must not govern the
+    steps (explicit ones would be 1e6). The mean of 20 cells is 370; with the
+    tolerance the error falls in proportion.
+*/
+static void test_slit_steps(void **unused)
+{
+    ellipsoid_options o = test_free_cell();
+    test_quadratic flow = slit_flow();
+    long steps = 0, rejected = 0;
+    double error[2] = {0, 0};
+
+    (void)unused;
+    for (int n = 0; n < 20; n++)
+    {
+        static const double tolerance[] = {1e-9, 1e-6, 1e-5};
+        ellipsoid_state s[3];
+
+        for (int k = 0; k < 3; k++)
+        {
+            ellipsoid_controller controller = {0};
+            ellipsoid_statistics statistics = {0};
+            ellipsoid_model model;
+            double t = 0;
+
+            o.tolerance = tolerance[k];
+            model = test_model(&o);
+            s[k] = slit_state(n);
+            assert_ok(test_advance(&model, &flow, &s[k], &t, 0.06, &controller,
+                                   &statistics));
+            if (k == 1)
+            {
+                steps += statistics.accepted;
+                rejected += statistics.rejected;
+            }
+            for (int i = 0; k > 0 && i < 4; i++)
+            {
+                error[k - 1] =
+                    fmax(error[k - 1], fabs(s[k].q[i] - s[0].q[i]));
+            }
+        }
+    }
+    print_message("# slit: %.0f steps, %.1f rejected, error of q %.1e (1e-6), "
+                  "%.1e (1e-5)\n",
+                  steps / 20.0, rejected / 20.0, error[0], error[1]);
+    assert_true(steps / 20 < 450);
+    assert_true(rejected / 20 < 20);
+    assert_true(error[0] < 2e-5);
+    assert_true(error[1] < 2e-4);
+}
+
+/* |q| = 1 is kept by every step, at whatever tolerance. */
+static int check_length(void *context, const ellipsoid_step *step)
+{
+    const double *q = step->after.q;
+
+    (void)context;
+    assert_near(sqrt(ellipsoid_dot(q, q) + q[3] * q[3]), 1, 1e-15);
+    return 0;
+}
+
+static void test_length_of_q(void **unused)
+{
+    ellipsoid_options o = test_free_cell();
+    test_quadratic flow = slit_flow();
+    const ellipsoid_surroundings around = {.flow = test_quadratic_flow,
+                                           .flow_context = &flow};
+    ellipsoid_model model;
+
+    (void)unused;
+    for (o.tolerance = 1e-9; o.tolerance < 0.2; o.tolerance *= 100)
+    {
+        ellipsoid_state s = slit_state(3);
+        ellipsoid_controller controller = {0};
+        ellipsoid_statistics statistics = {0};
+        double t = 0;
+
+        model = test_model(&o);
+        s.q[0] *= 1.001; /* also a careless start is mended */
+        assert_ok(ellipsoid_advance(&model, &around, &s, &t, 1, &controller,
+                                    NULL, check_length, NULL, &statistics));
+        assert_near(sqrt(ellipsoid_dot(s.q, s.q) + s.q[3] * s.q[3]), 1, 1e-15);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_jeffery_without_inertia),
+        cmocka_unit_test(test_jeffery_with_inertia),
+        cmocka_unit_test(test_log_rolling),
+        cmocka_unit_test(test_relaxation),
+        cmocka_unit_test(test_inclined_sedimentation),
+        cmocka_unit_test(test_free_top),
+        cmocka_unit_test(test_slit_steps),
+        cmocka_unit_test(test_length_of_q),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,509 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    test_rosenbrock.c - the method itself: its coefficients, its order on the
+    thirteen equations, its continuous extension.
+*/
+#include "coreTest.h"
+
+#include <complex.h>
+
+enum
+{
+    S = ELLIPSOID_STAGES,
+    SIZE = ELLIPSOID_STATE_SIZE
+};
+
+/* ------------------------------------------------------------ coefficients */
+
+/*
+    The method in the form of Hairer & Wanner II, eq. (IV.7.4). From (IV.7.25):
+    Gamma = (I/gamma - C)^-1, alpha = A Gamma, b = m Gamma.
+*/
+typedef struct method
+{
+    double alpha[S][S], beta[S][S]; /* beta = alpha + gamma */
+    double a[S], bb[S];             /* their row sums */
+    double b[S], embedded[S];
+    double gamma[S][S];
+} method;
+
+/* row Gamma */
+static void times_gamma(double gamma[S][S], const double row[S],
+                        double result[S])
+{
+    for (int j = 0; j < S; j++)
+    {
+        result[j] = 0;
+        for (int k = 0; k < S; k++)
+        {
+            result[j] += row[k] * gamma[k][j];
+        }
+    }
+}
+
+static method standard_form(const ellipsoid_rosenbrock_table *t)
+{
+    method m;
+    double gamma[S][S] = {{0}}, weights[S];
+
+    for (int j = 0; j < S; j++)
+    {
+        for (int i = j; i < S; i++)
+        {
+            double sum = i == j;
+
+            for (int k = j; k < i; k++)
+            {
+                sum += t->c[i][k] * gamma[k][j];
+            }
+            gamma[i][j] = t->gamma * sum;
+        }
+    }
+    memcpy(m.gamma, gamma, sizeof(gamma));
+    for (int i = 0; i < S; i++)
+    {
+        times_gamma(gamma, t->a[i], m.alpha[i]);
+        m.a[i] = m.bb[i] = 0;
+        for (int j = 0; j < S; j++)
+        {
+            m.beta[i][j] = m.alpha[i][j] + gamma[i][j];
+            m.a[i] += m.alpha[i][j];
+            m.bb[i] += m.beta[i][j];
+        }
+    }
+    memcpy(weights, t->a[S - 1], sizeof(weights));
+    times_gamma(gamma, weights, m.embedded);
+    weights[S - 1] = 1;
+    times_gamma(gamma, weights, m.b);
+    return m;
+}
+
+static double sum1(const double b[S], const double x[S])
+{
+    double sum = 0;
+
+    for (int i = 0; i < S; i++)
+    {
+        sum += b[i] * x[i];
+    }
+    return sum;
+}
+
+static void apply(const double matrix[S][S], const double x[S], double y[S])
+{
+    for (int i = 0; i < S; i++)
+    {
+        y[i] = sum1(matrix[i], x);
+    }
+}
+
+/* Conditions up to order 3 for weights that stand for a step of length s. */
+static void check_third_order(method *m, const double b[S], double s,
+                              double tolerance)
+{
+    double one[S], aa[S], bbb[S];
+
+    for (int i = 0; i < S; i++)
+    {
+        one[i] = 1;
+        aa[i] = m->a[i] * m->a[i];
+    }
+    apply((const double(*)[S])m->beta, m->bb, bbb);
+    assert_near(sum1(b, one), s, tolerance);
+    assert_near(sum1(b, m->bb), s * s / 2, tolerance);
+    assert_near(sum1(b, aa), s * s * s / 3, tolerance);
+    assert_near(sum1(b, bbb), s * s * s / 6, tolerance);
+}
+
+/* Hairer & Wanner II, table IV.7.1: the eight conditions of order 4, and those
+   of order 3 for the embedded solution. Printed to 16 digits, coefficients up
+   to 34: 1e-13. */
+static void test_order_conditions(void **unused)
+{
+    method m = standard_form(&ellipsoid_rodas4);
+    double aaa[S], aa[S], ab[S], baa[S], bb[S], bbb[S];
+
+    (void)unused;
+    check_third_order(&m, m.b, 1, 1e-13);
+    check_third_order(&m, m.embedded, 1, 1e-13);
+
+    apply((const double(*)[S])m.alpha, m.bb, ab);
+    for (int i = 0; i < S; i++)
+    {
+        aa[i] = m.a[i] * m.a[i];
+        aaa[i] = aa[i] * m.a[i];
+        ab[i] *= m.a[i];
+    }
+    apply((const double(*)[S])m.beta, aa, baa);
+    apply((const double(*)[S])m.beta, m.bb, bb);
+    apply((const double(*)[S])m.beta, bb, bbb);
+    assert_near(sum1(m.b, aaa), 1.0 / 4, 1e-13);
+    assert_near(sum1(m.b, ab), 1.0 / 8, 1e-13);
+    assert_near(sum1(m.b, baa), 1.0 / 12, 1e-13);
+    assert_near(sum1(m.b, bbb), 1.0 / 24, 1e-13);
+}
+
+/* Stiffly accurate: b_i = beta_6i and the embedded one beta_5i; the last two
+   stages are at the end of the step. */
+static void test_stiffly_accurate(void **unused)
+{
+    const method m = standard_form(&ellipsoid_rodas4);
+
+    (void)unused;
+    for (int i = 0; i < S; i++)
+    {
+        assert_near(m.b[i], m.beta[S - 1][i], 1e-13);
+        assert_near(m.embedded[i], m.beta[S - 2][i], 1e-13);
+    }
+    assert_near(m.a[S - 1], 1, 1e-13);
+    assert_near(m.a[S - 2], 1, 1e-13);
+}
+
+/* R(z) = 1 + z b^T (I - z beta)^-1 1 */
+static double complex stability(const method *m, double complex z)
+{
+    double complex k[S], r = 1;
+
+    for (int i = 0; i < S; i++)
+    {
+        double complex sum = 1;
+
+        for (int j = 0; j < i; j++)
+        {
+            sum += z * m->beta[i][j] * k[j];
+        }
+        k[i] = sum / (1 - z * m->beta[i][i]);
+        r += z * m->b[i] * k[i];
+    }
+    return r;
+}
+
+/* |R| <= 1 on the imaginary axis and no pole to its left make it A-stable;
+   with R(infinity) = 0, L-stable. */
+static void test_l_stable(void **unused)
+{
+    const method m = standard_form(&ellipsoid_rodas4);
+
+    (void)unused;
+    for (double y = 1e-3; y < 1e6; y *= 1.01)
+    {
+        assert_true(cabs(stability(&m, y * I)) <= 1 + 1e-13);
+    }
+    for (double x = 1e2; x < 1e8; x *= 10)
+    {
+        /* falls like 1/x, down to the rounding of the coefficients */
+        assert_true(cabs(stability(&m, -x)) <= 10 / x + 1e-10);
+    }
+    assert_near(creal(stability(&m, -1)), exp(-1), 1e-3);
+}
+
+/* The continuous extension is of order 3 at every point of the step. */
+static void test_dense_order_conditions(void **unused)
+{
+    const ellipsoid_rosenbrock_table *t = &ellipsoid_rodas4;
+    method m = standard_form(t);
+
+    (void)unused;
+    for (double s = 0; s <= 1; s += 0.125)
+    {
+        double weights[S], b[S];
+
+        for (int j = 0; j < S; j++)
+        {
+            const double end = t->a[S - 1][j] + (j == S - 1);
+
+            weights[j] =
+                s * (end + (1 - s) * (t->dense[0][j] + s * t->dense[1][j]));
+        }
+        times_gamma(m.gamma, weights, b);
+        check_third_order(&m, b, s, 1e-12);
+    }
+}
+
+/* ---------------------------------------------------------- observed order */
+
+/* Vortices of size pi/k [m] and some shear through them. */
+typedef struct vortices
+{
+    double speed, k;
+} vortices;
+
+static int vortex_flow(void *context, const double x[3], int derivatives,
+                       ellipsoid_flow_sample *f)
+{
+    const vortices *v = context;
+    const double k = v->k, a = v->speed;
+    const double sx = sin(k * x[0]), cx = cos(k * x[0]);
+    const double sy = sin(k * x[1]), cy = cos(k * x[1]);
+    const double sz = sin(k * x[2]), cz = cos(k * x[2]);
+
+    memset(f, 0, sizeof(*f));
+    f->velocity[0] = a * (sx * cy + cz);
+    f->velocity[1] = -a * (cx * sy - 0.5 * sz);
+    f->velocity[2] = a * (0.5 * sx + 0.3 * cy);
+    f->gradient[0][0] = a * k * cx * cy;
+    f->gradient[0][1] = -a * k * sx * sy;
+    f->gradient[0][2] = -a * k * sz;
+    f->gradient[1][0] = a * k * sx * sy;
+    f->gradient[1][1] = -a * k * cx * cy;
+    f->gradient[1][2] = 0.5 * a * k * cz;
+    f->gradient[2][0] = 0.5 * a * k * cx;
+    f->gradient[2][1] = -0.3 * a * k * sy;
+    if (derivatives)
+    {
+        double(*h)[3][3] = f->gradient_jacobian;
+        const double s = a * k * k;
+
+        memcpy(f->velocity_jacobian, f->gradient, sizeof(f->gradient));
+        h[0][0][0] = -s * sx * cy;
+        h[0][0][1] = h[0][1][0] = -s * cx * sy;
+        h[0][1][1] = -s * sx * cy;
+        h[0][2][2] = -s * cz;
+        h[1][0][0] = s * cx * sy;
+        h[1][0][1] = h[1][1][0] = s * sx * cy;
+        h[1][1][1] = s * cx * sy;
+        h[1][2][2] = -0.5 * s * sz;
+        h[2][0][0] = -0.5 * s * sx;
+        h[2][1][1] = -0.3 * s * cy;
+    }
+    return 0;
+}
+
+/* `count` equal steps to `end`; the last one is shown if `last` is not NULL. */
+static ellipsoid_state equal_steps(const ellipsoid_model *model,
+                                   vortices *flow,
+                                   const ellipsoid_state *begin, double end,
+                                   int count, ellipsoid_step *last)
+{
+    const ellipsoid_surroundings around = {.flow = vortex_flow,
+                                           .flow_context = flow};
+    ellipsoid_statistics statistics = {0};
+    const ellipsoid_problem problem = {
+        .model = model,
+        .surroundings = &around,
+        .statistics = &statistics,
+        .length = model->options.semi_axes[1],
+    };
+    ellipsoid_point p = {.state = *begin};
+    const double h = end / count;
+
+    for (int n = 0; n < count; n++)
+    {
+        ellipsoid_stages stages;
+
+        assert_ok(ellipsoid_problem_evaluate(&problem, &p.state, &p.derivative,
+                                             &p.contact, &p.blocks));
+        assert_ok(ellipsoid_rosenbrock_step(&problem, &p, h, &stages));
+        ellipsoid_normalise(stages.y + ELLIPSOID_Q);
+        if (last)
+        {
+            last->start = n * h;
+            last->end = (n + 1) * h;
+            last->before = p.state;
+            memcpy(&last->after, stages.y, sizeof(last->after));
+            ellipsoid_rosenbrock_dense(&stages, last->dense);
+        }
+        memcpy(&p.state, stages.y, sizeof(p.state));
+    }
+    return p.state;
+}
+
+typedef struct errors
+{
+    double u, x, omega, q;
+} errors;
+
+static double distance(const double *a, const double *b, int count)
+{
+    double sum = 0;
+
+    for (int i = 0; i < count; i++)
+    {
+        sum += (a[i] - b[i]) * (a[i] - b[i]);
+    }
+    return sqrt(sum);
+}
+
+static errors difference(const ellipsoid_state *a, const ellipsoid_state *b)
+{
+    const errors e = {distance(a->u, b->u, 3), distance(a->x, b->x, 3),
+                      distance(a->omega, b->omega, 3),
+                      distance(a->q, b->q, 4)};
+
+    return e;
+}
+
+/* A body and a fluid of order one: every time scale is of order one. */
+static ellipsoid_model unit_body(void)
+{
+    ellipsoid_options o = test_free_cell();
+
+    o.density = 3;
+    o.fluid_density = 1;
+    o.kinematic_viscosity = 0.5;
+    o.semi_axes[0] = 0.8;
+    o.semi_axes[1] = 1.5;
+    o.semi_axes[2] = 0.5;
+    o.external_torque[1] = 1;
+    return test_model(&o);
+}
+
+static ellipsoid_state some_state(const ellipsoid_model *model, vortices *flow)
+{
+    const double a = model->options.semi_axes[1];
+    ellipsoid_state s = {.x = {0.3 * a, 0.2 * a, 0.5 * a},
+                         .q = {0.1, 0.2, 0.3, 0.9}};
+    ellipsoid_flow_sample sample;
+
+    ellipsoid_normalise(s.q);
+    vortex_flow(flow, s.x, 0, &sample);
+    memcpy(s.u, sample.velocity, sizeof(s.u));
+    return s;
+}
+
+/* Steps far below the relaxation time: order 4 in every variable. */
+static void test_order_not_stiff(void **unused)
+{
+    const ellipsoid_model model = unit_body();
+    vortices flow = {1, 1};
+    const ellipsoid_state begin = some_state(&model, &flow);
+    const ellipsoid_state exact =
+        equal_steps(&model, &flow, &begin, 1, 4096, NULL);
+    ellipsoid_state s = equal_steps(&model, &flow, &begin, 1, 64, NULL);
+    const errors coarse = difference(&s, &exact);
+    errors fine;
+
+    (void)unused;
+    s = equal_steps(&model, &flow, &begin, 1, 256, NULL);
+    fine = difference(&s, &exact);
+    assert_near(log2(coarse.u / fine.u) / 2, 4, 0.2);
+    assert_near(log2(coarse.x / fine.x) / 2, 4, 0.2);
+    assert_near(log2(coarse.omega / fine.omega) / 2, 4, 0.2);
+    assert_near(log2(coarse.q / fine.q) / 2, 4, 0.2);
+}
+
+/*
+    The paper's cell, steps hundreds of relaxation times (2e-7 s) long: x and q
+    keep the order while their errors exceed 1e-9 of the body and of one; u and
+    omega, slaved to them, are reported.
+*/
+static void test_order_stiff(void **unused)
+{
+    const ellipsoid_options options = test_free_cell();
+    const ellipsoid_model model = test_model(&options);
+    vortices flow = {4e-3, 3e5};
+    ellipsoid_state begin = some_state(&model, &flow), exact, s;
+    const double end = 4e-3, a = 2e-6;
+    errors e[3];
+
+    (void)unused;
+    /* past the first relaxation, which equal steps do not resolve */
+    begin = equal_steps(&model, &flow, &begin, 1e-5, 1000, NULL);
+    exact = equal_steps(&model, &flow, &begin, end, 6400, NULL);
+    for (int n = 0; n < 3; n++)
+    {
+        s = equal_steps(&model, &flow, &begin, end, 50 << n, NULL);
+        e[n] = difference(&s, &exact);
+    }
+    print_message("# errors at 50, 100, 200 steps: x %.1e %.1e %.1e"
+                  " q %.1e %.1e %.1e\n",
+                  e[0].x / a, e[1].x / a, e[2].x / a, e[0].q, e[1].q, e[2].q);
+    print_message("# order of u %.2f, of omega %.2f\n",
+                  log2(e[0].u / e[2].u) / 2, log2(e[0].omega / e[2].omega) / 2);
+    assert_true(e[2].x / a > 1e-9 && e[2].q > 1e-9);
+    assert_true(log2(e[0].x / e[2].x) / 2 >= 3.8);
+    assert_true(log2(e[0].q / e[2].q) / 2 >= 3.8);
+}
+
+/*
+    Inside a step the extension is of order 3: its local error falls with the
+    fourth power of the step. At both ends it is the step's own result.
+*/
+static void test_dense_order(void **unused)
+{
+    const ellipsoid_model model = unit_body();
+    vortices flow = {1, 1};
+    const ellipsoid_state begin = some_state(&model, &flow);
+    errors e[2];
+
+    (void)unused;
+    for (int n = 0; n < 2; n++)
+    {
+        const double h = n ? 0.025 : 0.05;
+        ellipsoid_step step;
+        ellipsoid_state s, exact;
+
+        equal_steps(&model, &flow, &begin, h, 1, &step);
+        exact = equal_steps(&model, &flow, &begin, 0.4 * h, 64, NULL);
+        ellipsoid_step_state(&step, 0.4 * h, &s);
+        e[n] = difference(&s, &exact);
+        ellipsoid_step_state(&step, 0, &s);
+        assert_memory_equal(&s, &step.before, sizeof(s));
+        ellipsoid_step_state(&step, h, &s);
+        assert_memory_equal(&s, &step.after, sizeof(s));
+    }
+    assert_true(log2(e[0].u / e[1].u) >= 3.7);
+    assert_true(log2(e[0].x / e[1].x) >= 3.7);
+    assert_true(log2(e[0].omega / e[1].omega) >= 3.7);
+    assert_true(log2(e[0].q / e[1].q) >= 3.7);
+}
+
+/* Every component of a stage solves (I/(gamma h) - J) k = r: the elimination
+   against the full matrix. Rounding times the condition of the blocks. */
+static void test_block_elimination(void **unused)
+{
+    const ellipsoid_model model = unit_body();
+    vortices flow = {1, 1};
+    const ellipsoid_surroundings around = {.flow = vortex_flow,
+                                           .flow_context = &flow};
+    ellipsoid_statistics statistics = {0};
+    const ellipsoid_problem problem = {.model = &model,
+                                       .surroundings = &around,
+                                       .statistics = &statistics,
+                                       .length = 1.5};
+    const double h = 0.7, g = 1 / (ellipsoid_rodas4.gamma * h);
+    double jacobian[SIZE][SIZE], f[SIZE];
+    ellipsoid_stages stages;
+    ellipsoid_point p;
+
+    (void)unused;
+    p.state = some_state(&model, &flow);
+    p.state.omega[0] = 1;
+    p.state.omega[1] = -2;
+    p.state.omega[2] = 0.5;
+    assert_ok(
+        ellipsoid_jacobian(&model, &around, &p.state, NULL, jacobian));
+    assert_ok(ellipsoid_problem_evaluate(&problem, &p.state, &p.derivative,
+                                         &p.contact, &p.blocks));
+    assert_ok(ellipsoid_rosenbrock_step(&problem, &p, h, &stages));
+    memcpy(f, &p.derivative, sizeof(f));
+    for (int i = 0; i < SIZE; i++)
+    {
+        double sum = g * stages.k[0][i];
+
+        for (int j = 0; j < SIZE; j++)
+        {
+            sum -= jacobian[i][j] * stages.k[0][j];
+        }
+        assert_near(sum, f[i], 1e-13);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_order_conditions),
+        cmocka_unit_test(test_stiffly_accurate),
+        cmocka_unit_test(test_l_stable),
+        cmocka_unit_test(test_dense_order_conditions),
+        cmocka_unit_test(test_block_elimination),
+        cmocka_unit_test(test_order_not_stiff),
+        cmocka_unit_test(test_order_stiff),
+        cmocka_unit_test(test_dense_order),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
