@@ -57,6 +57,7 @@ static void add_derivatives(const double arm[3], const double q[4],
                             double force_x[3][3],
                             ellipsoid_contact_jacobian *jacobian)
 {
+    const double conjugate[4] = {-q[0], -q[1], -q[2], q[3]};
     double column[3], body[3], torque[3];
 
     for (int n = 0; n < 7; n++)
@@ -83,13 +84,12 @@ static void add_derivatives(const double arm[3], const double q[4],
         to_body(r, column, body);
         if (n >= 3)
         {
-            /* the frame turns under the force: (dR/dq_n)^T F */
-            for (int k = 0; k < 3; k++)
+            /* the frame turns under the force: (dR/dq_n)^T F, and R^T(q) is
+               R of the conjugate */
+            turned_by(conjugate, n - 3, force, turned);
+            for (int i = 0; i < 3; i++)
             {
-                const double axis[3] = {k == 0, k == 1, k == 2};
-
-                turned_by(q, n - 3, axis, turned);
-                body[k] += ellipsoid_dot(turned, force);
+                body[i] += n == 6 ? turned[i] : -turned[i];
             }
         }
         ellipsoid_cross(arm, body, torque);
@@ -128,43 +128,63 @@ static void add_bead(const double arm[3], const double q[4], double r[3][3],
     }
 }
 
-static void sum_pairs(const ellipsoid_model *model,
-                      const ellipsoid_contact_cache *cache, const double x[3],
-                      const double q[4], ellipsoid_contact *contact,
-                      ellipsoid_contact_jacobian *jacobian)
+/* A bead in the pose (x, R) */
+static ellipsoid_bead placed(const ellipsoid_model *model, int b,
+                             const double x[3], double r[3][3])
 {
     const double radius = model->options.bead_radius;
-    const int stride = sizeof cache->pair[0] / sizeof(int);
     ellipsoid_bead bead = {
-        {0, 0, 0},
-        radius,
-        4.0 / 3 * model->options.contact_modulus * sqrt(radius)};
+        .radius = radius,
+        .stiffness = 4.0 / 3 * model->options.contact_modulus * sqrt(radius)};
+
+    for (int i = 0; i < 3; i++)
+    {
+        bead.centre[i] = x[i] + ellipsoid_dot(r[i], model->bead[b]);
+    }
+    return bead;
+}
+
+/*
+    Beads that have moved less than they were from any facet need no look. The
+    first round is of those that may touch, in order; if none does, the second
+    finds the gap.
+*/
+static void sum_beads(const ellipsoid_model *model,
+                      const ellipsoid_contact_cache *cache, const double x[3],
+                      const double q[4], double moved,
+                      ellipsoid_contact *contact,
+                      ellipsoid_contact_jacobian *jacobian)
+{
+    /* the bounds are rounded too */
+    const double away = moved + 1e-9 * model->options.bead_radius;
     double r[3][3], force[3], force_x[3][3];
-    int end;
 
     ellipsoid_rotation_inline(q, r);
-    for (int first = 0; first < cache->pair_count; first = end)
+    for (int round = 0; round < 2 && contact->gap > 0; round++)
     {
-        const int b = cache->pair[first].bead;
-        const double *arm = model->bead[b];
-
-        for (end = first + 1;
-             end < cache->pair_count && cache->pair[end].bead == b; end++)
+        for (int b = 0; b < model->bead_count; b++)
         {
-        }
-        for (int i = 0; i < 3; i++)
-        {
-            bead.centre[i] = x[i] + ellipsoid_dot(r[i], arm);
-        }
+            const double clear =
+                cache->nearest[b] - away - model->options.bead_radius;
+            const ellipsoid_candidates from = {
+                cache->facets, cache->facet + cache->first[b],
+                cache->first[b + 1] - cache->first[b]};
 
-        const ellipsoid_candidates from = {
-            cache->facets, &cache->pair[first].facet, stride, end - first};
+            if (round == 0 ? clear > 0
+                           : clear <= 0 || clear >= contact->gap)
+            {
+                continue;
+            }
 
-        if (ellipsoid_bead_touch(&bead, &from, &contact->gap, force,
-                                 jacobian ? force_x : NULL, contact)
-            > 0)
-        {
-            add_bead(arm, q, r, force, force_x, contact, jacobian);
+            const ellipsoid_bead bead = placed(model, b, x, r);
+
+            if (ellipsoid_bead_touch(&bead, &from, &contact->gap, force,
+                                     jacobian ? force_x : NULL, contact)
+                > 0)
+            {
+                add_bead(model->bead[b], q, r, force, force_x, contact,
+                         jacobian);
+            }
         }
     }
     contact->deepest = fmax(0, -contact->gap);
@@ -192,12 +212,13 @@ ellipsoid_status ellipsoid_contact_evaluate(
 
     contact->gap = gap_horizon * model->options.bead_radius;
 
+    double moved;
     const ellipsoid_status status = ellipsoid_contact_collect(
-        cache, model, surroundings, x, q, contact->gap);
+        cache, model, surroundings, x, q, contact->gap, &moved);
 
-    if (status == ELLIPSOID_OK && cache->pair_count > 0)
+    if (status == ELLIPSOID_OK && cache->clearance <= 0)
     {
-        sum_pairs(model, cache, x, q, contact, jacobian);
+        sum_beads(model, cache, x, q, moved, contact, jacobian);
     }
     return status;
 }

@@ -288,15 +288,14 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 typedef struct ellipsoid_contact_cache
 {
     int valid;
-    int pair_count;
-    double margin;      /* [m] */
-    double x[3], q[4];  /* pose at which the pairs were collected */
+    int served;         /* poses since it was filled */
+    double margin;      /* [m] how far a bead may move */
+    double x[3], q[4];  /* pose at which it was filled */
     double clearance;   /* [m] > 0: no facet while the centre moves less */
     const ellipsoid_facet *facets;
-    struct
-    {
-        int bead, facet;
-    } pair[ELLIPSOID_MAX_PAIRS]; /* ascending by bead, then facet */
+    double nearest[ELLIPSOID_MAX_BEADS]; /* [m] no facet nearer to a centre */
+    int first[ELLIPSOID_MAX_BEADS + 1];  /* bead b: first[b] to first[b+1] of */
+    int facet[ELLIPSOID_MAX_PAIRS];      /* facets, ascending for each bead */
 } ellipsoid_contact_cache;
 
 void ellipsoid_contact_cache_clear(ellipsoid_contact_cache *cache);
@@ -381,7 +380,11 @@ void ellipsoid_random_uniform(uint64_t seed, uint32_t id, uint32_t stream,
 
 /* ----------------------------------------------------------- equations */
 
-/* The thirteen time derivatives at a state, paper eqs. (1)-(4). */
+/*
+    The thirteen time derivatives at a state, paper eqs. (1)-(4).
+    STEP_UNDERFLOW: a callback wants a shorter step, that is, not this state.
+    cache may be NULL where there are no walls.
+*/
 ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
                                const ellipsoid_surroundings *surroundings,
                                const ellipsoid_state *state,
@@ -430,9 +433,10 @@ void ellipsoid_step_state(const ellipsoid_step *step, double t,
 typedef int (*ellipsoid_observer)(void *context, const ellipsoid_step *step);
 
 /*
-    Advances *state from *t to `end` [s]. All of state, t, controller and
-    statistics are updated at every accepted step; on a failure they are those
-    of the last accepted step. observer may be NULL.
+    Advances *state from *t to `end` [s]. State, t and controller are updated at
+    every accepted step; on a failure they are those of the last accepted step.
+    Statistics count failed attempts as well. observer may be NULL, and so may
+    cache where there are no walls.
     Returns OK, STOPPED (by the observer; *t is the end of that step), or why
     it could not go on.
 */

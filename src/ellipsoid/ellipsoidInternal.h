@@ -141,7 +141,8 @@ int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
                             ellipsoid_nearest *nearest);
 
 /* Could ellipsoid_facet_nearest() find one, were the point moved by up to
-   margin [m]? Errs towards 1. */
+   margin [m]? Errs towards 1. Beside the facet's ball, by more than 1.5 times
+   the margin as seen along its normal, only a convex edge can. */
 int ellipsoid_facet_concerns(const ellipsoid_facet *facet,
                              const double centre[3], double reach,
                              double margin);
@@ -154,12 +155,12 @@ typedef struct ellipsoid_bead
     double stiffness; /* [N/m^1.5] 4/3 E* sqrt(r_b) */
 } ellipsoid_bead;
 
-/* facets[index[k * stride]], k < count, in ascending order */
+/* facets[index[k]], k < count, in ascending order */
 typedef struct ellipsoid_candidates
 {
     const ellipsoid_facet *facets;
     const int *index;
-    int stride, count;
+    int count;
 } ellipsoid_candidates;
 
 /*
@@ -175,16 +176,18 @@ int ellipsoid_bead_touch(const ellipsoid_bead *bead,
                          ellipsoid_contact *report);
 
 /*
-    Sees to it that the cache's pairs hold all that beads can meet in this pose
+    Sees to it that the cache holds all facets that beads can meet in this pose
     with gaps of up to horizon [m] (neighbours.c); collects them anew only if
-    the cell has moved too far. STEP_UNDERFLOW: the walls ask for a shorter
-    step, WALLS_FAILED: they gave up.
+    the cell has moved too far. *moved [m] is how far beads may have, since.
+    STEP_UNDERFLOW: the walls ask for a shorter step, WALLS_FAILED: they gave
+    up.
 */
 ellipsoid_status
 ellipsoid_contact_collect(ellipsoid_contact_cache *cache,
                           const ellipsoid_model *model,
                           const ellipsoid_surroundings *surroundings,
-                          const double x[3], const double q[4], double horizon);
+                          const double x[3], const double q[4], double horizon,
+                          double *moved);
 
 /* Are walls felt at all? */
 static inline int ellipsoid_has_walls(const ellipsoid_model *model,

@@ -43,6 +43,11 @@ static inline void combination(double m[3][3], double a, double b, double c,
          a * m[0][2] + b * m[1][2] + c * m[2][2]);
 }
 
+static inline double sum3(const double v[3])
+{
+    return v[0] + v[1] + v[2];
+}
+
 static inline void add3(double v[3], const double change[3])
 {
     v[0] += change[0];
@@ -351,24 +356,22 @@ static inline ellipsoid_status finish_rates(const evaluation *e,
     const double *inertia = e->model->inertia, *f = e->force, *t = e->torque;
     const double *w = e->state->omega;
     const double per_mass = 1 / e->model->mass;
-    ellipsoid_state r;
+    double q[4];
 
-    set3(r.u, f[0] * per_mass, f[1] * per_mass, f[2] * per_mass);
-    set3(r.x, e->state->u[0], e->state->u[1], e->state->u[2]);
-    set3(r.omega, (t[0] + gyroscopic(inertia, w, 1, 2)) / inertia[0],
+    set3(derivative->u, f[0] * per_mass, f[1] * per_mass, f[2] * per_mass);
+    set3(derivative->x, e->state->u[0], e->state->u[1], e->state->u[2]);
+    set3(derivative->omega, (t[0] + gyroscopic(inertia, w, 1, 2)) / inertia[0],
          (t[1] + gyroscopic(inertia, w, 2, 0)) / inertia[1],
          (t[2] + gyroscopic(inertia, w, 0, 1)) / inertia[2]);
-    ellipsoid_spin(w, e->state->q, r.q);
+    ellipsoid_spin(w, e->state->q, q);
     for (int n = 0; n < 4; n++)
     {
-        r.q[n] *= 0.5;
+        derivative->q[n] = 0.5 * q[n];
     }
-    *derivative = r;
 
     /* one NaN or infinity makes the sum one */
-    return isfinite((r.u[0] + r.u[1] + r.u[2]) + (r.x[0] + r.x[1] + r.x[2])
-                    + (r.omega[0] + r.omega[1] + r.omega[2])
-                    + (r.q[0] + r.q[1] + r.q[2] + r.q[3]))
+    return isfinite(sum3(derivative->u) + sum3(derivative->x)
+                    + sum3(derivative->omega) + sum3(q) + q[3])
              ? ELLIPSOID_OK
              : ELLIPSOID_NON_FINITE;
 }

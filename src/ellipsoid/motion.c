@@ -161,8 +161,10 @@ static ellipsoid_status try_step(const ellipsoid_problem *p,
     }
     if (p->walls)
     {
+        const double travel = unseen_travel(p, stages);
+
         /* travel is proportional to the step, the error to its 4th power */
-        *error = fmax(*error, pow(unseen_travel(p, stages), 4));
+        *error = fmax(*error, travel * travel * travel * travel);
     }
     if (*error > 1)
     {

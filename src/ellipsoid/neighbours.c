@@ -5,9 +5,9 @@
 
     neighbours.c - which facets the beads of a cell may meet.
 
-    The cache holds, for the pose at which it was filled, every pair of a bead
-    and a facet that can meet within the horizon while no bead has moved farther
-    than the margin. Pairs that do not meet add nothing, and pairs are summed in
+    The cache holds, for the pose at which it was filled, for each bead every
+    facet that it can meet within the horizon while no bead has moved farther
+    than the margin. Facets that are not met add nothing, and those met come in
     their own order, so a result does not depend, not by a bit, on the pose at
     which they were collected.
 */
@@ -16,18 +16,22 @@
 #include <math.h>
 #include <string.h>
 
-/* How far a bead may move before pairs are collected again, in bead radii:
-   few pairs to look at against few collections. */
-static const double pair_margin = 0.5;
+/*
+    How far a bead may move before facets are collected again, in bead radii:
+    few facets to look at against few collections. It begins with the first and
+    follows the cell's pace: wider if it served few poses, narrower if many.
+*/
+static const double first_margin = 0.5, widest = 1, narrowest = 1.0 / 32;
+static const int few = 16, many = 128;
 
-/* Where pairs are too many: smaller margins, each by this factor. */
-static const double smaller = 0.25;
-#define ATTEMPTS 3
+/* Where facets are too many: smaller margins, each by this factor. */
+static const double smaller = 0.5;
+#define ATTEMPTS 5
 
 void ellipsoid_contact_cache_clear(ellipsoid_contact_cache *cache)
 {
     cache->valid = 0;
-    cache->pair_count = 0;
+    cache->served = 0;
     cache->margin = 0;
     cache->clearance = 0;
     cache->facets = NULL;
@@ -61,7 +65,7 @@ static double turn_between(const double p[4], const double q[4])
 
 static int serves(const ellipsoid_contact_cache *cache,
                   const ellipsoid_model *model, const double x[3],
-                  const double q[4])
+                  const double q[4], double *moved)
 {
     double d[3];
 
@@ -71,7 +75,7 @@ static int serves(const ellipsoid_contact_cache *cache,
     }
     ellipsoid_difference(x, cache->x, d);
 
-    const double moved = ellipsoid_dot(d, d);
+    const double squared = ellipsoid_dot(d, d);
     const double arm = model->reach - model->options.bead_radius;
 
     if (cache->clearance > 0)
@@ -80,9 +84,10 @@ static int serves(const ellipsoid_contact_cache *cache,
         const double longer = product(q, q) - product(cache->q, cache->q);
         const double left = cache->clearance - arm * (longer > 0 ? longer : 0);
 
-        return left > 0 && moved < left * left;
+        return left > 0 && squared < left * left;
     }
-    return sqrt(moved) + arm * turn_between(cache->q, q) <= cache->margin;
+    *moved = sqrt(squared) + arm * turn_between(cache->q, q);
+    return *moved <= cache->margin;
 }
 
 /* The nearest that any facet, listed or not, can be to the centre; NaN where
@@ -166,10 +171,10 @@ static void place_beads(const ellipsoid_model *model, const double x[3],
     }
 }
 
-/* Middle of a facet, and the radius of the sphere about it that holds it. */
-static double bound(const ellipsoid_facet *facet, double middle[3])
+/* The radius of a ball that holds a facet, and its middle. */
+static double ball_of(const ellipsoid_facet *facet, double middle[3])
 {
-    double size = 0;
+    double squared = 0;
 
     for (int i = 0; i < 3; i++)
     {
@@ -181,86 +186,170 @@ static double bound(const ellipsoid_facet *facet, double middle[3])
         double d[3];
 
         ellipsoid_difference(facet->vertex[k], middle, d);
-        size = fmax(size, ellipsoid_dot(d, d));
+
+        const double other = ellipsoid_dot(d, d);
+
+        squared = other > squared ? other : squared;
     }
-    return sqrt(size);
+    return sqrt(squared);
 }
 
-/* Is a point farther than `far` from the box that holds the beads? Spares most
-   facets the look at every bead. */
-static int beyond_box(const swarm *beads, const double point[3], double far)
+/* Is a point farther than `far` from the box that holds the beads? */
+static int beyond_box(const swarm *beads, const double d[3], double far)
 {
     const double squared = beads->stretch * beads->stretch;
-    double d[3], sum = 0;
+    double sum = 0;
 
-    ellipsoid_difference(point, beads->centre, d);
     for (int i = 0; i < 3; i++)
     {
         const double along = beads->rotation[0][i] * d[0]
                            + beads->rotation[1][i] * d[1]
                            + beads->rotation[2][i] * d[2];
-        const double out = fmax(fabs(along) / squared - beads->half_box[i], 0);
+        const double out = fabs(along) - squared * beads->half_box[i];
 
-        sum += out * out;
+        sum += out > 0 ? out * out : 0;
     }
-    return squared * sum > far * far;
+    return sum > squared * far * far;
 }
 
-/* Fills the pairs; their number, or -1 if they are too many. */
-static int collect_pairs(const ellipsoid_facet_list *list, const swarm *beads,
-                         double reach, double margin,
-                         ellipsoid_contact_cache *cache)
+/* Does the box, seen along the normal, lie more than `near` beside a point? */
+static int beside_box(const swarm *beads, const double normal[3],
+                      const double d[3], double near)
 {
-    int found[ELLIPSOID_MAX_PAIRS][2], start[ELLIPSOID_MAX_BEADS + 1] = {0};
+    const double height = ellipsoid_dot(d, normal);
+    double across[3], extent = 0;
+
+    for (int i = 0; i < 3; i++)
+    {
+        across[i] = d[i] - height * normal[i];
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        extent += beads->half_box[i]
+                * fabs(beads->rotation[0][i] * across[0]
+                       + beads->rotation[1][i] * across[1]
+                       + beads->rotation[2][i] * across[2]);
+    }
+
+    const double squared = ellipsoid_dot(across, across);
+
+    return squared > near * sqrt(squared) + extent;
+}
+
+static int has_convex_edge(const ellipsoid_facet *facet)
+{
+    return facet->edge[0] == ELLIPSOID_EDGE_CONVEX
+        || facet->edge[1] == ELLIPSOID_EDGE_CONVEX
+        || facet->edge[2] == ELLIPSOID_EDGE_CONVEX;
+}
+
+/*
+    How far beads are, squared, beyond what a facet may concern: beyond the
+    reach of its ball and, unless an edge is convex, beside it. height: above
+    its plane.
+*/
+static void glance(const ellipsoid_facet *facet, const swarm *beads,
+                   const double middle[3], double far, double near,
+                   double height[ELLIPSOID_MAX_BEADS],
+                   double beyond[ELLIPSOID_MAX_BEADS])
+{
+    const double beside = has_convex_edge(facet) ? far * far : near * near;
+    const double *n = facet->normal;
+
+    for (int b = 0; b < beads->count; b++)
+    {
+        const double d0 = beads->x[0][b] - middle[0];
+        const double d1 = beads->x[1][b] - middle[1];
+        const double d2 = beads->x[2][b] - middle[2];
+        const double h = d0 * n[0] + d1 * n[1] + d2 * n[2];
+        const double squared = d0 * d0 + d1 * d1 + d2 * d2;
+
+        const double out = squared - far * far;
+        const double aside = squared - h * h - beside;
+
+        height[b] = h;
+        beyond[b] = out > aside ? out : aside;
+    }
+}
+
+/* Fills the lists of all beads; 0 if that is too much. */
+static int collect(const ellipsoid_facet_list *list, const swarm *beads,
+                   double reach, double margin, ellipsoid_contact_cache *cache)
+{
+    int found[ELLIPSOID_MAX_PAIRS][2], next[ELLIPSOID_MAX_BEADS];
     int n = 0;
 
+    for (int b = 0; b < beads->count; b++)
+    {
+        cache->nearest[b] = HUGE_VAL;
+        next[b] = 0;
+    }
     for (int k = 0; k < list->count; k++)
     {
         const ellipsoid_facet *facet = &list->facets[list->index[k]];
-        double middle[3];
-        const double size = bound(facet, middle);
-        const double far = 1.000001 * (reach + margin) + size;
+        double middle[3], d[3], height[ELLIPSOID_MAX_BEADS];
+        double beyond[ELLIPSOID_MAX_BEADS];
+        const double size = ball_of(facet, middle);
+        const double rounding = 1e-6 * (reach + margin);
+        const double far = size + reach + margin + rounding;
+        const double near = size + 1.5 * margin + rounding;
 
-        if (beyond_box(beads, middle, far))
+        ellipsoid_difference(middle, beads->centre, d);
+        if (beyond_box(beads, d, far)
+            || (!has_convex_edge(facet)
+                && beside_box(beads, facet->normal, d, near)))
         {
             continue;
         }
+        glance(facet, beads, middle, far, near, height, beyond);
         for (int b = 0; b < beads->count; b++)
         {
             const double centre[3] = {beads->x[0][b], beads->x[1][b],
                                       beads->x[2][b]};
-            double d[3];
 
-            ellipsoid_difference(centre, middle, d);
-            if (ellipsoid_dot(d, d) > far * far
+            if (beyond[b] > 0
                 || !ellipsoid_facet_concerns(facet, centre, reach, margin))
             {
                 continue;
             }
             if (n == ELLIPSOID_MAX_PAIRS)
             {
-                return -1;
+                return 0;
+            }
+            if (fabs(height[b]) < cache->nearest[b])
+            {
+                cache->nearest[b] = fabs(height[b]);
             }
             found[n][0] = b;
             found[n][1] = list->index[k];
             n++;
-            start[b + 1]++;
+            next[b]++;
         }
     }
 
-    /* from ascending by facet to ascending by bead, then facet */
+    /* from ascending by facet to bead by bead */
+    cache->first[0] = 0;
     for (int b = 0; b < beads->count; b++)
     {
-        start[b + 1] += start[b];
+        cache->first[b + 1] = cache->first[b] + next[b];
+        next[b] = cache->first[b];
     }
     for (int k = 0; k < n; k++)
     {
-        const int place = start[found[k][0]]++;
-
-        cache->pair[place].bead = found[k][0];
-        cache->pair[place].facet = found[k][1];
+        cache->facet[next[found[k][0]]++] = found[k][1];
     }
-    return n;
+    return 1;
+}
+
+static double next_margin(const ellipsoid_contact_cache *cache, double radius)
+{
+    if (!cache->valid || cache->clearance > 0)
+    {
+        return first_margin * radius;
+    }
+    return cache->served < few    ? fmin(2 * cache->margin, widest * radius)
+           : cache->served > many ? fmax(cache->margin / 2, narrowest * radius)
+                                  : cache->margin;
 }
 
 static ellipsoid_status fill(ellipsoid_contact_cache *cache,
@@ -270,7 +359,7 @@ static ellipsoid_status fill(ellipsoid_contact_cache *cache,
                              double horizon)
 {
     const double radius = model->options.bead_radius;
-    double margin = pair_margin * radius;
+    double margin = next_margin(cache, radius);
     ellipsoid_facet_list list;
     ellipsoid_status status;
     swarm beads;
@@ -317,12 +406,8 @@ static ellipsoid_status fill(ellipsoid_contact_cache *cache,
     place_beads(model, x, q, &beads);
     for (int i = 0; i < ATTEMPTS; i++, margin *= smaller)
     {
-        const int pairs = collect_pairs(&list, &beads, radius + horizon,
-                                        margin, cache);
-
-        if (pairs >= 0)
+        if (collect(&list, &beads, radius + horizon, margin, cache))
         {
-            cache->pair_count = pairs;
             cache->margin = margin;
             cache->valid = 1;
             return ELLIPSOID_OK;
@@ -335,9 +420,14 @@ ellipsoid_status
 ellipsoid_contact_collect(ellipsoid_contact_cache *cache,
                           const ellipsoid_model *model,
                           const ellipsoid_surroundings *surroundings,
-                          const double x[3], const double q[4], double horizon)
+                          const double x[3], const double q[4], double horizon,
+                          double *moved)
 {
-    return serves(cache, model, x, q)
-               ? ELLIPSOID_OK
-               : fill(cache, model, surroundings, x, q, horizon);
+    if (serves(cache, model, x, q, moved))
+    {
+        cache->served += cache->served <= many;
+        return ELLIPSOID_OK;
+    }
+    *moved = 0;
+    return fill(cache, model, surroundings, x, q, horizon);
 }

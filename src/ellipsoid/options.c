@@ -27,7 +27,7 @@ ellipsoid_options ellipsoid_options_default(void)
         .bead_count = 32,
         .bead_radius = 0.285e-6,
         .contact_modulus = 1e6,
-        .tolerance = 1e-5,
+        .tolerance = 1e-6,
         .initial_step = 1e-8,
         .minimum_step = 1e-18,
         .maximum_step = 1,

@@ -114,7 +114,7 @@ static void find_contacts(const ellipsoid_bead *bead,
     for (int k = 0; k < from->count; k++)
     {
         const ellipsoid_facet *facet =
-            &from->facets[from->index[k * from->stride]];
+            &from->facets[from->index[k]];
         const double reach = *gap > 0 ? r + *gap : r;
 
         if (!ellipsoid_facet_nearest(facet, bead->centre, reach, &found))
@@ -434,7 +434,7 @@ int ellipsoid_bead_force(const double centre[3], double radius,
                          const int *index, int count, double force[3],
                          double force_x[3][3])
 {
-    const ellipsoid_candidates from = {facets, index, 1, count};
+    const ellipsoid_candidates from = {facets, index, count};
     ellipsoid_bead bead = {{0, 0, 0}, radius, stiffness};
     double gap = 0;
 

@@ -10,8 +10,6 @@ License
 #include "ellipsoidCloud.H"
 #include "cellSurroundings.H"
 #include "emptyPolyPatch.H"
-#include "symmetryPolyPatch.H"
-#include "symmetryPlanePolyPatch.H"
 #include "wedgePolyPatch.H"
 #include "PstreamBuffers.H"
 #include "clockTime.H"
@@ -84,18 +82,13 @@ void Foam::ellipsoidCloud::checkPatches() const
 {
     for (const polyPatch& pp : mesh_.boundaryMesh())
     {
-        if
-        (
-            isA<emptyPolyPatch>(pp)
-         || isA<wedgePolyPatch>(pp)
-         || isA<symmetryPolyPatch>(pp)
-         || isA<symmetryPlanePolyPatch>(pp)
-        )
+        if (isA<emptyPolyPatch>(pp) || isA<wedgePolyPatch>(pp))
         {
             FatalErrorInFunction
                 << "patch " << pp.name() << " is of type " << pp.type() << nl
-                << "    A cell is a body in three dimensions: it needs walls "
-                << "(type wall) and open ends (type patch)"
+                << "    A cell is a body in three dimensions: its mesh has "
+                << "walls (type wall), open ends (type patch), and patches it "
+                << "must not reach (cyclic, symmetry)"
                 << exit(FatalError);
         }
     }
@@ -277,7 +270,13 @@ bool Foam::ellipsoidCloud::move(ellipsoidParcel& parcel, const scalar end)
 
         Pout<< "ellipsoidCloud: cell " << cell.id << " is lost at t = "
             << cell.time << " s, " << pointOf(cell.body.x) << " m: "
-            << ellipsoid_status_text(status) << endl;
+            << ellipsoid_status_text(status);
+
+        if (journey.place == frozenFlow::pBeyondCoupled)
+        {
+            Pout<< " at a cyclic or symmetry patch, which it must not reach";
+        }
+        Pout<< endl;
     }
 
     tracks_->finish(cell);

@@ -10,6 +10,7 @@ License
 #include "undecomposedFlow.H"
 #include "labelIOList.H"
 #include "calculatedFvPatchFields.H"
+#include "processorPolyPatch.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 

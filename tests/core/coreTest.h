@@ -37,7 +37,7 @@ static inline void test_near(double actual, double expected, double tolerance,
 }
 
 #define assert_relative(actual, expected, tolerance)                           \
-    test_near(actual, expected, (tolerance)*fabs((double)(expected)), #actual,     \
+    test_near(actual, expected, (tolerance)*fabs((double)(expected)), #actual, \
               __FILE__, __LINE__)
 
 #define assert_ok(status) assert_int_equal(status, ELLIPSOID_OK)
@@ -137,10 +137,12 @@ static inline ellipsoid_model test_model(const ellipsoid_options *options)
 }
 
 /* Advances without walls or observer. */
-static inline ellipsoid_status
-test_advance(const ellipsoid_model *model, test_quadratic *flow,
-             ellipsoid_state *state, double *t, double end,
-             ellipsoid_controller *controller, ellipsoid_statistics *statistics)
+static inline ellipsoid_status test_advance(const ellipsoid_model *model,
+                                            test_quadratic *flow,
+                                            ellipsoid_state *state, double *t,
+                                            double end,
+                                            ellipsoid_controller *controller,
+                                            ellipsoid_statistics *statistics)
 {
     const ellipsoid_surroundings surroundings = {
         .flow = flow ? test_quadratic_flow : NULL, .flow_context = flow};

@@ -6,6 +6,7 @@
     test_equations.c - the right-hand side and its Jacobian.
 */
 #include "coreTest.h"
+#include "wallMesh.h"
 
 enum
 {
@@ -166,6 +167,81 @@ static void test_jacobian(void **unused)
 }
 
 /*
+    The paper's cell pressed 5 to 20 nm into a plate in a shear: the contact's
+    part is in its place. Steps of 1e-4 nm and 1e-8 of q; Hertz' law is smooth
+    there, rounding of the forces over the step leaves some 1e-6: 1e-5.
+*/
+static void test_jacobian_in_contact(void **unused)
+{
+    static ellipsoid_contact_cache cache;
+    const ellipsoid_options o = ellipsoid_options_default();
+    const ellipsoid_model model = test_model(&o);
+    test_quadratic flow = test_shear(1000);
+    const double corner[3] = {-1e-5, -1e-5, 0};
+    const double along[3] = {2e-5, 0, 0}, across[3] = {0, 2e-5, 0};
+    wall_mesh mesh;
+    uint64_t seed = 12;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    wall_mesh_plane(&mesh, corner, along, across, 1, 1, 0, 0);
+    wall_mesh_finish(&mesh);
+    for (int n = 0; n < 20; n++)
+    {
+        const ellipsoid_surroundings around = {.flow = test_quadratic_flow,
+                                               .flow_context = &flow,
+                                               .walls = wall_mesh_list,
+                                               .walls_context = &mesh};
+        ellipsoid_state s = {.x = {1e-7, 2e-7, 0}};
+        double jacobian[SIZE][SIZE], r[3][3], lowest = 0;
+
+        test_orientation(&seed, s.q);
+        ellipsoid_rotation(s.q, r);
+        for (int b = 0; b < model.bead_count; b++)
+        {
+            lowest = fmin(lowest, ellipsoid_dot(r[2], model.bead[b]));
+        }
+        s.x[2] = o.bead_radius - lowest - 5e-9 - 15e-9 * test_uniform(&seed);
+        ellipsoid_contact_cache_clear(&cache);
+        assert_ok(ellipsoid_jacobian(&model, &around, &s, &cache, jacobian));
+        for (int j = ELLIPSOID_X; j < SIZE; j++)
+        {
+            const double h = j < ELLIPSOID_OMEGA ? 1e-13 : 1e-8;
+            double f[2][SIZE], y[SIZE];
+
+            if (j >= ELLIPSOID_OMEGA && j < ELLIPSOID_Q)
+            {
+                continue;
+            }
+            for (int p = 0; p < 2; p++)
+            {
+                ellipsoid_state moved, derivative;
+
+                memcpy(y, &s, sizeof(y));
+                y[j] += p ? h : -h;
+                memcpy(&moved, y, sizeof(moved));
+                assert_ok(ellipsoid_rhs(&model, &around, &moved, &cache,
+                                        &derivative));
+                memcpy(f[p], &derivative, sizeof(derivative));
+            }
+            for (int begin = 0; begin < ELLIPSOID_Q; begin += ELLIPSOID_OMEGA)
+            {
+                double size = 0, error = 0;
+
+                for (int i = begin; i < begin + 3; i++)
+                {
+                    size = fmax(size, fabs(jacobian[i][j]));
+                    error = fmax(error, fabs((f[1][i] - f[0][i]) / (2 * h)
+                                             - jacobian[i][j]));
+                }
+                assert_true(error <= 1e-5 * size);
+            }
+        }
+    }
+    wall_mesh_free(&mesh);
+}
+
+/*
     physics.md, "The thirteen equations" and "Hydrodynamic force and torque",
     term by term with matrices: an independent writing of the same. Rounding.
 */
@@ -191,8 +267,8 @@ static void test_written_out(void **unused)
 
         for (int i = 0; i < 3; i++)
         {
-            double force = (m.mass - m.fluid_mass) * o->gravity[i]
-                         + o->external_force[i];
+            double force =
+                (m.mass - m.fluid_mass) * o->gravity[i] + o->external_force[i];
 
             for (int j = 0; j < 3; j++)
             {
@@ -295,27 +371,25 @@ static void test_statuses(void **unused)
 
     (void)unused;
     flow.answer = 1;
-    assert_int_equal(
-        ellipsoid_rhs(&model, &around, &state, NULL, &derivative),
-        ELLIPSOID_STEP_UNDERFLOW);
+    assert_int_equal(ellipsoid_rhs(&model, &around, &state, NULL, &derivative),
+                     ELLIPSOID_STEP_UNDERFLOW);
     flow.answer = -1;
-    assert_int_equal(
-        ellipsoid_rhs(&model, &around, &state, NULL, &derivative),
-        ELLIPSOID_FLOW_FAILED);
+    assert_int_equal(ellipsoid_rhs(&model, &around, &state, NULL, &derivative),
+                     ELLIPSOID_FLOW_FAILED);
     assert_int_equal(
         ellipsoid_jacobian(&model, &around, &state, NULL, jacobian),
         ELLIPSOID_FLOW_FAILED);
     flow.answer = 0;
     flow.g[2][0] = NAN;
-    assert_int_equal(
-        ellipsoid_rhs(&model, &around, &state, NULL, &derivative),
-        ELLIPSOID_NON_FINITE);
+    assert_int_equal(ellipsoid_rhs(&model, &around, &state, NULL, &derivative),
+                     ELLIPSOID_NON_FINITE);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_jacobian),
+        cmocka_unit_test(test_jacobian_in_contact),
         cmocka_unit_test(test_written_out),
         cmocka_unit_test(test_rigid_rotation),
         cmocka_unit_test(test_statuses),

@@ -19,7 +19,7 @@ static void long_axis(const ellipsoid_state *state, double axis[3])
     }
 }
 
-/* ------------------------------------------------------------ Jeffery orbits */
+/* ----------------------------------------------------------- Jeffery orbits */
 
 /*
     Jeffery (1922), eqs. 48-49: with a spheroid of aspect ratio r in the shear
@@ -65,8 +65,8 @@ static double jeffery_deviation(double density, double tolerance, double r,
 
     phase = 2 * test_pi * turns;
     phi = atan2(r * sin(phase), cos(phase));
-    theta = atan2(c * r, sqrt(r * r * cos(phi) * cos(phi)
-                              + sin(phi) * sin(phi)));
+    theta =
+        atan2(c * r, sqrt(r * r * cos(phi) * cos(phi) + sin(phi) * sin(phi)));
     expected[0] = sin(theta) * sin(phi);
     expected[1] = sin(theta) * cos(phi);
     expected[2] = cos(theta);
@@ -155,10 +155,9 @@ static void test_relaxation(void **unused)
         ellipsoid_controller controller = {0};
         ellipsoid_statistics statistics = {0};
         const double u0 = 4e-3, w0 = 1000;
-        const double tau =
-            model.mass / (model.viscosity * model.resistance[i]);
-        const double turn = model.inertia[i]
-                          / (model.viscosity * model.rotation_resistance[i]);
+        const double tau = model.mass / (model.viscosity * model.resistance[i]);
+        const double turn =
+            model.inertia[i] / (model.viscosity * model.rotation_resistance[i]);
         double t = 0;
 
         s.u[i] = u0;
@@ -208,12 +207,10 @@ static void test_inclined_sedimentation(void **unused)
     weight = (m.mass - m.fluid_mass) * -9.81;
     along = weight * cos(inclination) / (m.viscosity * m.resistance[1]);
     across = -weight * sin(inclination) / (m.viscosity * m.resistance[0]);
-    assert_relative(s.u[2],
-                    along * cos(inclination) - across * sin(inclination),
-                    1e-10);
-    assert_relative(s.u[0],
-                    along * sin(inclination) + across * cos(inclination),
-                    1e-10);
+    assert_relative(
+        s.u[2], along * cos(inclination) - across * sin(inclination), 1e-10);
+    assert_relative(
+        s.u[0], along * sin(inclination) + across * cos(inclination), 1e-10);
     assert_near(s.u[1], 0, 1e-20);
     for (int n = 0; n < 4; n++)
     {
@@ -336,8 +333,7 @@ static void test_slit_steps(void **unused)
             }
             for (int i = 0; k > 0 && i < 4; i++)
             {
-                error[k - 1] =
-                    fmax(error[k - 1], fabs(s[k].q[i] - s[0].q[i]));
+                error[k - 1] = fmax(error[k - 1], fabs(s[k].q[i] - s[0].q[i]));
             }
         }
     }

@@ -146,8 +146,7 @@ static void test_near_sphere_keeps_its_digits(void **unused)
     options.semi_axes[1] = 1e-6 + d;
     m = test_model(&options);
     assert_relative(m.strain_factor[0],
-                    (options.semi_axes[1] - 1e-6) / 1e-6
-                        * (1 + 0.5 * d * 1e6)
+                    (options.semi_axes[1] - 1e-6) / 1e-6 * (1 + 0.5 * d * 1e6)
                         / (1 + d * 1e6 + 0.5 * d * d * 1e12),
                     1e-15);
     assert_true(m.strain_factor[2] == -m.strain_factor[0]);

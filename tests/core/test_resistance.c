@@ -36,8 +36,7 @@ static void test_carlson_identities(void **unused)
         const double y = pow(10, 6 * test_signed(&seed));
         const double z = pow(10, 6 * test_signed(&seed));
         const double d = sqrt(fabs(y - x));
-        const double arc =
-            (x < y ? atan2(d, sqrt(x)) : atanh(d / sqrt(x))) / d;
+        const double arc = (x < y ? atan2(d, sqrt(x)) : atanh(d / sqrt(x))) / d;
 
         assert_relative(ellipsoid_carlson_rd(x, y, z)
                             + ellipsoid_carlson_rd(y, z, x)
@@ -139,9 +138,9 @@ static spheroid oblate(long double r)
 /* Both sides are good to a few roundings: 1e-13, asked for was 1e-12. */
 static void test_spheroids(void **unused)
 {
-    const double ratios[] = {0.01, 0.02, 0.1,     0.25,    0.5,      0.8,
-                             0.9,  0.99, 0.99999, 1.00001, 1.000001, 1.01,
-                             1.1,  1.3,  2,       4,       10,       50, 100};
+    const double ratios[] = {0.01, 0.02,    0.1,     0.25,     0.5,  0.8, 0.9,
+                             0.99, 0.99999, 1.00001, 1.000001, 1.01, 1.1, 1.3,
+                             2,    4,       10,      50,       100};
 
     (void)unused;
     for (size_t n = 0; n < sizeof(ratios) / sizeof(*ratios); n++)
@@ -160,8 +159,7 @@ static void test_spheroids(void **unused)
             for (int i = 0; i < 3; i++)
             {
                 assert_relative(k[i], i == along ? s.along : s.across, 1e-13);
-                assert_relative(c[i],
-                                i == along ? s.turn_along : s.turn_across,
+                assert_relative(c[i], i == along ? s.turn_along : s.turn_across,
                                 1e-13);
             }
         }
@@ -196,8 +194,8 @@ static void integrals(const double a[3], double *chi, double alpha[3])
     for (double s = -50; s < 90; s += step)
     {
         const double l = exp(s);
-        const double delta = sqrt((a[0] * a[0] + l) * (a[1] * a[1] + l)
-                                  * (a[2] * a[2] + l));
+        const double delta =
+            sqrt((a[0] * a[0] + l) * (a[1] * a[1] + l) * (a[2] * a[2] + l));
         const double weight = step * a[0] * a[1] * a[2] * l / delta;
 
         *chi += weight;
@@ -232,8 +230,9 @@ static void test_triaxial(void **unused)
                             1e-12);
             assert_relative(c[i],
                             16 * p * (aj * aj + ak * ak)
-                                / (3 * (aj * aj * alpha[(i + 1) % 3]
-                                        + ak * ak * alpha[(i + 2) % 3])),
+                                / (3
+                                   * (aj * aj * alpha[(i + 1) % 3]
+                                      + ak * ak * alpha[(i + 2) % 3])),
                             1e-12);
         }
     }

@@ -273,8 +273,7 @@ static int vortex_flow(void *context, const double x[3], int derivatives,
 }
 
 /* `count` equal steps to `end`; the last one is shown if `last` is not NULL. */
-static ellipsoid_state equal_steps(const ellipsoid_model *model,
-                                   vortices *flow,
+static ellipsoid_state equal_steps(const ellipsoid_model *model, vortices *flow,
                                    const ellipsoid_state *begin, double end,
                                    int count, ellipsoid_step *last)
 {
@@ -330,8 +329,7 @@ static double distance(const double *a, const double *b, int count)
 static errors difference(const ellipsoid_state *a, const ellipsoid_state *b)
 {
     const errors e = {distance(a->u, b->u, 3), distance(a->x, b->x, 3),
-                      distance(a->omega, b->omega, 3),
-                      distance(a->q, b->q, 4)};
+                      distance(a->omega, b->omega, 3), distance(a->q, b->q, 4)};
 
     return e;
 }
@@ -474,8 +472,7 @@ static void test_block_elimination(void **unused)
     p.state.omega[0] = 1;
     p.state.omega[1] = -2;
     p.state.omega[2] = 0.5;
-    assert_ok(
-        ellipsoid_jacobian(&model, &around, &p.state, NULL, jacobian));
+    assert_ok(ellipsoid_jacobian(&model, &around, &p.state, NULL, jacobian));
     assert_ok(ellipsoid_problem_evaluate(&problem, &p.state, &p.derivative,
                                          &p.contact, &p.blocks));
     assert_ok(ellipsoid_rosenbrock_step(&problem, &p, h, &stages));

@@ -14,8 +14,7 @@ static void multiply(double a[3][3], double b[3][3], double c[3][3])
     {
         for (int j = 0; j < 3; j++)
         {
-            c[i][j] =
-                a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
+            c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
         }
     }
 }

@@ -598,7 +598,7 @@ static void test_random_ground(void **unused)
                 const ellipsoid_bead bead = {{start[0] + way * cos(angle),
                                               start[1] + way * sin(angle), z},
                                              r, 1};
-                const ellipsoid_candidates from = {wall.facets, index, 1,
+                const ellipsoid_candidates from = {wall.facets, index,
                                                    list.count};
                 double force[3] = {0, 0, 0}, gap = 4;
 
