@@ -290,6 +290,7 @@ typedef struct ellipsoid_contact_cache
     int valid;
     int served;         /* poses since it was filled */
     double margin;      /* [m] how far a bead may move */
+    double rotation[3][3], half_box[3]; /* R(q) there; the beads' box [m] */
     double x[3], q[4];  /* pose at which it was filled */
     double clearance;   /* [m] > 0: no facet while the centre moves less */
     const ellipsoid_facet *facets;
@@ -355,6 +356,8 @@ int ellipsoid_bead_force(const double centre[3], double radius,
 /*
     Bead centres of a layout on an ellipsoid (body frame) into bead[][3];
     returns how many (PAPER drops duplicates), 0 if the options do not allow it.
+    bead_count is 2 + 3 n (two poles and n rings of three), 32 for PAPER, or 1:
+    a single bead at the centre.
 */
 int ellipsoid_beads(const ellipsoid_options *options,
                     double bead[ELLIPSOID_MAX_BEADS][3]);

@@ -45,22 +45,27 @@ static double product(const double p[4], const double q[4])
 }
 
 /*
-    How far the turn from p to q can move a point at unit distance: with d the
-    shorter of q - p and q + p, q r q* - p r p* = d r q* + p r d*, whence
-    |d| (|p| + |q|). For unit quaternions and small turns this is the chord.
+    How far any bead can have moved since the cache was filled. The box that
+    holds the beads bounds it: a spin about a long axis moves them little.
 */
-static double turn_between(const double p[4], const double q[4])
+static double farthest_move(const ellipsoid_contact_cache *cache,
+                            const double shift, const double q[4])
 {
-    const double sign = product(p, q) < 0 ? -1 : 1;
-    double dd = 0;
+    double r[3][3], sum = 0;
 
-    for (int i = 0; i < 4; i++)
+    ellipsoid_rotation_inline(q, r);
+    for (int i = 0; i < 3; i++)
     {
-        const double d = q[i] - sign * p[i];
+        const double d = fabs(r[i][0] - cache->rotation[i][0])
+                           * cache->half_box[0]
+                       + fabs(r[i][1] - cache->rotation[i][1])
+                           * cache->half_box[1]
+                       + fabs(r[i][2] - cache->rotation[i][2])
+                           * cache->half_box[2];
 
-        dd += d * d;
+        sum += d * d;
     }
-    return sqrt(dd) * (sqrt(product(p, p)) + sqrt(product(q, q)));
+    return shift + sqrt(sum);
 }
 
 static int serves(const ellipsoid_contact_cache *cache,
@@ -86,7 +91,7 @@ static int serves(const ellipsoid_contact_cache *cache,
 
         return left > 0 && squared < left * left;
     }
-    *moved = sqrt(squared) + arm * turn_between(cache->q, q);
+    *moved = farthest_move(cache, sqrt(squared), q);
     return *moved <= cache->margin;
 }
 
@@ -404,6 +409,8 @@ static ellipsoid_status fill(ellipsoid_contact_cache *cache,
     }
 
     place_beads(model, x, q, &beads);
+    memcpy(cache->rotation, beads.rotation, sizeof cache->rotation);
+    memcpy(cache->half_box, beads.half_box, sizeof cache->half_box);
     for (int i = 0; i < ATTEMPTS; i++, margin *= smaller)
     {
         if (collect(&list, &beads, radius + horizon, margin, cache))

@@ -17,6 +17,7 @@
     bead leaves a facet over a gently concave seam or a low step, that point
     lies on the next facet: s_i, and with it the contact's weight, is zero
     before the contact ends, and the force stays continuous.
+    The rule for w_i is docs/theory.md's, "Contact"; the shares add to it.
 */
 #include "ellipsoidInternal.h"
 

@@ -18,13 +18,15 @@ from functools import cached_property
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkObject
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPlane
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPlane
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkCleanPolyData, vtkCutter
-from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 from vtkmodules.vtkIOParallel import vtkPOpenFOAMReader
+from vtkmodules.vtkParallelCore import vtkDummyController
 
 MICRO = 1e6   # m to micrometres
 MILLI = 1e3   # m/s to mm/s, s to ms
+
+SMOOTH = 20000   # triangles that make a smooth picture
 
 # That of ellipsoid_options_default() in src/ellipsoid
 DEFAULT_SEMI_AXES = (0.5e-6, 2e-6, 0.5e-6)
@@ -39,7 +41,6 @@ FATES = {
     "lost": "lost",
 }
 
-Track = namedtuple("Track", "t x u q omega axis")
 Fate = namedtuple("Fate", "name patch t")
 
 
@@ -51,29 +52,48 @@ class NotApplicable(Exception):
     """The case has nothing that this picture could show."""
 
 
+class Track(namedtuple("Track", "t x u q omega axis")):
+    """The rows of one cell by time, in arrays."""
+
+    __slots__ = ()
+
+    def path(self):
+        """Points of a smooth curve in the plan, through all rows along their velocity."""
+        x, dt = self.x[:, :2], np.diff(self.t)[:, None]
+        chord = np.diff(x, axis=0)
+        length = np.linalg.norm(chord, axis=1, keepdims=True)
+
+        def tangent(u):
+            # At most the chord's length: rows of a cell at rest may lie far apart in time
+            reach = u[:, :2] * dt * MICRO / MILLI
+            size = np.linalg.norm(reach, axis=1, keepdims=True)
+            return reach * np.minimum(1, length / np.maximum(size, 1e-30))
+
+        a, b = tangent(self.u[:-1]), tangent(self.u[1:])
+        s = np.linspace(0, 1, 6, endpoint=False)[None, :, None]
+        start, chord, a, b = x[:-1, None], chord[:, None], a[:, None], b[:, None]
+        # Hermite's cubic
+        curve = start + s * (a + s * (3 * chord - 2 * a - b + s * (a + b - 2 * chord)))
+        return np.concatenate((curve.reshape(-1, 2), x[-1:]))
+
+
 class Plane:
     """A cut through mesh and flow, parallel to the plan of the device.
 
     points      (n, 2) corners
     connectivity, offsets   polygon i has the corners connectivity[offsets[i]:offsets[i+1]]
-    speed       of the flow in every polygon
-    pointSpeed  at every corner
-    outlines    patch name to (m, 2, 2) segments
+    velocity    (m, 3) of the flow in every polygon
+    outlines    patch name to (k, 2, 2) segments
+    walls       (which points, their velocity) where it is known
     """
 
-    def __init__(self, points, connectivity, offsets, speed, outlines, still):
+    def __init__(self, points, connectivity, offsets, velocity, outlines, walls):
         self.points = points
         self.connectivity = connectivity
         self.offsets = offsets
-        self.speed = speed
+        self.velocity = velocity
         self.outlines = outlines
-
-        owner = np.repeat(np.arange(len(speed)), np.diff(offsets))
-        shares = np.bincount(connectivity, minlength=len(points))
-        self.pointSpeed = (
-            np.bincount(connectivity, speed[owner], len(points)) / np.maximum(shares, 1)
-        )
-        self.pointSpeed[still] = 0
+        self._walls = walls
 
     @property
     def bounds(self):
@@ -93,15 +113,40 @@ class Plane:
         return 0.5 * np.abs(np.add.reduceat(cross, self.offsets[:-1]))
 
     @cached_property
+    def point_velocity(self):
+        """Velocity at every corner, the mean of the polygons about it."""
+        owner = np.repeat(np.arange(len(self.velocity)), np.diff(self.offsets))
+        shares = np.bincount(self.connectivity, minlength=len(self.points))
+        velocity = np.column_stack([
+            np.bincount(self.connectivity, component[owner], len(self.points))
+            for component in self.velocity.T
+        ]) / np.maximum(shares, 1)[:, None]
+        for which, value in self._walls:
+            velocity[which] = value
+        return velocity
+
+    @cached_property
     def triangulation(self):
         """x, y, triangles, speed; every polygon is a fan about its middle."""
         sides = np.diff(self.offsets)
         corners = self.points[self.connectivity]
         middles = np.add.reduceat(corners, self.offsets[:-1]) / sides[:, None]
-        xy = np.concatenate((self.points, middles))
         hub = np.repeat(len(self.points) + np.arange(len(sides)), sides)
         triangles = np.column_stack((hub, self.connectivity, self._next))
-        return xy[:, 0], xy[:, 1], triangles, np.concatenate((self.pointSpeed, self.speed))
+        # x, y and the velocity together, all linear in a triangle
+        nodes = np.column_stack((
+            np.concatenate((self.points, middles)),
+            np.concatenate((self.point_velocity, self.velocity)),
+        ))
+        # The speed is not linear: where the mesh is coarse, triangles are quartered
+        while len(triangles) < SMOOTH:
+            corners = nodes[triangles]
+            halves = 0.5 * (corners + np.roll(corners, -1, axis=1))
+            nodes = np.concatenate((corners, halves), axis=1).reshape(-1, nodes.shape[1])
+            first = 6 * np.arange(len(triangles))[:, None, None]
+            quarters = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]])
+            triangles = (first + quarters).reshape(-1, 3)
+        return nodes[:, 0], nodes[:, 1], triangles, np.linalg.norm(nodes[:, 2:], axis=1)
 
     @cached_property
     def _next(self):
@@ -271,13 +316,23 @@ class Case:
         raise CaseError(f"{root}: no time folder with a velocity U")
 
     @cached_property
-    def still_walls(self):
-        """Patches on which the fluid is at rest."""
+    def wall_velocity(self):
+        """Patch name to the velocity there, where the flow has a uniform one."""
         root = self.path("processor0") if self.decomposed else self.folder
         file = os.path.join(root, self.flow_time[1], "U")
         text = read_text(file if os.path.isfile(file) else file + ".gz")
         conditions = text[text.rfind("boundaryField"):]
-        return set(re.findall(r"([^\s(){};]+)\s*\{\s*type\s+noSlip\s*;", conditions))
+        given = {
+            name: (0, 0, 0)
+            for name in re.findall(r"([^\s(){};]+)\s*\{\s*type\s+noSlip\s*;", conditions)
+        }
+        fixed = re.findall(
+            r"([^\s(){};]+)\s*\{\s*type\s+fixedValue\s*;\s*value\s+uniform\s*\(([^)]*)\)",
+            conditions,
+        )
+        for name, words in fixed:
+            given[name] = tuple(float(word) * MILLI for word in words.split())
+        return given
 
     @cached_property
     def _vtk(self):
@@ -289,9 +344,13 @@ class Case:
 
         # What VTK would print is told by the checks below in one line
         vtkObject.GlobalWarningDisplayOff()
-        reader = vtkPOpenFOAMReader() if self.decomposed else vtkOpenFOAMReader()
-        if self.decomposed:
-            reader.SetCaseType(vtkPOpenFOAMReader.DECOMPOSED_CASE)
+        reader = vtkPOpenFOAMReader()
+        controller = vtkDummyController()
+        reader.SetController(controller)
+        reader.SetCaseType(
+            vtkPOpenFOAMReader.DECOMPOSED_CASE if self.decomposed
+            else vtkPOpenFOAMReader.RECONSTRUCTED_CASE
+        )
         reader.SetFileName(self.path("system", "controlDict"))
         reader.SetSkipZeroTime(False)
         reader.SetDecomposePolyhedra(False)
@@ -310,8 +369,7 @@ class Case:
         pieces = {}
         iterator = reader.GetOutputDataObject(0).NewIterator()
         while not iterator.IsDoneWithTraversal():
-            name = iterator.GetCurrentMetaData().Get(vtkDataObject.FIELD_NAME()) or \
-                iterator.GetCurrentMetaData().Get(reader.GetOutput().NAME())
+            name = iterator.GetCurrentMetaData().Get(vtkCompositeDataSet.NAME())
             pieces.setdefault(name, []).append(iterator.GetCurrentDataObject())
             iterator.GoToNextItem()
         meshes = [one for one in pieces.pop("internalMesh", []) if one.GetNumberOfCells()]
@@ -363,7 +421,7 @@ class Case:
         U = vtk_to_numpy(section.GetCellData().GetArray("U"))
 
         outlines = {}
-        still = np.zeros(len(points), dtype=bool)
+        walls = []
         for name in self.patches:
             line = cut(patches.get(name, []))
             if not line.GetNumberOfLines():
@@ -371,16 +429,17 @@ class Case:
             ends = vtk_to_numpy(line.GetLines().GetConnectivityArray()).reshape(-1, 2)
             xy = vtk_to_numpy(line.GetPoints().GetData())[:, :2] * MICRO
             outlines[name] = xy[ends]
-            if name in self.still_walls:
-                still |= coincide(points, xy, 1e-5 * size * MICRO)
+            if name in self.wall_velocity:
+                on = coincide(points, xy, 1e-5 * size * MICRO)
+                walls.append((on, self.wall_velocity[name]))
 
         return Plane(
             points.astype(float),
             vtk_to_numpy(polygons.GetConnectivityArray()),
             vtk_to_numpy(polygons.GetOffsetsArray()),
-            np.linalg.norm(U, axis=1) * MILLI,
+            U.astype(float) * MILLI,
             outlines,
-            still,
+            walls,
         )
 
 

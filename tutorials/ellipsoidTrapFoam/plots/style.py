@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
+"""The look that the pictures share, and the frame of their commands."""
+
+import argparse
+import os
+import sys
+import time
+import traceback
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib import patheffects
+from matplotlib.collections import LineCollection
+from matplotlib.colors import ListedColormap
+from matplotlib.lines import Line2D
+
+from case import Case, CaseError, NotApplicable
+
+# Viridis, paled so that tracks stand out on all of it
+PALE = 0.3
+SPEED_MAP = ListedColormap(
+    plt.get_cmap("viridis")(np.linspace(0, 1, 256)) * (1 - PALE) + PALE, "paleViridis"
+)
+SOLID = "0.82"
+
+# Okabe and Ito's colours, which the colour-blind can tell apart
+ORANGE, SKY, GREEN, YELLOW = "#E69F00", "#56B4E9", "#009E73", "#F0E442"
+BLUE, VERMILLION, PURPLE = "#0072B2", "#D55E00", "#CC79A7"
+
+# Colour, width and dashes tell the fates apart, also in grey
+FATE_LINES = {
+    "escaped": {"color": "black", "linewidth": 0.3, "linestyle": "-"},
+    "in flight": {"color": YELLOW, "linewidth": 1.0, "linestyle": (0, (1, 1))},
+    "caught": {"color": VERMILLION, "linewidth": 1.2, "linestyle": "-"},
+    "stalled": {"color": SKY, "linewidth": 1.2, "linestyle": (0, (4, 1.5))},
+    "lost": {"color": PURPLE, "linewidth": 1.2, "linestyle": (0, (4, 1, 1, 1))},
+}
+
+# Where a cell is that has not left
+LAST_POINT = {"marker": "o", "markersize": 3, "markeredgecolor": "black", "markeredgewidth": 0.5}
+
+plt.rcParams.update({
+    "savefig.dpi": 200,
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.linewidth": 0.7,
+    "axes.axisbelow": True,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "legend.fontsize": 8,
+    "legend.framealpha": 0.9,
+    "lines.linewidth": 1.2,
+    "grid.color": "0.88",
+    "grid.linewidth": 0.5,
+})
+
+
+def plan_axes(ax, xlim, ylim):
+    """Axes in the plan of the device, in micrometres, what is solid in grey."""
+    ax.set_aspect("equal")
+    ax.set_xlim(xlim)
+    ax.set_ylim(ylim)
+    ax.set_facecolor(SOLID)
+    ax.set_xlabel("x [µm]")
+    ax.set_ylabel("y [µm]")
+
+
+def plan_figure(xlim, ylim, beside=1.4, below=0.9):
+    """Figure and axes for a plan, with inches to spare for a colour bar and a legend."""
+    width, height = xlim[1] - xlim[0], ylim[1] - ylim[0]
+    scale = min(5 / width, 7 / height)
+    figure, ax = plt.subplots(
+        figsize=(width * scale + beside, height * scale + below), layout="compressed"
+    )
+    plan_axes(ax, xlim, ylim)
+    return figure, ax
+
+
+def name_openings(ax, case):
+    """The names of the patches by which the flow comes and goes, outside the plan."""
+    (x0, x1), (y0, y1) = case.plane.bounds
+    near = 1e-3 * max(x1 - x0, y1 - y0)
+    for name, segments in case.plane.outlines.items():
+        if case.patches[name] != "patch":
+            continue
+        x, y = segments.reshape(-1, 2).mean(axis=0)
+        sides = ((x - x0, -1, 0), (x1 - x, 1, 0), (y - y0, 0, -1), (y1 - y, 0, 1))
+        for distance, right, up in sides:
+            if distance < near:
+                ax.annotate(
+                    name, (x, y), xytext=(8 * right, 8 * up), textcoords="offset points",
+                    ha="center", va="center", rotation=90 * right, fontsize=8,
+                )
+
+
+def draw_speed(ax, plane, **options):
+    """The flow's speed, as an image that a colour bar can be made from."""
+    x, y, triangles, speed = plane.triangulation
+    return ax.tripcolor(
+        x, y, triangles, speed, shading="gouraud", cmap=SPEED_MAP, rasterized=True, **options
+    )
+
+
+def draw_outlines(ax, case, linewidth=0.6, sieve_color="black"):
+    """The walls that the plane cuts."""
+    for name, segments in case.plane.outlines.items():
+        if case.patches[name] == "wall":
+            color = sieve_color if name in case.sieves else "black"
+            ax.add_collection(LineCollection(
+                segments, colors=color, linewidths=linewidth, capstyle="round"
+            ))
+
+
+def legend_below(ax, keys):
+    """A legend in one row below the axis' label."""
+    ax.legend(
+        handles=keys, loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=5,
+        ncol=len(keys), columnspacing=1.2, handlelength=1.8,
+    )
+
+
+def framed(color, width):
+    """A rim about a line or text that sets it off from what lies below."""
+    return [patheffects.withStroke(linewidth=width, foreground=color)]
+
+
+def fate_key(fate, number):
+    """Legend entry of a fate."""
+    line = dict(FATE_LINES[fate])
+    line["linewidth"] = max(line["linewidth"], 0.8)
+    if fate != "escaped":
+        line.update(LAST_POINT, markerfacecolor=line["color"])
+    return Line2D([], [], label=f"{fate} ({number})", **line)
+
+
+def save(figure, case, name):
+    """Write a figure to the case's pictures; the path."""
+    folder = case.path("pictures")
+    file = os.path.join(folder, name + ".png")
+    try:
+        os.makedirs(folder, exist_ok=True)
+        figure.savefig(file)
+    except OSError as error:
+        raise CaseError(f"{file}: {error.strerror or error}") from None
+    finally:
+        plt.close(figure)
+    return file
+
+
+def make(draw, name, case, **options):
+    """Draw one picture of a case and say what came of it; whether it went well."""
+    start = time.monotonic()
+    try:
+        file = save(draw(case, **options), case, name)
+    except NotApplicable as reason:
+        print(f"{name}: left out: {reason}")
+        return True
+    except CaseError as error:
+        print(f"{name}: {error}", file=sys.stderr)
+        return False
+    except Exception:
+        print(f"{name}: failed by a fault of the program:", file=sys.stderr)
+        traceback.print_exc()
+        return False
+    print(f"{name}: {file} ({time.monotonic() - start:.1f} s)")
+    return True
+
+
+def command(draw, description, **options):
+    """Run a picture's script; options are those of its draw(), name to argparse's."""
+    name = os.path.splitext(os.path.basename(sys.argv[0]))[0]
+    parser = argparse.ArgumentParser(prog=name, description=description)
+    parser.add_argument("case", metavar="CASE", help="folder of the case")
+    for option, settings in options.items():
+        parser.add_argument("--" + option, **settings)
+    given = vars(parser.parse_args())
+    try:
+        case = Case(given.pop("case"))
+    except CaseError as error:
+        sys.exit(f"{name}: {error}")
+    sys.exit(0 if make(draw, name, case, **given) else 1)
