@@ -206,8 +206,9 @@ typedef enum ellipsoid_edge
 /* A triangle of the wall. Edge k runs from vertex k to vertex (k+1)%3. */
 typedef struct ellipsoid_facet
 {
-    double vertex[3][3]; /* [m] lab, counter-clockwise seen from the fluid */
+    double middle[3], radius; /* [m] lab, of a ball that holds it */
     double normal[3];    /* unit, into the fluid */
+    double vertex[3][3]; /* [m] lab, counter-clockwise seen from the fluid */
     ellipsoid_edge edge[3];
     double edge_inward[3][3]; /* unit, perpendicular to edge k, in the plane of
                                  the facet ACROSS edge k, pointing into it */
@@ -217,6 +218,12 @@ typedef struct ellipsoid_facet
     int star_count[3];
     int surface; /* label of the wall patch, for reports */
 } ellipsoid_facet;
+
+/*
+    Sets the vertices, and the normal and ball that follow from them; edges lead
+    to free rims until they are set. Returns 0 if the triangle has no area.
+*/
+int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3]);
 
 /* Facets are named by their index in one array that outlives the cells. */
 typedef struct ellipsoid_facet_list
@@ -288,7 +295,7 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 typedef struct ellipsoid_contact_cache
 {
     int valid;
-    int served;         /* poses since it was filled */
+    int served, listed; /* poses since it was filled; facets listed then */
     double margin;      /* [m] how far a bead may move */
     double rotation[3][3], half_box[3]; /* R(q) there; the beads' box [m] */
     double x[3], q[4];  /* pose at which it was filled */

@@ -16,6 +16,7 @@
 #include "ellipsoidInternal.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Relative slack of 'not nearer': closes the gaps that rounding would leave. */
 static const double slack = 1e-9;
@@ -196,4 +197,36 @@ int ellipsoid_facet_concerns(const ellipsoid_facet *facet,
         face = face && inside >= -wide * length;
     }
     return face;
+}
+
+int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3])
+{
+    double sides[2][3], squared = 0;
+
+    memcpy(facet->vertex, vertex, sizeof facet->vertex);
+    ellipsoid_difference(vertex[1], vertex[0], sides[0]);
+    ellipsoid_difference(vertex[2], vertex[0], sides[1]);
+    ellipsoid_cross(sides[0], sides[1], facet->normal);
+
+    const double area = ellipsoid_length(facet->normal);
+
+    for (int i = 0; i < 3; i++)
+    {
+        facet->normal[i] /= area;
+        facet->middle[i] = (vertex[0][i] + vertex[1][i] + vertex[2][i]) / 3;
+    }
+    for (int k = 0; k < 3; k++)
+    {
+        double d[3];
+
+        ellipsoid_difference(vertex[k], facet->middle, d);
+        squared = fmax(squared, ellipsoid_dot(d, d));
+
+        facet->edge[k] = ELLIPSOID_EDGE_CONVEX;
+        memset(facet->edge_inward[k], 0, sizeof facet->edge_inward[k]);
+        memcpy(facet->neighbour_normal[k], facet->normal,
+               sizeof facet->normal);
+    }
+    facet->radius = sqrt(squared);
+    return area > 0;
 }

@@ -13,16 +13,18 @@
 */
 #include "ellipsoidInternal.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
 /*
     How far a bead may move before facets are collected again, in bead radii:
     few facets to look at against few collections. It begins with the first and
-    follows the cell's pace: wider if it served few poses, narrower if many.
+    follows the cell's pace: wider if it served few poses for the facets looked
+    through, narrower if many.
 */
 static const double first_margin = 0.5, widest = 1, narrowest = 1.0 / 32;
-static const int few = 16, many = 128;
+static const double few = 0.01, many = 0.06; /* poses for each facet listed */
 
 /* Where facets are too many: smaller margins, each by this factor. */
 static const double smaller = 0.5;
@@ -107,29 +109,18 @@ static double nearest_facet(const ellipsoid_facet_list *list,
         const ellipsoid_facet *facet = &list->facets[list->index[k]];
         double d[3];
 
-        ellipsoid_difference(centre, facet->vertex[0], d);
+        ellipsoid_difference(centre, facet->middle, d);
 
-        /* outside its plane and a sphere about vertex 0 which holds it */
+        /* outside its plane and its ball */
         const double height = fabs(ellipsoid_dot(d, facet->normal));
-        double sides[2][3];
+        const double outside = ellipsoid_length(d) - facet->radius;
+        const double distance = height > outside ? height : outside;
 
-        ellipsoid_difference(facet->vertex[1], facet->vertex[0], sides[0]);
-        ellipsoid_difference(facet->vertex[2], facet->vertex[0], sides[1]);
-
-        const double first = ellipsoid_dot(sides[0], sides[0]);
-        const double second = ellipsoid_dot(sides[1], sides[1]);
-
-        if (!isfinite(height + first + second))
+        if (!isfinite(height + outside))
         {
             return NAN;
         }
-        if (height < nearest)
-        {
-            const double outside = sqrt(ellipsoid_dot(d, d))
-                                 - sqrt(first > second ? first : second);
-
-            nearest = fmin(nearest, fmax(height, outside));
-        }
+        nearest = distance < nearest ? distance : nearest;
     }
     return nearest;
 }
@@ -174,29 +165,6 @@ static void place_beads(const ellipsoid_model *model, const double x[3],
                 fmax(beads->half_box[i], fabs(model->bead[b][i]));
         }
     }
-}
-
-/* The radius of a ball that holds a facet, and its middle. */
-static double ball_of(const ellipsoid_facet *facet, double middle[3])
-{
-    double squared = 0;
-
-    for (int i = 0; i < 3; i++)
-    {
-        middle[i] = (facet->vertex[0][i] + facet->vertex[1][i]
-                     + facet->vertex[2][i]) / 3;
-    }
-    for (int k = 0; k < 3; k++)
-    {
-        double d[3];
-
-        ellipsoid_difference(facet->vertex[k], middle, d);
-
-        const double other = ellipsoid_dot(d, d);
-
-        squared = other > squared ? other : squared;
-    }
-    return sqrt(squared);
 }
 
 /* Is a point farther than `far` from the box that holds the beads? */
@@ -254,12 +222,12 @@ static int has_convex_edge(const ellipsoid_facet *facet)
     its plane.
 */
 static void glance(const ellipsoid_facet *facet, const swarm *beads,
-                   const double middle[3], double far, double near,
+                   double far, double near,
                    double height[ELLIPSOID_MAX_BEADS],
                    double beyond[ELLIPSOID_MAX_BEADS])
 {
     const double beside = has_convex_edge(facet) ? far * far : near * near;
-    const double *n = facet->normal;
+    const double *n = facet->normal, *middle = facet->middle;
 
     for (int b = 0; b < beads->count; b++)
     {
@@ -292,21 +260,21 @@ static int collect(const ellipsoid_facet_list *list, const swarm *beads,
     for (int k = 0; k < list->count; k++)
     {
         const ellipsoid_facet *facet = &list->facets[list->index[k]];
-        double middle[3], d[3], height[ELLIPSOID_MAX_BEADS];
+        double d[3], height[ELLIPSOID_MAX_BEADS];
         double beyond[ELLIPSOID_MAX_BEADS];
-        const double size = ball_of(facet, middle);
+        const double size = facet->radius;
         const double rounding = 1e-6 * (reach + margin);
         const double far = size + reach + margin + rounding;
         const double near = size + 1.5 * margin + rounding;
 
-        ellipsoid_difference(middle, beads->centre, d);
+        ellipsoid_difference(facet->middle, beads->centre, d);
         if (beyond_box(beads, d, far)
             || (!has_convex_edge(facet)
                 && beside_box(beads, facet->normal, d, near)))
         {
             continue;
         }
-        glance(facet, beads, middle, far, near, height, beyond);
+        glance(facet, beads, far, near, height, beyond);
         for (int b = 0; b < beads->count; b++)
         {
             const double centre[3] = {beads->x[0][b], beads->x[1][b],
@@ -352,9 +320,12 @@ static double next_margin(const ellipsoid_contact_cache *cache, double radius)
     {
         return first_margin * radius;
     }
-    return cache->served < few    ? fmin(2 * cache->margin, widest * radius)
-           : cache->served > many ? fmax(cache->margin / 2, narrowest * radius)
-                                  : cache->margin;
+
+    const double paid = (double)cache->served / (cache->listed + 64);
+
+    return paid < few    ? fmin(2 * cache->margin, widest * radius)
+           : paid > many ? fmax(cache->margin / 2, narrowest * radius)
+                         : cache->margin;
 }
 
 static ellipsoid_status fill(ellipsoid_contact_cache *cache,
@@ -416,6 +387,7 @@ static ellipsoid_status fill(ellipsoid_contact_cache *cache,
         if (collect(&list, &beads, radius + horizon, margin, cache))
         {
             cache->margin = margin;
+            cache->listed = list.count;
             cache->valid = 1;
             return ELLIPSOID_OK;
         }
@@ -432,7 +404,7 @@ ellipsoid_contact_collect(ellipsoid_contact_cache *cache,
 {
     if (serves(cache, model, x, q, moved))
     {
-        cache->served += cache->served <= many;
+        cache->served += cache->served < INT_MAX;
         return ELLIPSOID_OK;
     }
     *moved = 0;

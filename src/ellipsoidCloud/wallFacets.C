@@ -8,10 +8,10 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "wallFacets.H"
+#include "flatMerging.H"
 #include "wallPolyPatch.H"
 #include "polyMeshTetDecomposition.H"
 #include "treeBoundBox.H"
-#include "triPointRef.H"
 #include "Pstream.H"
 
 #include <algorithm>
@@ -71,19 +71,23 @@ Foam::triSurface Foam::wallFacets::triangulate(const polyMesh& mesh)
         }
     }
 
-    // Only the points of the walls
-    const triSurface all(List<labelledTri>(triangles), mesh.points());
+    return triSurface(List<labelledTri>(triangles), mesh.points());
+}
 
-    List<labelledTri> localTriangles(all.size());
-    forAll(all, faceti)
+
+Foam::triSurface Foam::wallFacets::compacted(const triSurface& surface)
+{
+    List<labelledTri> triangles(surface.size());
+
+    forAll(surface, faceti)
     {
-        const triFace& f = all.localFaces()[faceti];
+        const triFace& f = surface.localFaces()[faceti];
 
-        localTriangles[faceti] =
-            labelledTri(f[0], f[1], f[2], all[faceti].region());
+        triangles[faceti] =
+            labelledTri(f[0], f[1], f[2], surface[faceti].region());
     }
 
-    return triSurface(localTriangles, all.localPoints());
+    return triSurface(triangles, surface.localPoints());
 }
 
 
@@ -95,23 +99,21 @@ void Foam::wallFacets::setFacets()
     {
         ellipsoid_facet& f = facets_[faceti];
         const labelledTri& triangle = surface_[faceti];
+        double vertex[3][3];
 
         for (label k = 0; k < 3; ++k)
         {
-            copyTo(f.vertex[k], surface_.points()[triangle[k]]);
+            copyTo(vertex[k], surface_.points()[triangle[k]]);
         }
 
-        const vector area(triangle.areaNormal(surface_.points()));
-
-        if (mag(area) < VSMALL)
+        if (!ellipsoid_facet_set(&f, vertex))
         {
             FatalErrorInFunction
-                << "a wall triangle at " << pointOf(f.vertex[0])
+                << "a wall triangle at " << pointOf(vertex[0])
                 << " has no area: checkMesh says more"
                 << exit(FatalError);
         }
 
-        copyTo(f.normal, area/mag(area));
         f.surface = triangle.region();
     }
 }
@@ -119,6 +121,7 @@ void Foam::wallFacets::setFacets()
 
 void Foam::wallFacets::setEdges()
 {
+    // Where the wall ends at an open patch the edge stays a free rim.
     // A turn smaller than this [rad] is the mesh's rounding
     const scalar flat = 1e-6;
 
@@ -129,12 +132,6 @@ void Foam::wallFacets::setEdges()
 
         for (label k = 0; k < 3; ++k)
         {
-            // A rim, where the wall ends at an open patch, is convex, and the
-            // zero vector lets every direction past it count
-            f.edge[k] = ELLIPSOID_EDGE_CONVEX;
-            copyTo(f.edge_inward[k], Zero);
-            std::copy_n(f.normal, 3, f.neighbour_normal[k]);
-
             const edge e(local[k], local[(k + 1) % 3]);
 
             for (const label edgei : surface_.faceEdges()[faceti])
@@ -231,16 +228,8 @@ void Foam::wallFacets::setBalls()
 
     forAll(balls_, faceti)
     {
-        const triPointRef triangle(surface_[faceti].tri(surface_.points()));
-
-        ball& b = balls_[faceti];
-        b.middle = triangle.centre();
-        b.radius =
-            max
-            (
-                mag(triangle.a() - b.middle),
-                max(mag(triangle.b() - b.middle), mag(triangle.c() - b.middle))
-            );
+        balls_[faceti].middle = pointOf(facets_[faceti].middle);
+        balls_[faceti].radius = facets_[faceti].radius;
     }
 }
 
@@ -291,9 +280,14 @@ Foam::wallFacets::wallFacets(const polyMesh* wholeMesh, const scalar length)
 
     if (Pstream::master())
     {
-        const triSurface surface(triangulate(*wholeMesh));
-        triangles = surface;
-        points = surface.points();
+        const triSurface faces(compacted(triangulate(*wholeMesh)));
+        const triSurface merged
+        (
+            compacted(flatMerging(faces, 2*length).merged())
+        );
+
+        triangles = merged;
+        points = merged.points();
     }
 
     Pstream::scatter(triangles);

@@ -445,7 +445,7 @@ static void test_failures_have_names(void **unused)
                                                 &cache, &contact, NULL),
                      ELLIPSOID_NON_FINITE);
     x[1] = 0;
-    mesh.facets[0].vertex[1][2] = INFINITY;
+    mesh.facets[0].middle[2] = INFINITY;
     walls.farther = 100 * um;
     assert_int_equal(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
                                                 &cache, &contact, NULL),

@@ -269,26 +269,6 @@ static void join(ellipsoid_facet *a, int k, const ellipsoid_facet *b,
     }
 }
 
-static void set_normal(ellipsoid_facet *f)
-{
-    double u[3], v[3], length;
-
-    direction(f->vertex[0], f->vertex[1], u);
-    direction(f->vertex[0], f->vertex[2], v);
-    cross(u, v, f->normal);
-    length = sqrt(dot(f->normal, f->normal));
-    for (int i = 0; i < 3; i++)
-    {
-        f->normal[i] /= length;
-    }
-    /* until a neighbour is found every edge is a free rim */
-    for (int k = 0; k < 3; k++)
-    {
-        f->edge[k] = ELLIPSOID_EDGE_CONVEX;
-        memcpy(f->neighbour_normal[k], f->normal, sizeof f->normal);
-    }
-}
-
 static void set_stars(wall_mesh *mesh, const half_edge *edges, int edge_count,
                       const int *vertex, int vertex_count)
 {
@@ -359,7 +339,10 @@ void wall_mesh_finish(wall_mesh *mesh)
     mesh->listed = grown(NULL, mesh->count * sizeof *mesh->listed);
     for (int f = 0; f < mesh->count; f++)
     {
-        set_normal(&mesh->facets[f]);
+        double vertex[3][3];
+
+        memcpy(vertex, mesh->facets[f].vertex, sizeof vertex);
+        ellipsoid_facet_set(&mesh->facets[f], (const double(*)[3])vertex);
         mesh->index[f] = f;
     }
     for (int c = 0; c < n; c++)
