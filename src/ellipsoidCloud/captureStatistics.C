@@ -11,10 +11,12 @@ License
 #include "polyBoundaryMesh.H"
 #include "wallPolyPatch.H"
 #include "wordRes.H"
-#include "OSspecific.H"
+#include "OFstream.H"
 #include "IOmanip.H"
 
 #include <algorithm>
+#include <cstdlib>
+#include <sstream>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -83,6 +85,40 @@ void Foam::captureStatistics::count(const packedEvent& event)
 }
 
 
+void Foam::captureStatistics::readLog()
+{
+    std::ifstream log(log_.name());
+    std::string line;
+    std::getline(log, line);
+
+    while (std::getline(log, line))
+    {
+        std::istringstream fields(line);
+        std::string field;
+        packedEvent event;
+
+        forAll(event, i)
+        {
+            std::getline(fields, field, ',');
+
+            event[i] =
+                i == 2 ? scalar(eventNames[word(field)])
+              : i == 3 ? scalar(patchNames_.find(field))
+              : std::atof(field.c_str());
+        }
+
+        if (!fields)
+        {
+            FatalErrorInFunction
+                << log_.name() << ": cannot read the line" << nl << line.c_str()
+                << exit(FatalError);
+        }
+
+        count(event);
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::captureStatistics::captureStatistics
@@ -90,7 +126,8 @@ Foam::captureStatistics::captureStatistics
     const dictionary& dict,
     const polyBoundaryMesh& patches,
     const scalar inletSpeed,
-    const fileName& folder
+    const fileName& folder,
+    const scalar logSize
 )
 :
     patchNames_(patches.names()),
@@ -108,7 +145,13 @@ Foam::captureStatistics::captureStatistics
     pending_(),
     cells_(),
     counts_(Zero),
-    log_()
+    log_
+    (
+        folder/"events.csv",
+        "t,id,event,patch,x1,x2,x3,eps1,eps2,eps3,eta",
+        12,
+        logSize
+    )
 {
     ellipsoidProperties::checkKeywords
     (
@@ -147,12 +190,9 @@ Foam::captureStatistics::captureStatistics
         sieves_.append(matched);
     }
 
-    if (Pstream::master())
+    if (Pstream::master() && logSize > 0)
     {
-        mkDir(folder_);
-        log_.reset(new OFstream(folder_/"events.csv"));
-        log_->precision(12);
-        *log_ << "t,id,event,patch,x1,x2,x3,eps1,eps2,eps3,eta" << endl;
+        readLog();
     }
 }
 
@@ -259,19 +299,20 @@ void Foam::captureStatistics::gather()
     {
         count(event);
 
-        *log_
-            << event[0] << ',' << label(event[1]) << ','
+        std::ostream& os = log_.stream();
+
+        os  << event[0] << ',' << label(event[1]) << ','
             << eventNames[eventType(label(event[2]))] << ','
             << patchName(label(event[3]));
 
         for (label i = 4; i < event.size(); ++i)
         {
-            *log_ << ',' << event[i];
+            os << ',' << event[i];
         }
-        *log_ << nl;
+        os << '\n';
     }
 
-    log_->flush();
+    log_.flush();
 }
 
 

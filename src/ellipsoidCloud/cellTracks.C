@@ -8,7 +8,6 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "cellTracks.H"
-#include "OSspecific.H"
 #include "Pstream.H"
 #include "PstreamReduceOps.H"
 
@@ -50,7 +49,8 @@ Foam::cellTracks::cellTracks
     const dictionary& dict,
     const wordList& patchNames,
     const scalar length,
-    const fileName& folder
+    const fileName& folder,
+    const scalar fileSize
 )
 :
     patchNames_(patchNames),
@@ -66,19 +66,16 @@ Foam::cellTracks::cellTracks
     minimumTurn_(minimumMove_/length),
     folder_(folder),
     rows_(),
-    file_()
+    file_
+    (
+        folder/"tracks.csv",
+        "t,id,x1,x2,x3,u1,u2,u3,eps1,eps2,eps3,eta,"
+        "omega1,omega2,omega3,O1,O2,O3,fate,patch",
+        9,
+        fileSize
+    )
 {
     ellipsoidProperties::checkKeywords(dict, {"interval", "minimumMove"});
-
-    if (Pstream::master())
-    {
-        mkDir(folder_);
-        file_.reset(new OFstream(folder_/"tracks.csv"));
-        file_->precision(9);
-        *file_
-            << "t,id,x1,x2,x3,u1,u2,u3,eps1,eps2,eps3,eta,"
-            << "omega1,omega2,omega3,O1,O2,O3,fate,patch" << endl;
-    }
 }
 
 
@@ -156,13 +153,15 @@ void Foam::cellTracks::flush()
         }
     );
 
+    std::ostream& os = file_.stream();
+
     for (const row& r : rows)
     {
-        *file_ << r[0] << ',' << label(r[1]);
+        os << r[0] << ',' << label(r[1]);
 
         for (label i = 2; i < 15; ++i)
         {
-            *file_ << ',' << r[i];
+            os << ',' << r[i];
         }
 
         // O, the long axis, is the second column of the rotation
@@ -171,16 +170,15 @@ void Foam::cellTracks::flush()
 
         const label patchi(r[16]);
 
-        *file_
-            << ',' << rotation[0][1]
+        os  << ',' << rotation[0][1]
             << ',' << rotation[1][1]
             << ',' << rotation[2][1]
             << ',' << cellState::fateNames[cellState::fateType(label(r[15]))]
             << ',' << (patchi < 0 ? "-" : patchNames_[patchi].c_str())
-            << nl;
+            << '\n';
     }
 
-    file_->flush();
+    file_.flush();
 }
 
 

@@ -16,6 +16,7 @@ License
 
 #include <algorithm>
 #include <cfenv>
+#include <cmath>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -113,6 +114,15 @@ void Foam::ellipsoidCloud::makeInjections(const undecomposedFlow& whole)
 
     Info<< "ellipsoidCloud: " << nCells << " cells to enter by "
         << flatOutput(dict.toc()) << endl;
+}
+
+
+Foam::scalar Foam::ellipsoidCloud::presentTime(const Time& time)
+{
+    const scalar steps = time.value()/time.deltaTValue();
+    const scalar whole = std::round(steps);
+
+    return mag(steps - whole) < 1e-6 ? whole*time.deltaTValue() : time.value();
 }
 
 
@@ -361,6 +371,83 @@ void Foam::ellipsoidCloud::handOver()
 }
 
 
+Foam::IOdictionary Foam::ellipsoidCloud::filesDict() const
+{
+    return IOdictionary
+    (
+        IOobject
+        (
+            "ellipsoidCloudFiles",
+            mesh_.time().timeName(),
+            "uniform",
+            mesh_,
+            IOobject::READ_IF_PRESENT,
+            IOobject::NO_WRITE,
+            false
+        )
+    );
+}
+
+
+void Foam::ellipsoidCloud::openFiles(const scalar inletSpeed)
+{
+    const IOdictionary earlier(filesDict());
+    const scalar eventsSize = earlier.getOrDefault<scalar>("events", 0);
+    const scalar tracksSize = earlier.getOrDefault<scalar>("tracks", 0);
+
+    earlier.readIfPresent<fileName>("folder", firstTime_);
+
+    const fileName folder
+    (
+        mesh_.time().globalPath()/"postProcessing"/"ellipsoidCloud"/firstTime_
+    );
+    const ellipsoid_options& options = properties_.options();
+
+    statistics_.reset
+    (
+        new captureStatistics
+        (
+            properties_.section("capture"),
+            mesh_.boundaryMesh(),
+            inletSpeed,
+            folder,
+            eventsSize
+        )
+    );
+    tracks_.reset
+    (
+        new cellTracks
+        (
+            properties_.section("tracks"),
+            mesh_.boundaryMesh().names(),
+            *std::max_element(options.semi_axes, options.semi_axes + 3),
+            folder,
+            tracksSize
+        )
+    );
+}
+
+
+void Foam::ellipsoidCloud::writeFiles()
+{
+    tracks_->flush();
+
+    scalar eventsSize = statistics_->logSize();
+    scalar tracksSize = tracks_->fileSize();
+    Pstream::scatter(eventsSize);
+    Pstream::scatter(tracksSize);
+
+    const fullPrecision digits;
+
+    IOdictionary files(filesDict());
+    files.clear();
+    files.add("folder", string(firstTime_));
+    files.add("events", eventsSize);
+    files.add("tracks", tracksSize);
+    files.regIOobject::write();
+}
+
+
 void Foam::ellipsoidCloud::report()
 {
     const scalar now = mesh_.time().elapsedClockTime();
@@ -375,7 +462,7 @@ void Foam::ellipsoidCloud::report()
     const scalar left =
         trackingTime_*(end - time_)/max(time_ - start, VSMALL);
 
-    Info<< "t = " << time_ << " s, ";
+    Info<< "t = " << mesh_.time().timeName() << " s, ";
     statistics_->report(Info);
     Info<< ", about " << label(left + 0.5) << " s to go" << endl;
 
@@ -395,7 +482,7 @@ Foam::ellipsoidCloud::ellipsoidCloud
     (
         U.mesh(),
         "ellipsoidCloud",
-        IDLList<ellipsoidParcel>()
+        false
     ),
     mesh_(U.mesh()),
     properties_(U.mesh()),
@@ -407,7 +494,8 @@ Foam::ellipsoidCloud::ellipsoidCloud
     injections_(),
     statistics_(),
     tracks_(),
-    time_(U.time().value()),
+    time_(presentTime(U.time())),
+    firstTime_(U.time().timeName()),
     totals_(),
     trackingTime_(0),
     reportTime_(0)
@@ -450,34 +538,9 @@ Foam::ellipsoidCloud::ellipsoidCloud
     }
     Pstream::scatter(speed);
 
-    const fileName folder
-    (
-        mesh_.time().globalPath()/"postProcessing"/"ellipsoidCloud"
-       /mesh_.time().timeName()
-    );
-
     makeInjections(whole);
-
-    statistics_.reset
-    (
-        new captureStatistics
-        (
-            properties_.section("capture"),
-            mesh_.boundaryMesh(),
-            speed,
-            folder
-        )
-    );
-    tracks_.reset
-    (
-        new cellTracks
-        (
-            properties_.section("tracks"),
-            mesh_.boundaryMesh().names(),
-            length,
-            folder
-        )
-    );
+    openFiles(speed);
+    ellipsoidParcel::readFields(*this);
 
     Info<< "ellipsoidCloud: " << flow_->nTets() << " tetrahedra, "
         << walls_->size() << " wall facets, mean inlet speed " << speed
@@ -490,7 +553,7 @@ Foam::ellipsoidCloud::ellipsoidCloud
 void Foam::ellipsoidCloud::evolve()
 {
     const clockTime timer;
-    const scalar end = mesh_.time().value();
+    const scalar end = presentTime(mesh_.time());
 
     inject(time_, end);
 
@@ -508,7 +571,7 @@ void Foam::ellipsoidCloud::evolve()
 
     if (mesh_.time().writeTime())
     {
-        tracks_->flush();
+        writeFiles();
     }
 
     trackingTime_ += timer.elapsedTime();

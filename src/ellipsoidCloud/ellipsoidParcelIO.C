@@ -208,6 +208,8 @@ void Foam::ellipsoidParcel::writeFields(const Cloud<ellipsoidParcel>& c)
 {
     particle::writeFields(c);
 
+    const fullPrecision digits;
+
     for (const cellStateMember& m : members)
     {
         if (!m.nScalars)

@@ -66,8 +66,8 @@ def draw(case, sieve=None):
 
     widths = [HEIGHT * width / height, HEIGHT] if names else [HEIGHT * width / height]
     figure, axes = plt.subplots(
-        1, len(widths), figsize=(sum(widths) + 0.8 * len(widths), HEIGHT + 1), squeeze=False,
-        width_ratios=widths, layout="constrained",
+        1, len(widths), figsize=(sum(widths) + 0.9 * len(widths), HEIGHT + 1), squeeze=False,
+        width_ratios=widths, layout="compressed",
     )
     whole = axes[0, 0]
     style.plan_axes(whole, *limits)
@@ -79,7 +79,9 @@ def draw(case, sieve=None):
     ]
     if names:
         keys.append(Line2D([], [], color=SIEVE_COLOUR, linewidth=1, label="sieve"))
-        draw_close_up(whole, axes[0, 1], case, sieve or names[0])
+        # The nearest to the close-up, so that the lines to it cross little
+        rightmost = max(names, key=lambda name: plane.outlines[name][..., 0].mean())
+        draw_close_up(whole, axes[0, 1], case, sieve or rightmost)
     keys.append(Patch(facecolor=style.SOLID, label="no fluid"))
     style.legend_below(whole, keys)
     return figure
@@ -87,5 +89,5 @@ def draw(case, sieve=None):
 
 if __name__ == "__main__":
     style.command(
-        draw, __doc__, sieve={"help": "to look at closely [the first one]"}
+        draw, __doc__, sieve={"help": "to look at closely [the rightmost]"}
     )

@@ -21,6 +21,7 @@ COMPONENTS = (
     {"color": style.SKY, "linestyle": (0, (1, 0.8)), "linewidth": 1.6},
 )
 
+RESTING = 1e-3   # speed in mm/s below which only rounding would be seen
 SLOW = 0.01   # part of a cell's highest speed below which it is taken to rest
 
 
@@ -71,6 +72,8 @@ def draw(case, id=None):
 
     pose.set_ylabel("orientation O [-]")
     pose.set_ylim(-1.08, 1.08)
+    if speed.max() < RESTING:
+        motion.set_ylim(-RESTING, RESTING)
     motion.set_ylabel("velocity u [mm/s]")
     spin.set_ylabel("spin rate |ω| [rad/s]")
     spin.set_ylim(bottom=0)

@@ -10,6 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import PowerNorm
 from matplotlib.patches import Patch, Polygon
+from matplotlib.ticker import MaxNLocator
 
 import style
 from case import NotApplicable
@@ -90,6 +91,8 @@ def draw(case):
         image = style.draw_speed(ax, plane, norm=scale)
         style.draw_outlines(ax, case, linewidth=1)
         ax.set_title(heading(case, name))
+        for axis in (ax.xaxis, ax.yaxis):
+            axis.set_major_locator(MaxNLocator(4, steps=(1, 2, 5, 10)))
         for cell in at_rest:
             track = case.tracks[cell]
             ax.add_patch(Polygon(
