@@ -370,7 +370,10 @@ void Foam::captureStatistics::write(Ostream& os) const
     OFstream captures(folder_/"captures.csv");
     captures << "sieve,cells,t" << nl;
 
-    os  << nl << "sieve   cells   caught at [s]" << nl;
+    if (sieves_.size())
+    {
+        os << nl << "sieve   cells   caught at [s]" << nl;
+    }
 
     for (const label patchi : sieves_)
     {

@@ -232,38 +232,23 @@ class Case:
     # -- cells ---------------------------------------------------------------
 
     @cached_property
-    def runs(self):
-        """(start, end, folder) of the run and its continuations."""
+    def results(self):
+        """The folder with the cells' files; continued runs append to the same."""
         root = self.path("postProcessing", "ellipsoidCloud")
         starts = number_folders(root)
         if not starts:
             raise CaseError(f"{root}: no results of ellipsoidTrapFoam")
-        ends = [value for value, _ in starts[1:]] + [np.inf]
-        return [
-            (value, end, os.path.join(root, name)) for (value, name), end in zip(starts, ends)
-        ]
-
-    def table(self, file, types):
-        """The columns named in types of a file of the run and its continuations."""
-        parts = []
-        for number, (start, end, folder) in enumerate(self.runs):
-            rows = read_csv(os.path.join(folder, file), types)
-            # What a continuation has done again counts in its place
-            slack = 1e-9 * max(start, 1e-3)
-            keep = rows["t"] <= end * (1 + 1e-9)
-            if number:
-                keep &= rows["t"] > start + slack
-            parts.append(rows[keep])
-        return np.concatenate(parts)
+        return os.path.join(root, starts[-1][1])
 
     @cached_property
     def events(self):
         """t, id, event, patch of all that happened, by time."""
         types = [("t", float), ("id", int), ("event", "U16"), ("patch", "U128")]
-        events = self.table("events.csv", types)
+        file = os.path.join(self.results, "events.csv")
+        events = read_csv(file, types)
         unknown = set(events["event"]) - set(FATES)
         if unknown:
-            raise CaseError(f"{self.runs[0][2]}/events.csv: unknown event {unknown.pop()}")
+            raise CaseError(f"{file}: unknown event {unknown.pop()}")
         return events[np.argsort(events["t"], kind="stable")]
 
     @cached_property
@@ -292,7 +277,7 @@ class Case:
         )
         types = [("t", float), ("id", int)]
         types += [(name, float) for names in vectors for name in names]
-        rows = self.table("tracks.csv", types)
+        rows = read_csv(os.path.join(self.results, "tracks.csv"), types)
         rows = rows[np.lexsort((rows["t"], rows["id"]))]
         ids, firsts = np.unique(rows["id"], return_index=True)
         tracks = {}

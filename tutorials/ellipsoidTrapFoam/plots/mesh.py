@@ -43,6 +43,8 @@ def draw_close_up(whole, close, case, name):
     window = finest(case.plane, name)
     style.plan_axes(close, *window)
     draw_mesh(close, case, 0.4)
+    close.yaxis.tick_right()
+    close.yaxis.set_label_position("right")
     close.set_title(f"finest mesh at {name}")
     (x0, x1), (y0, y1) = window
     frame = {"edgecolor": style.BLUE, "linewidth": 1}

@@ -25,9 +25,10 @@ RESTING = 1e-3   # speed in mm/s below which only rounding would be seen
 SLOW = 0.01   # part of a cell's highest speed below which it is taken to rest
 
 
-def path_length(track):
-    """Length of a cell's path."""
-    return np.linalg.norm(np.diff(track.x, axis=0), axis=1).sum()
+def path_length(track, end):
+    """Length of a cell's path until the time given."""
+    x = track.x[track.t <= end]
+    return np.linalg.norm(np.diff(x, axis=0), axis=1).sum()
 
 
 def turning(track):
@@ -42,7 +43,8 @@ def choose(case):
         raise NotApplicable("no cell has been injected")
     caught = [cell for cell in case.tracks if case.fates[cell].name == "caught"]
     if caught:
-        return max(caught, key=lambda cell: path_length(case.tracks[cell]))
+        # A held cell may still roll: that is no way made
+        return max(caught, key=lambda cell: path_length(case.tracks[cell], case.fates[cell].t))
     return max(case.tracks, key=lambda cell: turning(case.tracks[cell]))
 
 
@@ -50,7 +52,7 @@ def draw(case, id=None):
     """The figure."""
     cell = choose(case) if id is None else id
     if cell not in case.tracks:
-        raise CaseError(f"{case.runs[0][2]}/tracks.csv: no cell {cell}")
+        raise CaseError(f"{case.results}/tracks.csv: no cell {cell}")
     track = case.tracks[cell]
     fate = case.fates[cell]
     time = (track.t - track.t[0]) * MILLI

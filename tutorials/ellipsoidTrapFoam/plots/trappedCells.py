@@ -92,7 +92,7 @@ def draw(case):
         style.draw_outlines(ax, case, linewidth=1)
         ax.set_title(heading(case, name))
         for axis in (ax.xaxis, ax.yaxis):
-            axis.set_major_locator(MaxNLocator(4, steps=(1, 2, 5, 10)))
+            axis.set_major_locator(MaxNLocator(7, steps=(1, 2, 5, 10)))
         for cell in at_rest:
             track = case.tracks[cell]
             ax.add_patch(Polygon(
@@ -101,7 +101,7 @@ def draw(case):
                 linewidth=0.9, alpha=0.7,
             ))
     for ax in axes[:, 1:].flat:
-        ax.set_ylabel("")
+        ax.set_ylabel(None)
     figure.colorbar(image, ax=axes, label="speed |u| at half depth [mm/s]", aspect=30, pad=0.02)
     keys = [
         Patch(facecolor=colour, edgecolor="black", label=f"{fate} cell")
