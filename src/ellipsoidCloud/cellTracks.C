@@ -37,8 +37,9 @@ void Foam::cellTracks::append
     r[16] = cell.patch;
     rows_.append(r);
 
-    std::copy_n(body.x, 3, cell.lastRow);
-    std::copy_n(body.q, 4, cell.lastRow + 3);
+    cell.lastRow[0] = t;
+    std::copy_n(body.x, 3, cell.lastRow + 1);
+    std::copy_n(body.q, 4, cell.lastRow + 4);
 }
 
 
@@ -58,6 +59,10 @@ Foam::cellTracks::cellTracks
     (
         ellipsoidProperties::getAboveOrDefault(dict, "interval", 0, 1e-3)
     ),
+    heldInterval_
+    (
+        ellipsoidProperties::getAboveOrDefault(dict, "heldInterval", 0, 0.1)
+    ),
     minimumMove_
     (
         length
@@ -75,7 +80,7 @@ Foam::cellTracks::cellTracks
         fileSize
     )
 {
-    ellipsoidProperties::checkKeywords(dict, {"interval", "minimumMove"});
+    ellipsoidProperties::checkKeywords(dict, {"interval", "heldInterval", "minimumMove"});
 }
 
 
@@ -99,17 +104,22 @@ void Foam::cellTracks::add(cellState& cell, const ellipsoid_step& step)
         scalar alike = 0;
         for (int d = 0; d < 3; ++d)
         {
-            move += sqr(body.x[d] - cell.lastRow[d]);
+            move += sqr(body.x[d] - cell.lastRow[1 + d]);
         }
         for (int d = 0; d < 4; ++d)
         {
-            alike += body.q[d]*cell.lastRow[3 + d];
+            alike += body.q[d]*cell.lastRow[4 + d];
         }
 
         // |q1.q2| is the cosine of half the angle between two poses
         const scalar turn = 2*sqrt(max(1 - sqr(alike), scalar(0)));
 
-        if (move > sqr(minimumMove_) || turn > minimumTurn_)
+        // Held cells may go on spinning: rarely is often enough
+        const bool due =
+            cell.fate == cellState::inFlight
+         || cell.nextRow - cell.lastRow[0] > heldInterval_ - 0.5*interval_;
+
+        if (due && (move > sqr(minimumMove_) || turn > minimumTurn_))
         {
             append(cell, cell.nextRow, body);
         }

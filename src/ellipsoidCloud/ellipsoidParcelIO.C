@@ -56,7 +56,7 @@ namespace Foam
         { "injectionTime", offsetof(cellState, injectionTime), 1 },
         { "slowTime", offsetof(cellState, slowTime), 1 },
         { "nextRow", offsetof(cellState, nextRow), 1 },
-        { "lastRow", offsetof(cellState, lastRow), 7 },
+        { "lastRow", offsetof(cellState, lastRow), 8 },
         { "deepest", offsetof(cellState, deepest), 1 },
         { "id", offsetof(cellState, id), 0 },
         { "tet", offsetof(cellState, tet), 0 },

@@ -26,7 +26,7 @@ from vtkmodules.vtkParallelCore import vtkDummyController
 MICRO = 1e6   # m to micrometres
 MILLI = 1e3   # m/s to mm/s, s to ms
 
-SMOOTH = 20000   # triangles that make a smooth picture
+SMOOTH = 50000   # triangles that make a smooth picture
 
 # That of ellipsoid_options_default() in src/ellipsoid
 DEFAULT_SEMI_AXES = (0.5e-6, 2e-6, 0.5e-6)
@@ -126,20 +126,27 @@ class Plane:
         return velocity
 
     @cached_property
-    def triangulation(self):
-        """x, y, triangles, speed; every polygon is a fan about its middle."""
+    def _fans(self):
+        """Nodes of x, y and velocity, and triangles: every polygon a fan about its middle."""
         sides = np.diff(self.offsets)
         corners = self.points[self.connectivity]
         middles = np.add.reduceat(corners, self.offsets[:-1]) / sides[:, None]
         hub = np.repeat(len(self.points) + np.arange(len(sides)), sides)
-        triangles = np.column_stack((hub, self.connectivity, self._next))
-        # x, y and the velocity together, all linear in a triangle
         nodes = np.column_stack((
             np.concatenate((self.points, middles)),
             np.concatenate((self.point_velocity, self.velocity)),
         ))
-        # The speed is not linear: where the mesh is coarse, triangles are quartered
-        while len(triangles) < SMOOTH:
+        return nodes, np.column_stack((hub, self.connectivity, self._next))
+
+    def speed_in(self, xlim, ylim):
+        """Speed on a triangulation of a window: x, y, triangles, speed."""
+        nodes, triangles = self._fans
+        low, high = np.transpose((xlim, ylim))
+        boxes = nodes[triangles, :2]
+        seen = (boxes.max(axis=1) > low) & (boxes.min(axis=1) < high)
+        triangles = triangles[seen.all(axis=1)]
+        # The speed is not linear: where there are few, triangles are quartered
+        while 0 < len(triangles) < SMOOTH:
             corners = nodes[triangles]
             halves = 0.5 * (corners + np.roll(corners, -1, axis=1))
             nodes = np.concatenate((corners, halves), axis=1).reshape(-1, nodes.shape[1])
@@ -161,7 +168,6 @@ class Case:
 
     def __init__(self, folder):
         self.folder = os.path.abspath(folder)
-        self.name = os.path.basename(self.folder)
         if not os.path.isfile(self.path("system", "controlDict")):
             raise CaseError(f"{folder}: not an OpenFOAM case (no system/controlDict)")
 
@@ -255,8 +261,8 @@ class Case:
     def fates(self):
         """Cell id to what became of it."""
         return {
-            int(event["id"]): Fate(FATES[event["event"]], str(event["patch"]), float(event["t"]))
-            for event in self.events
+            int(cell): Fate(FATES[event], str(patch), float(t))
+            for t, cell, event, patch in self.events
         }
 
     def count(self, fate, patch=None):
@@ -360,7 +366,7 @@ class Case:
         meshes = [one for one in pieces.pop("internalMesh", []) if one.GetNumberOfCells()]
         if not meshes or any(one.GetCellData().GetArray("U") is None for one in meshes):
             raise CaseError(
-                f"{self.folder}: VTK cannot read the mesh and the flow of time {self.flow_time[1]}"
+                f"{self.folder}: VTK cannot read mesh and flow of time {self.flow_time[1]}"
             )
         return meshes, pieces
 
@@ -513,7 +519,8 @@ def number_folders(root):
     """(value, name) of the folders named by a number, ascending."""
     found = []
     for name in os.listdir(root) if os.path.isdir(root) else []:
-        if re.fullmatch(r"\d+(\.\d*)?(e[+-]?\d+)?", name) and os.path.isdir(os.path.join(root, name)):
+        is_number = re.fullmatch(r"\d+(\.\d*)?(e[+-]?\d+)?", name)
+        if is_number and os.path.isdir(os.path.join(root, name)):
             found.append((float(name), name))
     return sorted(found)
 

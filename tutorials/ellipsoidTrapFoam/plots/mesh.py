@@ -60,7 +60,8 @@ def draw(case, sieve=None):
     plane = case.plane
     names = case.sieves
     if sieve is not None and sieve not in names:
-        raise CaseError(f"{case.path('constant', 'ellipsoidCloudProperties')}: no sieve {sieve}")
+        file = case.path("constant", "ellipsoidCloudProperties")
+        raise CaseError(f"{file}: no sieve {sieve}")
     bounds = np.array(plane.bounds)
     margin = 0.02 * np.ptp(bounds, axis=1).max()
     limits = bounds + [-margin, margin]
@@ -73,7 +74,7 @@ def draw(case, sieve=None):
     )
     whole = axes[0, 0]
     style.plan_axes(whole, *limits)
-    draw_mesh(whole, case, 0.12)
+    draw_mesh(whole, case, np.clip(12 / np.sqrt(len(plane.velocity)), 0.12, 0.5))
     whole.set_title(f"{len(plane.velocity):,} of {case.mesh_size:,} mesh cells at half depth")
     keys = [
         Line2D([], [], color="0.35", linewidth=0.5, label="mesh"),

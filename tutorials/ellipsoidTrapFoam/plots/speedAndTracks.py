@@ -51,7 +51,7 @@ def draw(case):
             xytext=(0, 3), textcoords="offset points", ha="center", va="bottom",
             fontsize=8, fontweight="bold", path_effects=style.framed("white", 2),
         )
-    keys.append(Patch(facecolor=style.SOLID, edgecolor="black", linewidth=0.6, label="no fluid"))
+    keys.append(Patch(facecolor=style.SOLID, edgecolor="black", label="no fluid"))
     style.legend_below(ax, keys)
     return figure
 

@@ -30,7 +30,7 @@ SPEED_MAP = ListedColormap(
 SOLID = "0.82"
 
 # Okabe and Ito's colours, which the colour-blind can tell apart
-ORANGE, SKY, GREEN, YELLOW = "#E69F00", "#56B4E9", "#009E73", "#F0E442"
+ORANGE, SKY, YELLOW = "#E69F00", "#56B4E9", "#F0E442"
 BLUE, VERMILLION, PURPLE = "#0072B2", "#D55E00", "#CC79A7"
 
 # Colour, width and dashes tell the fates apart, also in grey
@@ -43,7 +43,9 @@ FATE_LINES = {
 }
 
 # Where a cell is that has not left
-LAST_POINT = {"marker": "o", "markersize": 3, "markeredgecolor": "black", "markeredgewidth": 0.5}
+LAST_POINT = {
+    "marker": "o", "markersize": 3, "markeredgecolor": "black", "markeredgewidth": 0.5
+}
 
 plt.rcParams.update({
     "savefig.dpi": 200,
@@ -100,8 +102,8 @@ def name_openings(ax, case):
 
 
 def draw_speed(ax, plane, **options):
-    """The flow's speed, as an image that a colour bar can be made from."""
-    x, y, triangles, speed = plane.triangulation
+    """The flow's speed in the limits of the axes; an image for a colour bar."""
+    x, y, triangles, speed = plane.speed_in(ax.get_xlim(), ax.get_ylim())
     return ax.tripcolor(
         x, y, triangles, speed, shading="gouraud", cmap=SPEED_MAP, rasterized=True, **options
     )
