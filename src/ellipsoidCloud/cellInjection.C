@@ -60,24 +60,7 @@ void Foam::cellInjection::readOrientation()
         }
         case otQuaternion:
         {
-            const FixedList<scalar, 4> q
-            (
-                dict_.get<FixedList<scalar, 4>>("quaternion")
-            );
-            const scalar length =
-                sqrt(sqr(q[0]) + sqr(q[1]) + sqr(q[2]) + sqr(q[3]));
-
-            if (!(mag(length - 1) < 1e-3))
-            {
-                FatalIOErrorInFunction(dict_)
-                    << "quaternion " << q << " is not of length 1"
-                    << exit(FatalIOError);
-            }
-
-            for (int d = 0; d < 4; ++d)
-            {
-                q_[d] = q[d]/length;
-            }
+            setQuaternion(dict_.get<FixedList<scalar, 4>>("quaternion"), q_);
             break;
         }
         case otEuler:
@@ -161,6 +144,32 @@ void Foam::cellInjection::draw(newCell& cell) const
 
 
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+void Foam::cellInjection::setQuaternion
+(
+    const FixedList<scalar, 4>& given,
+    scalar q[4]
+) const
+{
+    scalar sum = 0;
+    for (const scalar component : given)
+    {
+        sum += sqr(component);
+    }
+
+    if (!(mag(sqrt(sum) - 1) < 1e-3))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "quaternion " << given << " is not of length 1"
+            << exit(FatalIOError);
+    }
+
+    for (int d = 0; d < 4; ++d)
+    {
+        q[d] = given[d]/sqrt(sum);
+    }
+}
+
 
 void Foam::cellInjection::setTimes(const label number)
 {

@@ -10,8 +10,6 @@ License
 #include "positionsInjection.H"
 #include "addToRunTimeSelectionTable.H"
 
-#include <algorithm>
-
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
 namespace Foam
@@ -44,7 +42,7 @@ bool Foam::positionsInjection::orientation(const label i, scalar q[4]) const
         return false;
     }
 
-    std::copy_n(orientations_[i].cdata(), 4, q);
+    setQuaternion(orientations_[i], q);
 
     return true;
 }
@@ -74,16 +72,6 @@ Foam::positionsInjection::positionsInjection
             << positions_.size() << " positions but " << orientations_.size()
             << " orientations"
             << exit(FatalIOError);
-    }
-
-    for (const FixedList<scalar, 4>& q : orientations_)
-    {
-        if (!(mag(sqr(q[0]) + sqr(q[1]) + sqr(q[2]) + sqr(q[3]) - 1) < 1e-6))
-        {
-            FatalIOErrorInFunction(dict_)
-                << "orientation " << q << " is not of length 1"
-                << exit(FatalIOError);
-        }
     }
 
     setTimes(positions_.size());
