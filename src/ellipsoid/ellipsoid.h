@@ -99,7 +99,7 @@ typedef struct ellipsoid_options
     ellipsoid_pressure_gradient pressure_gradient; /* DUDT */
     double gravity[3];         /* [m/s2] lab, (0, 0, -9.81) */
     double external_force[3];  /* [N] lab, 0 */
-    double external_torque[3]; /* [N m] lab, 0 */
+    double external_torque[3]; /* [N m] body, 0 */
 
     /* contact */
     int contact;              /* beads against wall facets, 1 */

@@ -131,7 +131,7 @@ Foam::captureStatistics::captureStatistics
 )
 :
     patchNames_(patches.names()),
-    sieves_(),
+    sieves_(findSieves(dict, patches)),
     slowSpeed_
     (
         inletSpeed
@@ -158,6 +158,22 @@ Foam::captureStatistics::captureStatistics
         dict, {"sieves", "speedFraction", "holdTime"}
     );
 
+    if (Pstream::master() && logSize > 0)
+    {
+        readLog();
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::labelList Foam::captureStatistics::findSieves
+(
+    const dictionary& dict,
+    const polyBoundaryMesh& patches
+)
+{
+    labelList sieves;
     const wordRes names(dict.getOrDefault("sieves", wordRes()));
 
     for (const wordRe& name : names)
@@ -183,21 +199,16 @@ Foam::captureStatistics::captureStatistics
         {
             FatalIOErrorInFunction(dict)
                 << "no patch matches sieve " << name << nl
-                << "    patches: " << flatOutput(patchNames_)
+                << "    patches: " << flatOutput(patches.names())
                 << exit(FatalIOError);
         }
 
-        sieves_.append(matched);
+        sieves.append(matched);
     }
 
-    if (Pstream::master() && logSize > 0)
-    {
-        readLog();
-    }
+    return sieves;
 }
 
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::captureStatistics::note(const eventType what, const cellState& cell)
 {

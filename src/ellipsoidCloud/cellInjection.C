@@ -10,6 +10,7 @@ License
 #include "cellInjection.H"
 #include "cellSurroundings.H"
 #include "unitConversion.H"
+#include "polyBoundaryMesh.H"
 
 #include <algorithm>
 
@@ -248,9 +249,13 @@ void Foam::cellInjection::checkKeywords(const wordList& more) const
 {
     wordList allowed
     ({
-        "type", "start", "duration", "number", "rate", "concentration",
+        "type", "start", "duration",
         "orientation", "axis", "quaternion", "eulerAngles"
     });
+    if (drawn())
+    {
+        allowed.append(wordList({"number", "rate", "concentration"}));
+    }
     allowed.append(more);
 
     ellipsoidProperties::checkKeywords(dict_, allowed);
@@ -280,6 +285,45 @@ Foam::cellInjection::cellInjection
 }
 
 
+void Foam::cellInjection::checkType(const dictionary& dict)
+{
+    const word type(dict.get<word>("type"));
+
+    if (!dictionaryConstructorTablePtr_->found(type))
+    {
+        FatalIOErrorInFunction
+        (
+            dict.lookupEntry("type", keyType::LITERAL).stream()
+        )   << "unknown injection type " << type << nl
+            << "    allowed: "
+            << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
+            << exit(FatalIOError);
+    }
+}
+
+
+Foam::word Foam::cellInjection::findPatch
+(
+    const dictionary& dict,
+    const polyBoundaryMesh& patches
+)
+{
+    const word patch(dict.get<word>("patch"));
+
+    if (patches.findPatchID(patch) < 0)
+    {
+        FatalIOErrorInFunction
+        (
+            dict.lookupEntry("patch", keyType::LITERAL).stream()
+        )   << "no patch " << patch << " in the mesh" << nl
+            << "    patches: " << flatOutput(patches.names())
+            << exit(FatalIOError);
+    }
+
+    return patch;
+}
+
+
 Foam::autoPtr<Foam::cellInjection> Foam::cellInjection::New
 (
     const dictionary& dict,
@@ -287,24 +331,30 @@ Foam::autoPtr<Foam::cellInjection> Foam::cellInjection::New
     const label firstId
 )
 {
-    const word type(dict.get<word>("type"));
+    checkType(dict);
 
-    const auto found = dictionaryConstructorTablePtr_->cfind(type);
-
-    if (!found.found())
-    {
-        FatalIOErrorInFunction(dict)
-            << "unknown injection type " << type << nl
-            << "    allowed: "
-            << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
-            << exit(FatalIOError);
-    }
+    const auto found =
+        dictionaryConstructorTablePtr_->cfind(dict.get<word>("type"));
 
     return (*found)(dict, from, firstId);
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::cellInjection::check() const
+{
+    if (!drawn())
+    {
+        for (const Tuple2<scalar, label>& time : times_)
+        {
+            newCell cell;
+            cell.id = time.second();
+            draw(cell);
+        }
+    }
+}
+
 
 void Foam::cellInjection::append
 (

@@ -131,7 +131,10 @@ void Foam::cellTracks::add(cellState& cell, const ellipsoid_step& step)
 
 void Foam::cellTracks::finish(cellState& cell)
 {
-    append(cell, cell.time, cell.body);
+    if (cell.time - cell.lastRow[0] > 1e-6*interval_)
+    {
+        append(cell, cell.time, cell.body);
+    }
 }
 
 

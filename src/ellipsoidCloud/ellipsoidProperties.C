@@ -8,6 +8,8 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "ellipsoidProperties.H"
+#include "captureStatistics.H"
+#include "cellInjection.H"
 #include "dimensionedScalar.H"
 #include "Time.H"
 #include "Switch.H"
@@ -187,9 +189,37 @@ void Foam::ellipsoidProperties::checkOptions() const
 }
 
 
+void Foam::ellipsoidProperties::checkPatches
+(
+    const polyBoundaryMesh& patches
+) const
+{
+    const dictionary& injections = subDict("injection");
+
+    for (const entry& e : injections)
+    {
+        if (!e.isDict())
+        {
+            FatalIOErrorInFunction(injections)
+                << e.keyword() << " is not a dictionary of an injection"
+                << exit(FatalIOError);
+        }
+
+        cellInjection::checkType(e.dict());
+
+        if (e.dict().found("patch"))
+        {
+            cellInjection::findPatch(e.dict(), patches);
+        }
+    }
+
+    captureStatistics::findSieves(section("capture"), patches);
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::ellipsoidProperties::ellipsoidProperties(const objectRegistry& mesh)
+Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
 :
     IOdictionary
     (
@@ -239,6 +269,7 @@ Foam::ellipsoidProperties::ellipsoidProperties(const objectRegistry& mesh)
 
     readOptions();
     checkOptions();
+    checkPatches(mesh.boundaryMesh());
 }
 
 
@@ -255,8 +286,14 @@ void Foam::ellipsoidProperties::checkKeywords
         if (!allowed.found(e.keyword()))
         {
             FatalIOErrorInFunction(dict)
-                << "unknown keyword " << e.keyword() << " (line "
-                << e.startLineNumber() << ")" << nl
+                << "unknown keyword " << e.keyword();
+
+            if (e.startLineNumber() > 0)
+            {
+                FatalIOError<< " (line " << e.startLineNumber() << ")";
+            }
+
+            FatalIOError<< nl
                 << "    allowed: " << flatOutput(allowed)
                 << exit(FatalIOError);
         }

@@ -115,26 +115,6 @@ Foam::patchInjection::patchInjection
     checkKeywords({"patch"});
 
     const word patch(dict.get<word>("patch"));
-    bool known = true;
-    wordList names;
-
-    if (Pstream::master())
-    {
-        names = from.whole.mesh().boundaryMesh().names();
-        known = names.found(patch);
-    }
-    Pstream::scatter(known);
-    Pstream::scatter(names);
-
-    if (!known)
-    {
-        FatalIOErrorInFunction
-        (
-            dict_.lookupEntry("patch", keyType::LITERAL).stream()
-        )   << "no patch " << patch << " in the mesh" << nl
-            << "    patches: " << flatOutput(names)
-            << exit(FatalIOError);
-    }
 
     if (Pstream::master())
     {

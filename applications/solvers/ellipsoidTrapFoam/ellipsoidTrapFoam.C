@@ -56,6 +56,11 @@ int main(int argc, char *argv[])
 
     #include "setRootCaseLists.H"
     #include "createTime.H"
+
+    // The digits of writePrecision are for files
+    Sout.precision(6);
+    Pout.precision(6);
+
     #include "createMesh.H"
 
     const bool flowOnly = args.found("flowOnly");

@@ -1,0 +1,147 @@
+#!/bin/bash
+# What the tests that track cells share, TAP and OpenFOAM's environment included.
+# Sourced from the top folder.
+# License: GPL-3.0-or-later, see COPYING.
+
+. tests/tap.sh
+. Make/setup.sh
+if [ -z "$WM_PROJECT_DIR" ]; then setup_environment test > /dev/null || exit; fi
+# For the sourcing tests
+# shellcheck disable=SC2034
+cases=$PWD/tests/cases
+# shellcheck disable=SC2034
+tutorials=$PWD/tutorials/ellipsoidTrapFoam
+
+# Where a run from time 0 leaves its tables
+tables=postProcessing/ellipsoidCloud/0
+
+# Makes CASE anew from a stored one, of which only what is not generated is taken,
+# and goes there
+new_case()      # CASE STORED
+{
+    mkdir -p "$tap_folder/$1/constant" && cd "$tap_folder/$1" || exit
+    cp -r "$2"/{0.orig,system} . && cp -r 0.orig 0 || exit
+    find "$2" -maxdepth 1 -type f -perm -u+x -exec cp {} . \; || exit
+    find "$2/constant" -maxdepth 1 -type f -exec cp {} constant/ \; || exit
+    if [ -e "$2/../functions" ]; then cp "$2/../functions" .. || exit; fi
+}
+
+# Makes CASE anew with mesh, settings and flow of another, and goes there
+same_flow()     # CASE OTHER
+{
+    mkdir -p "$tap_folder/$1/0" && cd "$tap_folder/$1" || exit
+    cp -r "$tap_folder/$2"/{constant,system} . || exit
+    cp "$tap_folder/$2"/0/{U,p,phi} 0/ || exit
+}
+
+# Gives an entry that stands on a line of its own another value
+set_entry()     # FILE ENTRY VALUE
+{
+    if [ "$(grep -c "^ *$2 .*;" "$1")" -ne 1 ]; then
+        echo "$1: not one line with the entry $2"
+        exit 1
+    fi
+    sed -i "s|^\( *$2 \+\).*;|\1$3;|" "$1"
+}
+
+# The head of a dictionary
+dictionary_head()       # NAME
+{
+    echo "FoamFile { version 2.0; format ascii; class dictionary; object $1; }"
+}
+
+# decomposeParDict with N parts, and the entries of its method
+set_decomposition()     # N METHOD '(NX NY NZ)'
+{
+    {
+        dictionary_head decomposeParDict
+        echo "numberOfSubdomains $1; method $2;"
+        echo "${2}Coeffs { n $3; delta 0.001; order xyz; }"
+    } > system/decomposeParDict
+}
+
+# Runs the solver in the present folder, decomposed if on more than one rank; its output goes to log, and the end of that is shown
+run_cells()     # RANKS
+{
+    local status n=$1
+    if [ "$n" -eq 1 ]; then
+        ellipsoidTrapFoam > log 2>&1
+    else
+        mpirun --oversubscribe -np "$n" ellipsoidTrapFoam -parallel > log 2>&1
+    fi
+    status=$?
+    # For whoever reads why a test failed
+    sed '1,/^Create time/d' log | tail -n 40
+    return "$status"
+}
+
+# Solves the flow of a case whose mesh is there
+solve_flow()    { ellipsoidTrapFoam -flowOnly > log.flow 2>&1 || { tail -n 20 log.flow; return 1; }; }
+
+# The tables of two cases, byte by byte
+same_tables()   # CASE OTHER
+{
+    local file status=0
+    for file in events.csv cells.csv captures.csv tracks.csv tracks.vtp; do
+        cmp "$tap_folder/$1/$tables/$file" "$tap_folder/$2/$tables/$file" || status=1
+    done
+    return "$status"
+}
+
+# Runs Python from the standard input in a case, with what all checks need
+numbers()       # CASE ARGUMENT...
+(
+    cd "$tap_folder/$1" || exit
+    shift
+    { cat << 'EOT'; cat; } | "${ELLIPSOID_PYTHON:-python3}" - "$@"
+import csv
+import math
+import re
+import sys
+
+import numpy as np
+
+TABLES = "postProcessing/ellipsoidCloud/0/"
+failures = []
+
+
+def table(name):
+    """Rows of a table as dictionaries, numbers as floats."""
+    with open(TABLES + name, encoding="ascii") as file:
+        rows = list(csv.DictReader(file))
+    for row in rows:
+        for key, value in row.items():
+            if key not in ("event", "fate", "patch", "sieve", "firstSieve") and " " not in value:
+                row[key] = float(value) if value else None
+    return rows
+
+
+def columns(rows, *names):
+    """Some columns as an array, one row each."""
+    return np.array([[row[name] for name in names] for row in rows])
+
+
+def expect(holds, what):
+    """Note a failure, with what it is about; print what holds too."""
+    print(("  " if holds else "WRONG ") + what)
+    if not holds:
+        failures.append(what)
+
+
+def kolmogorov(sample, cdf):
+    """Probability of a sample as far from the distribution, or farther (Kolmogorov's
+    limit with Stephens' correction, Numerical Recipes 14.3)."""
+    x = np.sort(np.asarray(sample))
+    n = len(x)
+    f = cdf(x)
+    d = max(np.max(np.arange(1, n + 1)/n - f), np.max(f - np.arange(n)/n))
+    t = d*(math.sqrt(n) + 0.12 + 0.11/math.sqrt(n))
+    return min(1.0, 2*sum((-1)**(k - 1)*math.exp(-2*(k*t)**2) for k in range(1, 101)))
+
+
+def finish():
+    sys.exit(bool(failures))
+
+
+EOT
+)
