@@ -1,0 +1,91 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    test_random.c - random numbers that depend on their key alone.
+*/
+#include "coreTest.h"
+
+/* Philox4x32-10 of counter 0 and key 0: Random123's file of known answers. */
+static void test_known_answer(void **unused)
+{
+    const uint64_t words[2] = {0x6627e8d5e169c58du, 0xbc57ac4c9b00dbd8u};
+    double uniform[2];
+
+    (void)unused;
+    ellipsoid_random_uniform(0, 0, 0, 0, 2, uniform);
+    for (int i = 0; i < 2; i++)
+    {
+        assert_true(uniform[i] == ldexp((double)(words[i] >> 11), -53));
+    }
+}
+
+/* Any part of a longer draw is what a shorter one gives, and each part of the key
+   counts, the upper half of the seed too. */
+static void test_depends_on_key_alone(void **unused)
+{
+    const uint64_t seed = 0x123456789abcdefu;
+    double five[5], three[3], other[1];
+
+    (void)unused;
+    ellipsoid_random_uniform(seed, 7, 1, 2, 5, five);
+    ellipsoid_random_uniform(seed, 7, 1, 2, 3, three);
+    assert_memory_equal(five, three, sizeof three);
+    for (int i = 0; i < 5; i++)
+    {
+        for (int j = 0; j < i; j++)
+        {
+            assert_true(five[i] != five[j]);
+        }
+    }
+
+    ellipsoid_random_uniform(seed ^ ((uint64_t)1 << 40), 7, 1, 2, 1, other);
+    assert_true(other[0] != five[0]);
+    ellipsoid_random_uniform(seed, 8, 1, 2, 1, other);
+    assert_true(other[0] != five[0]);
+    ellipsoid_random_uniform(seed, 7, 2, 2, 1, other);
+    assert_true(other[0] != five[0]);
+    ellipsoid_random_uniform(seed, 7, 1, 3, 1, other);
+    assert_true(other[0] != five[0]);
+}
+
+/*
+    Mean, variance and neighbours' correlation over 1e5 cells of one fixed seed, each
+    within 5 standard errors: 1/sqrt(12 N), 1/sqrt(180 N), 1/(12 sqrt(N)).
+*/
+static void test_uniform_over_cells(void **unused)
+{
+    enum
+    {
+        N = 100000
+    };
+    double sum = 0, squares = 0, products = 0, last = 0.5;
+
+    (void)unused;
+    for (uint32_t id = 0; id < N; id++)
+    {
+        double u;
+
+        ellipsoid_random_uniform(1, id, 0, 0, 1, &u);
+        assert_true(u >= 0 && u < 1);
+        sum += u - 0.5;
+        squares += (u - 0.5) * (u - 0.5) - 1.0 / 12;
+        products += (u - 0.5) * (last - 0.5);
+        last = u;
+    }
+    assert_near(sum / N, 0, 5 / sqrt(12.0 * N));
+    assert_near(squares / N, 0, 5 / sqrt(180.0 * N));
+    assert_near(products / N, 0, 5 / (12 * sqrt((double)N)));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_known_answer),
+        cmocka_unit_test(test_depends_on_key_alone),
+        cmocka_unit_test(test_uniform_over_cells),
+    };
+
+    return cmocka_run_group_tests_name("random", tests, NULL, NULL);
+}
