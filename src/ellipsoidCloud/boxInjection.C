@@ -51,8 +51,6 @@ Foam::boxInjection::boxInjection
     min_(dict.get<point>("min")),
     max_(dict.get<point>("max"))
 {
-    checkKeywords({"min", "max"});
-
     if (!(cmptMin(max_ - min_) >= 0))
     {
         FatalIOErrorInFunction(dict_)

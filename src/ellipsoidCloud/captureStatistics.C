@@ -121,36 +121,20 @@ void Foam::captureStatistics::readLog()
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::captureStatistics::captureStatistics
+Foam::captureStatistics::setting::setting
 (
     const dictionary& dict,
-    const polyBoundaryMesh& patches,
-    const scalar inletSpeed,
-    const fileName& folder,
-    const scalar logSize
+    const polyBoundaryMesh& patches
 )
 :
-    patchNames_(patches.names()),
-    sieves_(findSieves(dict, patches)),
-    slowSpeed_
+    sieves(),
+    speedFraction
     (
-        inletSpeed
-       *ellipsoidProperties::getAboveOrDefault(dict, "speedFraction", 0, 0.01)
+        ellipsoidProperties::getAboveOrDefault(dict, "speedFraction", 0, 0.01)
     ),
-    holdTime_
+    holdTime
     (
         ellipsoidProperties::getAboveOrDefault(dict, "holdTime", 0, 0.05)
-    ),
-    folder_(folder),
-    pending_(),
-    cells_(),
-    counts_(Zero),
-    log_
-    (
-        folder/"events.csv",
-        "t,id,event,patch,x1,x2,x3,eps1,eps2,eps3,eta",
-        12,
-        logSize
     )
 {
     ellipsoidProperties::checkKeywords
@@ -158,22 +142,6 @@ Foam::captureStatistics::captureStatistics
         dict, {"sieves", "speedFraction", "holdTime"}
     );
 
-    if (Pstream::master() && logSize > 0)
-    {
-        readLog();
-    }
-}
-
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-Foam::labelList Foam::captureStatistics::findSieves
-(
-    const dictionary& dict,
-    const polyBoundaryMesh& patches
-)
-{
-    labelList sieves;
     const wordRes names(dict.getOrDefault("sieves", wordRes()));
 
     for (const wordRe& name : names)
@@ -205,10 +173,42 @@ Foam::labelList Foam::captureStatistics::findSieves
 
         sieves.append(matched);
     }
-
-    return sieves;
 }
 
+
+Foam::captureStatistics::captureStatistics
+(
+    const setting& given,
+    const wordList& patchNames,
+    const scalar inletSpeed,
+    const fileName& folder,
+    const scalar logSize
+)
+:
+    patchNames_(patchNames),
+    sieves_(given.sieves),
+    slowSpeed_(inletSpeed*given.speedFraction),
+    holdTime_(given.holdTime),
+    folder_(folder),
+    pending_(),
+    cells_(),
+    counts_(Zero),
+    log_
+    (
+        folder/"events.csv",
+        "t,id,event,patch,x1,x2,x3,eps1,eps2,eps3,eta",
+        12,
+        logSize
+    )
+{
+    if (Pstream::master() && logSize > 0)
+    {
+        readLog();
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::captureStatistics::note(const eventType what, const cellState& cell)
 {

@@ -10,6 +10,7 @@ License
 #include "cellInjection.H"
 #include "cellSurroundings.H"
 #include "unitConversion.H"
+#include "StringStream.H"
 #include "polyBoundaryMesh.H"
 
 #include <algorithm>
@@ -135,10 +136,13 @@ void Foam::cellInjection::draw(newCell& cell) const
         }
     }
 
+    OStringStream x;
+    x.precision(6);
+    x << point(cell.x[0], cell.x[1], cell.x[2]);
+
     FatalIOErrorInFunction(dict_)
         << "cell " << cell.id << " of injection " << dict_.dictName()
-        << " at " << point(cell.x[0], cell.x[1], cell.x[2])
-        << " lies outside the mesh or overlaps a wall" << nl
+        << " at " << x.str().c_str() << " lies outside the mesh or overlaps a wall" << nl
         << "    " << maxAttempts << " position(s) tried"
         << exit(FatalIOError);
 }
@@ -245,23 +249,6 @@ Foam::label Foam::cellInjection::readNumber(const scalar flux) const
 }
 
 
-void Foam::cellInjection::checkKeywords(const wordList& more) const
-{
-    wordList allowed
-    ({
-        "type", "start", "duration",
-        "orientation", "axis", "quaternion", "eulerAngles"
-    });
-    if (drawn())
-    {
-        allowed.append(wordList({"number", "rate", "concentration"}));
-    }
-    allowed.append(more);
-
-    ellipsoidProperties::checkKeywords(dict_, allowed);
-}
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::cellInjection::cellInjection
@@ -285,7 +272,7 @@ Foam::cellInjection::cellInjection
 }
 
 
-void Foam::cellInjection::checkType(const dictionary& dict)
+void Foam::cellInjection::checkEntries(const dictionary& dict)
 {
     const word type(dict.get<word>("type"));
 
@@ -298,6 +285,26 @@ void Foam::cellInjection::checkType(const dictionary& dict)
             << "    allowed: "
             << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
             << exit(FatalIOError);
+    }
+
+    // Those of all injections, of a number, and of each type
+    static const wordList common
+    ({
+        "type", "start", "duration",
+        "orientation", "axis", "quaternion", "eulerAngles"
+    });
+    static const HashTable<wordList> more
+    ({
+        {"patch", {"number", "rate", "concentration", "patch"}},
+        {"box", {"number", "rate", "min", "max"}},
+        {"positions", {"positions", "orientations"}}
+    });
+
+    if (more.found(type))
+    {
+        wordList allowed(common);
+        allowed.append(more[type]);
+        ellipsoidProperties::checkKeywords(dict, allowed);
     }
 }
 
@@ -331,7 +338,7 @@ Foam::autoPtr<Foam::cellInjection> Foam::cellInjection::New
     const label firstId
 )
 {
-    checkType(dict);
+    checkEntries(dict);
 
     const auto found =
         dictionaryConstructorTablePtr_->cfind(dict.get<word>("type"));

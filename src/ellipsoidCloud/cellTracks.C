@@ -45,9 +45,31 @@ void Foam::cellTracks::append
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
+Foam::cellTracks::setting::setting(const dictionary& dict)
+:
+    interval
+    (
+        ellipsoidProperties::getAboveOrDefault(dict, "interval", 0, 1e-3)
+    ),
+    heldInterval
+    (
+        ellipsoidProperties::getAboveOrDefault(dict, "heldInterval", 0, 0.1)
+    ),
+    minimumMove
+    (
+        ellipsoidProperties::getAboveOrDefault(dict, "minimumMove", 0, 0.01)
+    )
+{
+    ellipsoidProperties::checkKeywords
+    (
+        dict, {"interval", "heldInterval", "minimumMove"}
+    );
+}
+
+
 Foam::cellTracks::cellTracks
 (
-    const dictionary& dict,
+    const setting& given,
     const wordList& patchNames,
     const scalar length,
     const fileName& folder,
@@ -55,20 +77,8 @@ Foam::cellTracks::cellTracks
 )
 :
     patchNames_(patchNames),
-    interval_
-    (
-        ellipsoidProperties::getAboveOrDefault(dict, "interval", 0, 1e-3)
-    ),
-    heldInterval_
-    (
-        ellipsoidProperties::getAboveOrDefault(dict, "heldInterval", 0, 0.1)
-    ),
-    minimumMove_
-    (
-        length
-       *ellipsoidProperties::getAboveOrDefault(dict, "minimumMove", 0, 0.01)
-    ),
-    minimumTurn_(minimumMove_/length),
+    setting_(given),
+    length_(length),
     folder_(folder),
     rows_(),
     file_
@@ -79,9 +89,7 @@ Foam::cellTracks::cellTracks
         9,
         fileSize
     )
-{
-    ellipsoidProperties::checkKeywords(dict, {"interval", "heldInterval", "minimumMove"});
-}
+{}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
@@ -89,7 +97,8 @@ Foam::cellTracks::cellTracks
 void Foam::cellTracks::start(cellState& cell)
 {
     append(cell, cell.time, cell.body);
-    cell.nextRow = (std::floor(cell.time/interval_) + 1)*interval_;
+    cell.nextRow =
+        (std::floor(cell.time/setting_.interval) + 1)*setting_.interval;
 }
 
 
@@ -117,21 +126,28 @@ void Foam::cellTracks::add(cellState& cell, const ellipsoid_step& step)
         // Held cells may go on spinning: rarely is often enough
         const bool due =
             cell.fate == cellState::inFlight
-         || cell.nextRow - cell.lastRow[0] > heldInterval_ - 0.5*interval_;
+         || cell.nextRow - cell.lastRow[0]
+          > setting_.heldInterval - 0.5*setting_.interval;
 
-        if (due && (move > sqr(minimumMove_) || turn > minimumTurn_))
+        const bool moved =
+            move > sqr(setting_.minimumMove*length_)
+         || turn > setting_.minimumMove;
+
+        if (due && moved)
         {
             append(cell, cell.nextRow, body);
         }
 
-        cell.nextRow = (std::floor(cell.nextRow/interval_ + 0.5) + 1)*interval_;
+        cell.nextRow =
+            (std::floor(cell.nextRow/setting_.interval + 0.5) + 1)
+           *setting_.interval;
     }
 }
 
 
 void Foam::cellTracks::finish(cellState& cell)
 {
-    if (cell.time - cell.lastRow[0] > 1e-6*interval_)
+    if (cell.time - cell.lastRow[0] > 1e-6*setting_.interval)
     {
         append(cell, cell.time, cell.body);
     }

@@ -9,8 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 #include "ellipsoidCloud.H"
 #include "cellSurroundings.H"
-#include "emptyPolyPatch.H"
-#include "wedgePolyPatch.H"
+#include "masterFirst.H"
 #include "PstreamBuffers.H"
 #include "clockTime.H"
 
@@ -79,23 +78,6 @@ Foam::scalar Foam::ellipsoidCloud::inletSpeed(const volVectorField& U)
 }
 
 
-void Foam::ellipsoidCloud::checkPatches() const
-{
-    for (const polyPatch& pp : mesh_.boundaryMesh())
-    {
-        if (isA<emptyPolyPatch>(pp) || isA<wedgePolyPatch>(pp))
-        {
-            FatalErrorInFunction
-                << "patch " << pp.name() << " is of type " << pp.type() << nl
-                << "    A cell is a body in three dimensions: its mesh has "
-                << "walls (type wall), open ends (type patch), and patches it "
-                << "must not reach (cyclic, symmetry)"
-                << exit(FatalError);
-        }
-    }
-}
-
-
 void Foam::ellipsoidCloud::makeInjections(const undecomposedFlow& whole)
 {
     const dictionary& dict = properties_.subDict("injection");
@@ -109,7 +91,10 @@ void Foam::ellipsoidCloud::makeInjections(const undecomposedFlow& whole)
     for (const entry& e : dict)
     {
         injections_.append(cellInjection::New(e.dict(), from, nCells).ptr());
-        injections_.last().check();
+        {
+            const masterFirst once;
+            injections_.last().check();
+        }
         nCells += injections_.last().size();
     }
 
@@ -402,8 +387,6 @@ Foam::ellipsoidCloud::ellipsoidCloud
     trackingTime_(0),
     reportTime_(0)
 {
-    checkPatches();
-
     const ellipsoid_options& options = properties_.options();
 
     if (ellipsoid_model_init(&model_, &options) != ELLIPSOID_OK)

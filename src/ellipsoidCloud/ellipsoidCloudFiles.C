@@ -54,8 +54,11 @@ void Foam::ellipsoidCloud::openFiles(const scalar inletSpeed)
     (
         new captureStatistics
         (
-            properties_.section("capture"),
-            mesh_.boundaryMesh(),
+            captureStatistics::setting
+            (
+                properties_.section("capture"), mesh_.boundaryMesh()
+            ),
+            mesh_.boundaryMesh().names(),
             inletSpeed,
             folder,
             eventsSize
@@ -65,7 +68,7 @@ void Foam::ellipsoidCloud::openFiles(const scalar inletSpeed)
     (
         new cellTracks
         (
-            properties_.section("tracks"),
+            cellTracks::setting(properties_.section("tracks")),
             mesh_.boundaryMesh().names(),
             *std::max_element(options.semi_axes, options.semi_axes + 3),
             folder,
@@ -130,11 +133,11 @@ void Foam::ellipsoidCloud::finish()
     const scalar deepest = returnReduce(totals_.deepest, maxOp<scalar>());
     const scalar longest = returnReduce(trackingTime_, maxOp<scalar>());
 
-    // Counts beyond a label's range are likely
-    const scalar accepted =
-        returnReduce(scalar(totals_.accepted), sumOp<scalar>());
-    const scalar rejected =
-        returnReduce(scalar(totals_.rejected), sumOp<scalar>());
+    // Counts may pass a label's range
+    const int64_t accepted =
+        returnReduce(int64_t(totals_.accepted), sumOp<int64_t>());
+    const int64_t rejected =
+        returnReduce(int64_t(totals_.rejected), sumOp<int64_t>());
 
     Info<< nl << "tracking: " << longest << " s, " << accepted
         << " steps, " << rejected << " rejected" << nl

@@ -8,9 +8,14 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "ellipsoidProperties.H"
+#include "cellTracks.H"
+#include "masterFirst.H"
+#include "StringStream.H"
 #include "captureStatistics.H"
 #include "cellInjection.H"
 #include "dimensionedScalar.H"
+#include "emptyPolyPatch.H"
+#include "wedgePolyPatch.H"
 #include "Time.H"
 #include "Switch.H"
 
@@ -174,9 +179,16 @@ void Foam::ellipsoidProperties::checkOptions() const
                 ITstream& is =
                     dict.lookupEntry(known.entry, keyType::LITERAL).stream();
 
+                OStringStream value;
+                value.precision(6);
+                for (const token& t : static_cast<const tokenList&>(is))
+                {
+                    value << ' ' << t;
+                }
+
                 FatalIOErrorInFunction(is)
-                    << known.section << '/' << known.entry << ' '
-                    << is.toString() << " is out of range" << nl
+                    << known.section << '/' << known.entry
+                    << value.str().c_str() << " is out of range" << nl
                     << "    allowed: " << range
                     << exit(FatalIOError);
             }
@@ -194,6 +206,21 @@ void Foam::ellipsoidProperties::checkPatches
     const polyBoundaryMesh& patches
 ) const
 {
+    for (const polyPatch& pp : patches)
+    {
+        if (isA<emptyPolyPatch>(pp) || isA<wedgePolyPatch>(pp))
+        {
+            FatalErrorInFunction
+                << "patch " << pp.name() << " of "
+                << patches.mesh().meshDir()/"boundary"
+                << " is of type " << pp.type() << nl
+                << "    A cell is a body in three dimensions: its mesh has "
+                << "walls (type wall), open ends (type patch), and patches it "
+                << "must not reach (cyclic, symmetry)"
+                << exit(FatalError);
+        }
+    }
+
     const dictionary& injections = subDict("injection");
 
     for (const entry& e : injections)
@@ -205,7 +232,7 @@ void Foam::ellipsoidProperties::checkPatches
                 << exit(FatalIOError);
         }
 
-        cellInjection::checkType(e.dict());
+        cellInjection::checkEntries(e.dict());
 
         if (e.dict().found("patch"))
         {
@@ -213,7 +240,8 @@ void Foam::ellipsoidProperties::checkPatches
         }
     }
 
-    captureStatistics::findSieves(section("capture"), patches);
+    captureStatistics::setting(section("capture"), patches);
+    cellTracks::setting(section("tracks"));
 }
 
 
@@ -233,25 +261,10 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
         )
     ),
     options_(ellipsoid_options_default()),
-    scheme_
-    (
-        frozenFlow::schemeNames.getOrDefault
-        (
-            "interpolation", *this, frozenFlow::stCellPoint
-        )
-    ),
-    seed_(getOrDefault<label>("seed", 1)),
+    scheme_(frozenFlow::stCellPoint),
+    seed_(1),
     empty_()
 {
-    checkKeywords
-    (
-        *this,
-        {
-            "interpolation", "seed", "cell", "fluid", "forces", "contact",
-            "integration", "injection", "capture", "tracks"
-        }
-    );
-
     const IOdictionary transport
     (
         IOobject
@@ -264,8 +277,24 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
             false
         )
     );
+
+    // No reading of files, for which ranks would have to meet, from here on
+    const masterFirst once;
+
     options_.kinematic_viscosity =
         dimensionedScalar("nu", dimViscosity, transport).value();
+    scheme_ =
+        frozenFlow::schemeNames.getOrDefault("interpolation", *this, scheme_);
+    seed_ = getOrDefault<label>("seed", seed_);
+
+    checkKeywords
+    (
+        *this,
+        {
+            "interpolation", "seed", "cell", "fluid", "forces", "contact",
+            "integration", "injection", "capture", "tracks"
+        }
+    );
 
     readOptions();
     checkOptions();

@@ -112,8 +112,6 @@ Foam::patchInjection::patchInjection
 :
     cellInjection(dict, from, firstId)
 {
-    checkKeywords({"patch"});
-
     const word patch(dict.get<word>("patch"));
 
     if (Pstream::master())

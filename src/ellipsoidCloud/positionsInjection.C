@@ -64,8 +64,6 @@ Foam::positionsInjection::positionsInjection
         dict.getOrDefault<List<FixedList<scalar, 4>>>("orientations", {})
     )
 {
-    checkKeywords({"positions", "orientations"});
-
     if (orientations_.size() && orientations_.size() != positions_.size())
     {
         FatalIOErrorInFunction(dict_)

@@ -79,6 +79,9 @@ void Foam::undecomposedFlow::readMesh(const Time& runTime)
             << exit(FatalError);
     }
 
+    // A Time sets the digits of what is printed
+    const int digits = Sout.precision();
+
     time_.reset
     (
         new Time
@@ -92,6 +95,9 @@ void Foam::undecomposedFlow::readMesh(const Time& runTime)
             false
         )
     );
+
+    Sout.precision(digits);
+    Pout.precision(digits);
 
     mesh_.reset
     (
