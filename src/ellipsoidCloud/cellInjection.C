@@ -181,7 +181,7 @@ void Foam::cellInjection::setTimes(const label number)
     const scalar start = dict_.getOrDefault<scalar>("start", 0);
     const scalar duration = dict_.getOrDefault<scalar>("duration", 0);
 
-    if (!(duration >= 0 && duration < GREAT))
+    if (!(duration >= 0 && duration < VGREAT))
     {
         FatalIOErrorInFunction(dict_)
             << "duration " << duration << " is out of range" << nl

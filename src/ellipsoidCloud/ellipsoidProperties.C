@@ -339,7 +339,7 @@ Foam::scalar Foam::ellipsoidProperties::getAbove
 {
     const scalar value = dict.get<scalar>(keyword);
 
-    if (!(value > bound && value < GREAT))
+    if (!(value > bound && value < VGREAT))
     {
         FatalIOErrorInFunction
         (
