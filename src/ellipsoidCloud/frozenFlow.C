@@ -57,13 +57,13 @@ void Foam::frozenFlow::barycentric
         gradients[i + 1][2] = a[0]*b[1] - a[1]*b[0];
     }
 
-    const scalar inverseVolume =
-        1
-       /(
-            e[0][0]*gradients[1][0]
-          + e[0][1]*gradients[1][1]
-          + e[0][2]*gradients[1][2]
-        );
+    const scalar volume =
+        e[0][0]*gradients[1][0]
+      + e[0][1]*gradients[1][1]
+      + e[0][2]*gradients[1][2];
+
+    // A flat tetrahedron holds nothing, but the walk has to get through it
+    const scalar inverseVolume = 1/(volume != 0 ? volume : 1e-40);
 
     coordinates[0] = 1;
     for (int d = 0; d < 3; ++d)
