@@ -231,10 +231,19 @@ Foam::label Foam::cellInjection::readNumber(const scalar flux) const
 
     if (dict_.found("number"))
     {
-        return label
-        (
-            ellipsoidProperties::getAbove(dict_, "number", 0) + 0.5
-        );
+        const label number = dict_.get<label>("number");
+
+        if (number < 1)
+        {
+            FatalIOErrorInFunction
+            (
+                dict_.lookupEntry("number", keyType::LITERAL).stream()
+            )   << "number " << number << " is out of range" << nl
+                << "    allowed: a whole number above 0"
+                << exit(FatalIOError);
+        }
+
+        return number;
     }
 
     const scalar duration =
