@@ -171,7 +171,13 @@ Foam::captureStatistics::setting::setting
                 << exit(FatalIOError);
         }
 
-        sieves.append(matched);
+        for (const label patchi : matched)
+        {
+            if (!sieves.found(patchi))
+            {
+                sieves.append(patchi);
+            }
+        }
     }
 }
 

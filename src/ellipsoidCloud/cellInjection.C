@@ -254,7 +254,17 @@ Foam::label Foam::cellInjection::readNumber(const scalar flux) const
       ? ellipsoidProperties::getAbove(dict_, "rate", 0)
       : ellipsoidProperties::getAbove(dict_, "concentration", 0)*flux;
 
-    return label(rate*duration + 0.5);
+    const scalar number = rate*duration;
+
+    if (!(number >= 0.5 && number < 1e8))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "injection " << dict_.dictName() << " makes " << number
+            << " cells" << nl << "    allowed: 1 to 1e8"
+            << exit(FatalIOError);
+    }
+
+    return label(number + 0.5);
 }
 
 

@@ -42,6 +42,8 @@ namespace Foam
         cellJourney& journey = *static_cast<cellJourney*>(context);
 
         journey.last = *step;
+        journey.cell.deepest =
+            max(journey.cell.deepest, step->contact.deepest);
         journey.place = journey.here.settle(pointOf(step->after.x));
 
         if (journey.place == frozenFlow::pInside)
@@ -231,7 +233,6 @@ bool Foam::ellipsoidCloud::move(ellipsoidParcel& parcel, const scalar end)
     cell.tet = here.home().tet;
 
     const ellipsoid_contact& contact = journey.last.contact;
-    cell.deepest = max(cell.deepest, contact.deepest);
 
     if (status == ELLIPSOID_OK)
     {
@@ -426,6 +427,7 @@ Foam::ellipsoidCloud::ellipsoidCloud
     makeInjections(whole);
     openFiles(speed);
     ellipsoidParcel::readFields(*this);
+    checkCells();
 
     Info<< "ellipsoidCloud: " << flow_->nTets() << " tetrahedra, "
         << walls_->size() << " wall facets, mean inlet speed " << speed

@@ -43,6 +43,7 @@ void Foam::ellipsoidCloud::openFiles(const scalar inletSpeed)
     const scalar tracksSize = earlier.getOrDefault<scalar>("tracks", 0);
 
     earlier.readIfPresent<fileName>("folder", firstTime_);
+    earlier.readIfPresent("time", time_);
 
     const fileName folder
     (
@@ -78,6 +79,39 @@ void Foam::ellipsoidCloud::openFiles(const scalar inletSpeed)
 }
 
 
+void Foam::ellipsoidCloud::checkCells() const
+{
+    label nInside = statistics_->nInside();
+    Pstream::scatter(nInside);
+
+    const label nRead = returnReduce(label(size()), sumOp<label>());
+
+    if (nRead != nInside)
+    {
+        FatalErrorInFunction
+            << "time " << mesh_.time().timeName() << " holds " << nRead
+            << " cells, but by the log of events " << nInside
+            << " are in the device" << nl
+            << "    Its folder lagrangian/" << name()
+            << " is incomplete or of another run: go on from another time"
+            << exit(FatalError);
+    }
+
+    for (const ellipsoidParcel& parcel : *this)
+    {
+        const label teti = parcel.state().tet;
+
+        if (teti < 0 || teti >= flow_->nTets())
+        {
+            FatalErrorInFunction
+                << "cell " << parcel.state().id << " of time "
+                << mesh_.time().timeName() << " is of another mesh"
+                << exit(FatalError);
+        }
+    }
+}
+
+
 void Foam::ellipsoidCloud::writeFiles()
 {
     tracks_->flush();
@@ -91,6 +125,7 @@ void Foam::ellipsoidCloud::writeFiles()
 
     IOdictionary files(filesDict());
     files.clear();
+    files.add("time", time_);
     files.add("folder", string(firstTime_));
     files.add("events", eventsSize);
     files.add("tracks", tracksSize);

@@ -244,6 +244,20 @@ Foam::undecomposedFlow::undecomposedFlow
             readMesh(mesh.time());
         }
 
+        // Before anything is put where the addressing says
+        label nWhole = (Pstream::master() ? mesh_->nCells() : 0);
+        Pstream::scatter(nWhole);
+        const label nParts = returnReduce(mesh.nCells(), sumOp<label>());
+
+        if (nWhole != nParts)
+        {
+            FatalErrorInFunction
+                << "the decomposed mesh has " << nParts
+                << " cells, the undecomposed one " << nWhole << nl
+                << "    Run decomposePar -force again"
+                << exit(FatalError);
+        }
+
         UGathered_ = gather(U, cellAddressing, faceAddressing);
         pGathered_ = gather(p, cellAddressing, faceAddressing);
 
@@ -267,18 +281,6 @@ Foam::undecomposedFlow::undecomposedFlow
     for (const labelList& cells : allCells)
     {
         nCells += cells.size();
-    }
-
-    label nWhole = (Pstream::master() ? U_->mesh().nCells() : 0);
-    Pstream::scatter(nWhole);
-
-    if (nWhole != nCells)
-    {
-        FatalErrorInFunction
-            << "the decomposed mesh has " << nCells
-            << " cells, the undecomposed one " << nWhole << nl
-            << "    Run decomposePar -force again"
-            << exit(FatalError);
     }
 
     cellRank_.setSize(nCells);

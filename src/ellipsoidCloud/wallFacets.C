@@ -288,8 +288,11 @@ Foam::wallFacets::wallFacets(const polyMesh* wholeMesh, const scalar length)
 
         triangles = merged;
         points = merged.points();
+        span_ = boundBox(wholeMesh->points(), false);
     }
 
+    Pstream::scatter(span_.min());
+    Pstream::scatter(span_.max());
     Pstream::scatter(triangles);
     Pstream::scatter(points);
 
@@ -302,7 +305,6 @@ Foam::wallFacets::wallFacets(const polyMesh* wholeMesh, const scalar length)
 
     if (surface_.size())
     {
-        span_ = boundBox(points, false);
         span_.inflate(0.01);
 
         tree_.reset

@@ -484,6 +484,13 @@ void Foam::steadyFlow::report(const scalar density) const
 
         const scalar flux = gSum(phip);
         const scalar area = gSum(magSf);
+
+        // A patch may have no faces
+        if (area <= 0)
+        {
+            continue;
+        }
+
         const scalar patchP = gSum(pp*magSf)/area;
 
         Info<< "flow: " << mesh_.boundary()[patchi].name() << ": "
