@@ -7,7 +7,9 @@
 
     One rigid ellipsoid carried by a given flow and touching given walls:
     thirteen stiff equations (velocity, position, angular velocity,
-    quaternion) advanced by a fourth-order adaptive Rosenbrock method.
+    quaternion) advanced by a fourth-order adaptive Rosenbrock method; or,
+    without inertia, the seven of position and quaternion, advanced by an
+    explicit Runge-Kutta method of fifth order except where the body touches.
 
     SI units throughout. Frames:
       lab    x  = (x1, x2, x3)
@@ -42,7 +44,7 @@ extern "C" {
     X(STOPPED, "stopped by the observer")                                      \
     X(BAD_OPTION, "an option is outside its range")                            \
     X(NON_FINITE, "the flow or the walls gave a value that is not finite")     \
-    X(FLOW_FAILED, "the flow gave up at the cell's position")                  \
+    X(FLOW_FAILED, "the flow or the field gave up at the cell's place")                  \
     X(WALLS_FAILED, "the walls gave up at the cell's position")                \
     X(STEP_UNDERFLOW, "the step fell below the smallest step")                 \
     X(TOO_MANY_STEPS, "the number of steps is exhausted")                      \
@@ -77,6 +79,21 @@ typedef enum ellipsoid_pressure_gradient
     ELLIPSOID_PRESSURE_GRADP /* -V grad p, for comparison only */
 } ellipsoid_pressure_gradient;
 
+/* Which equations are solved. */
+typedef enum ellipsoid_motion
+{
+    ELLIPSOID_MOTION_INERTIAL,   /* thirteen: paper eqs. (1)-(4) */
+    ELLIPSOID_MOTION_INERTIALESS /* seven: u and omega balance the forces */
+} ellipsoid_motion;
+
+/* Where the body meets the undisturbed flow. */
+typedef enum ellipsoid_flow_at
+{
+    ELLIPSOID_FLOW_CENTRE, /* velocity and gradient there: the paper's model */
+    ELLIPSOID_FLOW_BODY    /* velocity over the surface: Faxen, Brenner (1964) */
+} ellipsoid_flow_at;
+
+#define ELLIPSOID_MAX_FLOW_POINTS 50
 #define ELLIPSOID_MAX_BEADS 256
 
 /*
@@ -93,13 +110,24 @@ typedef struct ellipsoid_options
     double fluid_density;       /* [kg/m3] 997.5 */
     double kinematic_viscosity; /* [m2/s] 1e-6 */
 
+    /* equations */
+    ellipsoid_motion motion; /* INERTIAL; INERTIALESS needs drag */
+
     /* forces */
     int drag;         /* hydrodynamic force and torque, 1 */
+    ellipsoid_flow_at flow_at; /* CENTRE */
+    int flow_points;  /* of FLOW_BODY, 26; 6, 14, 26 or 50: exact for flows
+                         that are polynomials of degree 3, 5, 7 or 11 (force),
+                         one less (torque) */
     int buoyancy;     /* (m_p - m_f) g, 1 */
     ellipsoid_pressure_gradient pressure_gradient; /* DUDT */
     double gravity[3];         /* [m/s2] lab, (0, 0, -9.81) */
     double external_force[3];  /* [N] lab, 0 */
     double external_torque[3]; /* [N m] body, 0 */
+    double charge;             /* [C] effective charge: F_E = charge E, 0 */
+    double dipole[3];          /* [C m] body: T_E = dipole x E, 0 */
+    double electric_field[3];  /* [V/m] lab, uniform E, 0; added to that of the
+                                  surroundings */
 
     /* contact */
     int contact;              /* beads against wall facets, 1 */
@@ -111,7 +139,8 @@ typedef struct ellipsoid_options
     /* integrator */
     double tolerance;    /* [-] local error: x against the largest semi-axis,
                             q against 1; 1e-6; 1e-14 to 1e-1 */
-    double initial_step; /* [s] first step of a fresh controller, 1e-8 */
+    double initial_step; /* [s] first step of a fresh controller; 0, which is
+                            the default: it is chosen */
     double minimum_step; /* [s] 1e-18 */
     double maximum_step; /* [s] 1 */
     long maximum_steps;  /* per call of ellipsoid_advance, 10000000 */
@@ -138,14 +167,21 @@ typedef struct ellipsoid_model
     double fluid_mass;      /* [kg] m_f, displaced */
     double viscosity;       /* [Pa s] mu = rho_f nu, dynamic */
     double inertia[3];      /* [kg m2] body axes */
+    double constant_force[3]; /* [N] lab: (m_p - m_f) g and the external one */
     double resistance[3];   /* [m] K^_i: F = mu R K^ R^T (u_f - u) */
     double rotation_resistance[3]; /* [m3] C_i = c_i (a_j^2 + a_k^2) / mu:
                                       T^_i = mu C_i (W^_i - w^_i + ...) */
     double strain_factor[3]; /* [-] (a_j^2 - a_k^2)/(a_j^2 + a_k^2), cyclic:
                                T^_1 = mu C_1 (s_1 e^23 + W^_1 - w^_1) */
+    double mobility[3];     /* [s/kg] 1/(mu K^_i) */
+    double rotation_mobility[3]; /* [1/(J s)] 1/(mu C_i) */
     double relaxation_time;          /* [s] slowest translational m/(mu K^) */
     double rotation_relaxation_time; /* [s] slowest I/(mu C) */
+    int electric;           /* does a field act? */
     double reach;           /* [m] farthest contact surface from the centre */
+    int flow_points;        /* 0 unless FLOW_BODY */
+    double flow_point[ELLIPSOID_MAX_FLOW_POINTS][3]; /* [m] body, on the surface */
+    double flow_weight[ELLIPSOID_MAX_FLOW_POINTS];   /* [-] they add up to 1 */
     int bead_count;
     double bead[ELLIPSOID_MAX_BEADS][3]; /* [m] body frame, bead centres */
 } ellipsoid_model;
@@ -182,6 +218,7 @@ typedef struct ellipsoid_flow_sample
     double pressure_gradient[3];       /* [Pa/m]; only for PRESSURE_GRADP */
     double velocity_jacobian[3][3];    /* [1/s] */
     double gradient_jacobian[3][3][3]; /* [1/(m s)] */
+    double pressure_jacobian[3][3];    /* [Pa/m2] d(grad p)_i/dx_j; likewise */
 } ellipsoid_flow_sample;
 
 /*
@@ -192,6 +229,25 @@ typedef int (*ellipsoid_flow_function)(void *context,
                                        const double x[3],
                                        int derivatives,
                                        ellipsoid_flow_sample *sample);
+
+/*
+    Velocities of the flow at points near `centre` [m, lab] for FLOW_BODY, and
+    their derivatives jacobian[n][i][j] = du_i/dx_j unless jacobian is NULL.
+    Beyond a wall both are the wall's, zero. The centre is where the flow was
+    sampled last. Returns 0; > 0: shorten the step; < 0: give up.
+*/
+typedef int (*ellipsoid_velocities_function)(void *context,
+                                             const double centre[3], int count,
+                                             double (*points)[3],
+                                             double (*velocity)[3],
+                                             double (*jacobian)[3][3]);
+
+/*
+    An electric field E [V/m, lab] at x [m, lab], and its derivatives
+    jacobian[i][j] = dE_i/dx_j unless jacobian is NULL. Returns as above.
+*/
+typedef int (*ellipsoid_field_function)(void *context, const double x[3],
+                                        double field[3], double (*jacobian)[3]);
 
 /* --------------------------------------------------------------- walls */
 
@@ -245,21 +301,29 @@ typedef int (*ellipsoid_walls_function)(void *context,
                                         double reach,
                                         ellipsoid_facet_list *list);
 
-/* What surrounds a cell. walls may be NULL: no walls. flow may be NULL: vacuum
-   (drag and pressure gradient are then zero). */
+/*
+    What surrounds a cell; each may be NULL. Without a flow there is vacuum: drag
+    and pressure gradient are zero. Without velocities, FLOW_BODY asks the flow
+    point by point and takes an answer > 0 for a place beyond a wall.
+*/
 typedef struct ellipsoid_surroundings
 {
     ellipsoid_flow_function flow;
-    void *flow_context;
+    void *flow_context; /* of velocities, too */
     ellipsoid_walls_function walls;
     void *walls_context;
+    ellipsoid_velocities_function velocities;
+    ellipsoid_field_function field;
+    void *field_context;
 } ellipsoid_surroundings;
 
 /* --------------------------------------------------------------- state */
 
 #define ELLIPSOID_STATE_SIZE 13
 
-/* The thirteen unknowns, in this order wherever they form a vector. */
+/* The thirteen unknowns, in this order wherever they form a vector. Of
+   INERTIALESS motion u and omega are results, not unknowns: what is put in is
+   not read. */
 typedef struct ellipsoid_state
 {
     double u[3];     /* [m/s] velocity, lab */
@@ -391,7 +455,9 @@ void ellipsoid_random_uniform(uint64_t seed, uint32_t id, uint32_t stream,
 /* ----------------------------------------------------------- equations */
 
 /*
-    The thirteen time derivatives at a state, paper eqs. (1)-(4).
+    The thirteen time derivatives at a state, paper eqs. (1)-(4); of INERTIALESS
+    motion those of x and q, where x changes with the u and q with the omega
+    that balance the forces, and zero for u and omega.
     STEP_UNDERFLOW: a callback wants a shorter step, that is, not this state.
     cache may be NULL where there are no walls.
 */
@@ -401,7 +467,17 @@ ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
                                ellipsoid_contact_cache *cache,
                                ellipsoid_state *derivative);
 
-/* Their derivatives by the thirteen unknowns, row-major. */
+/*
+    Sets u and omega to those with which the drag balances all other forces: of
+    INERTIALESS motion, or the terminal ones of a body at this place. BAD_OPTION
+    without drag or flow; the state is then as it was.
+*/
+ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
+                                   const ellipsoid_surroundings *surroundings,
+                                   ellipsoid_state *state,
+                                   ellipsoid_contact_cache *cache);
+
+/* The derivatives of paper eqs. (1)-(4) by the thirteen unknowns, row-major. */
 ellipsoid_status
 ellipsoid_jacobian(const ellipsoid_model *model,
                    const ellipsoid_surroundings *surroundings,
@@ -431,7 +507,7 @@ typedef struct ellipsoid_step
 {
     double start, end;           /* [s] */
     ellipsoid_state before, after;
-    double dense[2][ELLIPSOID_STATE_SIZE]; /* continuous extension */
+    double dense[3][ELLIPSOID_STATE_SIZE]; /* continuous extension */
     ellipsoid_contact contact;   /* at the end */
 } ellipsoid_step;
 
@@ -446,7 +522,7 @@ typedef int (*ellipsoid_observer)(void *context, const ellipsoid_step *step);
     Advances *state from *t to `end` [s]. State, t and controller are updated at
     every accepted step; on a failure they are those of the last accepted step.
     Statistics count failed attempts as well. observer may be NULL, and so may
-    cache where there are no walls.
+    cache where there are no walls. INERTIALESS motion needs a flow: BAD_OPTION.
     Returns OK, STOPPED (by the observer; *t is the end of that step), or why
     it could not go on.
 */

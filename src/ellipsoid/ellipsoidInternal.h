@@ -12,8 +12,9 @@
 #define ELLIPSOID_INTERNAL_H
 
 #include "ellipsoid.h"
+#include "vectors.h"
 
-#include <math.h>
+#include <string.h>
 
 /*
     The part of the Jacobian that is not known beforehand: rows are the
@@ -28,16 +29,56 @@ typedef struct ellipsoid_blocks
 
 /*
     One evaluation of the equations: derivative, the contact met (may be NULL
-    where there are no walls) and, if not NULL, the blocks. Returns
-    STEP_UNDERFLOW where a callback asks for a shorter step.
+    where there are no walls) and, if not NULL, the blocks. balanced: the
+    state's u and omega are first set to those that balance the forces; their
+    derivatives are then zero. Returns STEP_UNDERFLOW where a callback asks for
+    a shorter step.
 */
 ellipsoid_status ellipsoid_evaluate(const ellipsoid_model *model,
                                     const ellipsoid_surroundings *surroundings,
-                                    const ellipsoid_state *state,
+                                    ellipsoid_state *state, int balanced,
                                     ellipsoid_contact_cache *cache,
                                     ellipsoid_state *derivative,
                                     ellipsoid_contact *contact,
                                     ellipsoid_blocks *blocks);
+
+/* The motion that the flow would give a body free of other forces, and its
+   derivatives; u_q only of FLOW_BODY. */
+typedef struct ellipsoid_free_motion
+{
+    double u[3];     /* [m/s] lab */
+    double omega[3]; /* [rad/s] body */
+    double u_x[3][3], u_q[3][4];
+    double omega_x[3][3], omega_q[3][4];
+} ellipsoid_free_motion;
+
+/* Puts the points of FLOW_BODY into the model; returns how many, 0 if the
+   options do not allow it (bodyFlow.c). */
+int ellipsoid_flow_points(ellipsoid_model *model);
+
+/* The free motion by FLOW_BODY. axis[i] is r_i, the body axis in the lab, and
+   axis_derivatives[n][i] = dr_i/dq_n, NULL where no derivatives are wanted. */
+ellipsoid_status
+ellipsoid_body_flow(const ellipsoid_model *model,
+                    const ellipsoid_surroundings *surroundings,
+                    const double x[3], const double centre_velocity[3],
+                    double axis[3][3], double axis_derivatives[4][3][3],
+                    ellipsoid_free_motion *free);
+
+/* Sets force [N, lab] and torque [N m, body] to all but drag and contact, and
+   adds to the blocks their derivatives, if wanted (forces.c). flow may be
+   NULL. */
+ellipsoid_status ellipsoid_set_forces(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const double x[3], double axis[3][3], double axis_derivatives[4][3][3],
+    ellipsoid_flow_sample *flow, double force[3], double torque[3],
+    ellipsoid_blocks *blocks);
+
+/* What the flow or the field meant by an answer other than 0. */
+static inline ellipsoid_status ellipsoid_answer_status(int answer)
+{
+    return answer > 0 ? ELLIPSOID_STEP_UNDERFLOW : ELLIPSOID_FLOW_FAILED;
+}
 
 /*
     The Rosenbrock coefficients as in Hairer & Wanner II, eq. (IV.7.25):
@@ -45,17 +86,17 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_model *model,
     y1 = y0 + sum m_j K_j; the error estimate is K_6, and
     y(s) = y0 (1-s) + s (y1 + (1-s) (d_0 + s d_1)), d_i = sum_j dense_ij K_j.
 */
-#define ELLIPSOID_STAGES 6
+#define ELLIPSOID_ROSENBROCK_STAGES 6
 
 typedef struct ellipsoid_rosenbrock_table
 {
     double gamma;
-    double a[ELLIPSOID_STAGES][ELLIPSOID_STAGES];
-    double c[ELLIPSOID_STAGES][ELLIPSOID_STAGES];
-    double dense[2][ELLIPSOID_STAGES];
+    double a[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
+    double c[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
+    double dense[2][ELLIPSOID_ROSENBROCK_STAGES];
 } ellipsoid_rosenbrock_table;
 
-extern const ellipsoid_rosenbrock_table ellipsoid_rodas4;
+extern const ellipsoid_rosenbrock_table ellipsoid_rodas4; /* rodas4.c */
 
 /* Indices of the unknowns in a vector of thirteen. */
 enum
@@ -76,6 +117,7 @@ typedef struct ellipsoid_problem
     double length;        /* [m] largest semi-axis */
     double rate;          /* [1/s] 1/tau of u, 0 in vacuum */
     double rotation_rate; /* [1/s] 1/tau of omega, 0 in vacuum */
+    int inertial;
     int walls;
     int observed; /* is the whole of ellipsoid_step asked for? */
 } ellipsoid_problem;
@@ -87,36 +129,70 @@ typedef struct ellipsoid_point
     ellipsoid_state derivative;
     ellipsoid_blocks blocks;
     ellipsoid_contact contact;
+    int has_blocks;
 } ellipsoid_point;
 
-/* The stages of one step; the last is the error estimate. */
+#define ELLIPSOID_MAX_STAGES 7
+
+/* The stages of one step. */
 typedef struct ellipsoid_stages
 {
-    double k[ELLIPSOID_STAGES][ELLIPSOID_STATE_SIZE];
-    double y[ELLIPSOID_STATE_SIZE]; /* result, q not yet normalised */
-    double x[ELLIPSOID_STAGES][3], q[ELLIPSOID_STAGES][4]; /* where sampled, */
-    double gap[ELLIPSOID_STAGES]; /* and the gap there; only with walls */
+    double k[ELLIPSOID_MAX_STAGES][ELLIPSOID_STATE_SIZE];
+    double y[ELLIPSOID_STATE_SIZE]; /* result */
+    double error[ELLIPSOID_STATE_SIZE];
+    int order;     /* of the error estimate in the step */
+    int sampled;   /* poses where walls were felt, in the order of their time; */
+    const int *in_time; /* only with walls */
+    double x[ELLIPSOID_MAX_STAGES][3], q[ELLIPSOID_MAX_STAGES][4];
+    double gap[ELLIPSOID_MAX_STAGES];
 } ellipsoid_stages;
 
-/* ellipsoid_evaluate(), counted. blocks may be NULL. */
+/* A stage's pose and the gap there [m], for the guard against tunnelling. */
+static inline void ellipsoid_stages_sample(ellipsoid_stages *stages, int stage,
+                                           const ellipsoid_state *state,
+                                           double gap)
+{
+    memcpy(stages->x[stage], state->x, sizeof(state->x));
+    memcpy(stages->q[stage], state->q, sizeof(state->q));
+    stages->gap[stage] = gap;
+}
+
+/* ellipsoid_evaluate(), counted; balanced says whether u and omega are set
+   first. blocks may be NULL. */
 ellipsoid_status ellipsoid_problem_evaluate(const ellipsoid_problem *problem,
-                                            const ellipsoid_state *state,
+                                            ellipsoid_state *state,
+                                            int balanced,
                                             ellipsoid_state *derivative,
                                             ellipsoid_contact *contact,
                                             ellipsoid_blocks *blocks);
 
 /*
-    One Rosenbrock step of length h [s] from a point. Returns STEP_UNDERFLOW or
-    NON_FINITE where a shorter step may succeed.
+    One Rosenbrock step of length h [s] from a point that has its blocks; y has
+    a q not yet of length one. Returns STEP_UNDERFLOW or NON_FINITE where a
+    shorter step may succeed.
 */
 ellipsoid_status ellipsoid_rosenbrock_step(const ellipsoid_problem *problem,
                                            const ellipsoid_point *start,
                                            double h, ellipsoid_stages *stages);
 
 /* The continuous extension of such a step. */
-void ellipsoid_rosenbrock_dense(
-    ellipsoid_stages *stages,
-    double dense[2][ELLIPSOID_STATE_SIZE]);
+void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,
+                                double dense[3][ELLIPSOID_STATE_SIZE]);
+
+/*
+    One explicit step of inertialess motion (rungeKutta.c). Its last stage is
+    `next`, the end of the step. *touched is set, and the step not finished,
+    where a stage touches a wall: the equations are stiff there.
+*/
+ellipsoid_status ellipsoid_explicit_step(const ellipsoid_problem *problem,
+                                         const ellipsoid_point *start, double h,
+                                         ellipsoid_stages *stages,
+                                         ellipsoid_point *next, int *touched);
+
+/* The continuous extension of such a step. */
+void ellipsoid_explicit_dense(ellipsoid_stages *stages,
+                              const ellipsoid_step *step,
+                              double dense[3][ELLIPSOID_STATE_SIZE]);
 
 /* ------------------------------------------------------------- contact */
 
@@ -194,78 +270,6 @@ static inline int ellipsoid_has_walls(const ellipsoid_model *model,
                                       const ellipsoid_surroundings *around)
 {
     return model->options.contact && around->walls != NULL;
-}
-
-static inline double ellipsoid_dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static inline double ellipsoid_length(const double v[3])
-{
-    return sqrt(ellipsoid_dot(v, v));
-}
-
-static inline void ellipsoid_normalise(double q[4])
-{
-    const double scale = 1 / sqrt(ellipsoid_dot(q, q) + q[3] * q[3]);
-
-    for (int n = 0; n < 4; n++)
-    {
-        q[n] *= scale;
-    }
-}
-
-static inline void ellipsoid_difference(const double a[3], const double b[3],
-                                        double result[3])
-{
-    result[0] = a[0] - b[0];
-    result[1] = a[1] - b[1];
-    result[2] = a[2] - b[2];
-}
-
-static inline void ellipsoid_cross(const double a[3], const double b[3],
-                                   double result[3])
-{
-    result[0] = a[1] * b[2] - a[2] * b[1];
-    result[1] = a[2] * b[0] - a[0] * b[2];
-    result[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static inline void ellipsoid_copy(const double from[3], double to[3])
-{
-    to[0] = from[0];
-    to[1] = from[1];
-    to[2] = from[2];
-}
-
-/* R(q), see ellipsoid_rotation(); inlined into the right-hand side. */
-static inline void ellipsoid_rotation_inline(const double q[4], double r[3][3])
-{
-    const double aa = q[0] * q[0], bb = q[1] * q[1];
-    const double cc = q[2] * q[2], nn = q[3] * q[3];
-    const double ab = q[0] * q[1], ac = q[0] * q[2], bc = q[1] * q[2];
-    const double an = q[0] * q[3], bn = q[1] * q[3], cn = q[2] * q[3];
-
-    r[0][0] = (nn - cc) + (aa - bb);
-    r[0][1] = 2 * (ab - cn);
-    r[0][2] = 2 * (ac + bn);
-    r[1][0] = 2 * (ab + cn);
-    r[1][1] = (nn - cc) - (aa - bb);
-    r[1][2] = 2 * (bc - an);
-    r[2][0] = 2 * (ac - bn);
-    r[2][1] = 2 * (bc + an);
-    r[2][2] = (nn + cc) - (aa + bb);
-}
-
-/* Q(omega) v: dq/dt = 1/2 Q(omega) q, paper eq. (4). Q^2 = -|omega|^2. */
-static inline void ellipsoid_spin(const double w[3], const double v[4],
-                                  double result[4])
-{
-    result[0] = v[3] * w[0] + v[1] * w[2] - v[2] * w[1];
-    result[1] = v[3] * w[1] + v[2] * w[0] - v[0] * w[2];
-    result[2] = v[3] * w[2] + v[0] * w[1] - v[1] * w[0];
-    result[3] = -(v[0] * w[0] + v[1] * w[1] + v[2] * w[2]);
 }
 
 #endif

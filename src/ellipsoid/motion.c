@@ -31,12 +31,15 @@ static double scaled_error(const ellipsoid_problem *p, const double error[SIZE],
     const double per_h = 1 / h;
     const double *q = error + Q;
     const double ex = ellipsoid_length(error + X) / p->length;
-    const double eu =
-        ellipsoid_length(error + U) / (p->length * fmax(p->rate, per_h));
-    const double ew =
-        ellipsoid_length(error + W) / fmax(p->rotation_rate, per_h);
     const double eq = sqrt(ellipsoid_dot(q, q) + q[3] * q[3]);
-    double sum = ex + eu + ew + eq;
+    double eu = 0, ew = 0, sum;
+
+    if (p->inertial)
+    {
+        eu = ellipsoid_length(error + U) / (p->length * fmax(p->rate, per_h));
+        ew = ellipsoid_length(error + W) / fmax(p->rotation_rate, per_h);
+    }
+    sum = ex + eu + ew + eq;
 
     /* fmax would drop a NaN */
     return isfinite(sum)
@@ -52,9 +55,6 @@ typedef struct plan
     int shortened; /* less than proposed, to land on `end` */
 } plan;
 
-/* The stages in the order of their times 0, 0.21, 0.386, 0.63, 1, 1. */
-static const int in_time[ELLIPSOID_STAGES] = {0, 2, 1, 3, 4, 5};
-
 /*
     The walls are felt only at the poses where the equations are evaluated. A
     bead that passes through a wall between two of them unseen has to leave the
@@ -67,9 +67,9 @@ static double unseen_travel(const ellipsoid_problem *p,
 {
     double worst = 0;
 
-    for (int n = 1; n < ELLIPSOID_STAGES; n++)
+    for (int n = 1; n < stages->sampled; n++)
     {
-        const int i = in_time[n - 1], j = in_time[n];
+        const int i = stages->in_time[n - 1], j = stages->in_time[n];
         const double safe = fmax(stages->gap[i], 0) + fmax(stages->gap[j], 0)
                           + p->model->options.bead_radius;
         double move[3], turn[4], travel;
@@ -118,18 +118,70 @@ static plan plan_step(double proposal, double t, double end)
 
 /*
     PI control (Hairer & Wanner II, section IV.2): the factor by which the next
-    step differs.
+    step differs, where errors grow with the step to the power of the order.
 */
-static double step_factor(double error, double previous_error)
+static double step_factor(int order, double error, double previous_error)
 {
-    const double e = fmax(error, 1e-8);
-    double factor = 0.9 * pow(e, -0.25);
+    const double e = log(fmax(error, 1e-8));
+    const double exponent = previous_error > 0 && error <= 1
+                              ? 0.4 * log(previous_error) - 0.7 * e
+                              : -e;
 
-    if (previous_error > 0 && error <= 1)
+    return fmin(fmax(0.9 * exp(exponent / order), 0.2), 5);
+}
+
+/*
+    A first step. With inertia it resolves the relaxation. Without, the times in
+    which q turns and in which the slopes change say how long it may be; the
+    latter from a short way along the slopes.
+*/
+static double first_step(const ellipsoid_problem *p,
+                         const ellipsoid_point *start)
+{
+    const ellipsoid_options *o = &p->model->options;
+    const double *u = start->derivative.x, *q = start->derivative.q;
+    const double turn = sqrt(ellipsoid_dot(q, q) + q[3] * q[3]);
+    const double pace = fmax(turn, ellipsoid_length(u) / p->length);
+    const double h = 0.01 / pace;
+    ellipsoid_state at = start->state, there;
+    ellipsoid_contact contact;
+    double change, bend[3], curve[4];
+
+    if (o->initial_step > 0)
     {
-        factor = 0.9 * pow(e, -0.7 / 4) * pow(previous_error, 0.4 / 4);
+        return o->initial_step;
     }
-    return fmin(fmax(factor, 0.2), 5);
+    if (p->inertial)
+    {
+        return 0.25
+             * fmin(p->model->relaxation_time,
+                    p->model->rotation_relaxation_time);
+    }
+    if (!(pace > 0))
+    {
+        return o->maximum_step;
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        at.x[i] += h * u[i];
+    }
+    for (int n = 0; n < 4; n++)
+    {
+        at.q[n] += h * q[n];
+    }
+    if (ellipsoid_problem_evaluate(p, &at, 1, &there, &contact, NULL)
+        != ELLIPSOID_OK)
+    {
+        return h;
+    }
+    ellipsoid_difference(there.x, u, bend);
+    for (int n = 0; n < 4; n++)
+    {
+        curve[n] = there.q[n] - q[n];
+    }
+    change = fmax(ellipsoid_length(bend) / p->length,
+                  sqrt(ellipsoid_dot(curve, curve) + curve[3] * curve[3]));
+    return 2 * pow(o->tolerance, 0.2) / fmax(turn, sqrt(change / h));
 }
 
 /* Is it a failure that a shorter step may cure? */
@@ -138,43 +190,92 @@ static int may_recover(ellipsoid_status status)
     return status == ELLIPSOID_STEP_UNDERFLOW || status == ELLIPSOID_NON_FINITE;
 }
 
-/*
-    One attempt at a step. A step counts only if the equations can be evaluated
-    where it ends. Sets next; *error is above 1 if it is too large.
-*/
-static ellipsoid_status try_step(const ellipsoid_problem *p,
-                                 const ellipsoid_point *start,
-                                 const plan *planned, ellipsoid_stages *stages,
-                                 ellipsoid_point *next, double *error)
+/* The blocks at a point that has been evaluated without. */
+static ellipsoid_status add_blocks(const ellipsoid_problem *p,
+                                   ellipsoid_point *at)
 {
-    ellipsoid_status status =
-        ellipsoid_rosenbrock_step(p, start, planned->h, stages);
+    at->has_blocks = 1;
+    return ellipsoid_problem_evaluate(p, &at->state, !p->inertial,
+                                      &at->derivative, &at->contact,
+                                      &at->blocks);
+}
 
-    if (status != ELLIPSOID_OK)
-    {
-        return status;
-    }
-    *error = scaled_error(p, stages->k[ELLIPSOID_STAGES - 1], planned->h);
+/* Is the error of a step, or what it may have passed unseen, acceptable? */
+static ellipsoid_status judge(const ellipsoid_problem *p, double h,
+                              const ellipsoid_stages *stages, double *error)
+{
+    *error = scaled_error(p, stages->error, h);
     if (!isfinite(*error))
     {
         return ELLIPSOID_NON_FINITE;
     }
     if (p->walls)
     {
-        const double travel = unseen_travel(p, stages);
-
-        /* travel is proportional to the step, the error to its 4th power */
-        *error = fmax(*error, travel * travel * travel * travel);
+        /* travel is proportional to the step */
+        *error =
+            fmax(*error, pow(unseen_travel(p, stages), (double)stages->order));
     }
-    if (*error > 1)
+    return ELLIPSOID_OK;
+}
+
+/*
+    One attempt at a Rosenbrock step. A step counts only if the equations can be
+    evaluated where it ends.
+*/
+static ellipsoid_status try_rosenbrock(const ellipsoid_problem *p,
+                                       ellipsoid_point *start,
+                                       const plan *planned,
+                                       ellipsoid_stages *stages,
+                                       ellipsoid_point *next, double *error)
+{
+    ellipsoid_status status =
+        start->has_blocks ? ELLIPSOID_OK : add_blocks(p, start);
+
+    if (status == ELLIPSOID_OK)
     {
-        return ELLIPSOID_OK;
+        status = ellipsoid_rosenbrock_step(p, start, planned->h, stages);
+    }
+    if (status == ELLIPSOID_OK)
+    {
+        status = judge(p, planned->h, stages, error);
+    }
+    if (status != ELLIPSOID_OK || *error > 1)
+    {
+        return status;
     }
     ellipsoid_normalise(stages->y + Q);
     memcpy(&next->state, stages->y, sizeof(next->state));
-    return ellipsoid_problem_evaluate(p, &next->state, &next->derivative,
-                                      &next->contact,
+    next->has_blocks = !planned->last;
+    return ellipsoid_problem_evaluate(p, &next->state, !p->inertial,
+                                      &next->derivative, &next->contact,
                                       planned->last ? NULL : &next->blocks);
+}
+
+/*
+    One attempt at a step. Without inertia it is explicit, unless the cell
+    touches a wall in it. Sets next; *error is above 1 if it is too large.
+*/
+static ellipsoid_status try_step(const ellipsoid_problem *p,
+                                 ellipsoid_point *start, const plan *planned,
+                                 ellipsoid_stages *stages,
+                                 ellipsoid_point *next, double *error,
+                                 int *explicitly)
+{
+    int touched = start->contact.touching_beads > 0;
+    ellipsoid_status status = ELLIPSOID_OK;
+
+    if (!p->inertial && !touched)
+    {
+        status = ellipsoid_explicit_step(p, start, planned->h, stages, next,
+                                         &touched);
+    }
+    *explicitly = !p->inertial && !touched;
+    if (!*explicitly)
+    {
+        return try_rosenbrock(p, start, planned, stages, next, error);
+    }
+    return status == ELLIPSOID_OK ? judge(p, planned->h, stages, error)
+                                  : status;
 }
 
 /*
@@ -182,31 +283,35 @@ static ellipsoid_status try_step(const ellipsoid_problem *p,
     and controller.
 */
 static ellipsoid_status take_step(const ellipsoid_problem *p,
-                                  const ellipsoid_point *start, double t,
-                                  double end, long *attempts,
+                                  ellipsoid_point *start, double t, double end,
+                                  long *attempts,
                                   ellipsoid_controller *controller,
                                   ellipsoid_point *next, ellipsoid_step *step)
 {
     const ellipsoid_options *o = &p->model->options;
-    double proposal = controller->step > 0 ? controller->step : o->initial_step;
-    double largest_factor = 5;
+    const double shortest =
+        fmax(o->minimum_step, 4 * DBL_EPSILON * fmax(fabs(t), DBL_MIN));
+    double largest_factor = 5, proposal = controller->step > 0
+                                            ? controller->step
+                                            : first_step(p, start);
 
-    proposal = fmin(proposal, o->maximum_step);
+    proposal = fmin(fmax(proposal, shortest), o->maximum_step);
     while (*attempts < o->maximum_steps)
     {
         const plan planned = plan_step(proposal, t, end);
         ellipsoid_stages stages;
         double error = 0;
+        int explicitly;
         const ellipsoid_status status =
-            try_step(p, start, &planned, &stages, next, &error);
+            try_step(p, start, &planned, &stages, next, &error, &explicitly);
 
         ++*attempts;
         if (status == ELLIPSOID_OK && error <= 1)
         {
-            controller->step =
-                planned.h
-                * fmin(step_factor(error, controller->previous_error),
-                       largest_factor);
+            controller->step = planned.h
+                             * fmin(step_factor(stages.order, error,
+                                                controller->previous_error),
+                                    largest_factor);
             if (planned.shortened)
             {
                 controller->step = fmax(controller->step, proposal);
@@ -222,7 +327,14 @@ static ellipsoid_status take_step(const ellipsoid_problem *p,
                 step->before = start->state;
                 step->after = next->state;
                 step->contact = next->contact;
-                ellipsoid_rosenbrock_dense(&stages, step->dense);
+                if (explicitly)
+                {
+                    ellipsoid_explicit_dense(&stages, step, step->dense);
+                }
+                else
+                {
+                    ellipsoid_rosenbrock_dense(&stages, step->dense);
+                }
             }
             p->statistics->accepted++;
             return ELLIPSOID_OK;
@@ -233,10 +345,11 @@ static ellipsoid_status take_step(const ellipsoid_problem *p,
         {
             return status;
         }
-        proposal =
-            planned.h * (status == ELLIPSOID_OK ? step_factor(error, 0) : 0.25);
+        proposal = planned.h
+                 * (status == ELLIPSOID_OK ? step_factor(stages.order, error, 0)
+                                           : 0.25);
         largest_factor = 1;
-        if (proposal < o->minimum_step || !(t + proposal > t))
+        if (proposal < shortest)
         {
             return status == ELLIPSOID_NON_FINITE ? status
                                                   : ELLIPSOID_STEP_UNDERFLOW;
@@ -256,6 +369,9 @@ static ellipsoid_status begin(const ellipsoid_problem *p,
     memcpy(y, state, sizeof(y));
     for (int n = 0; n < SIZE; n++)
     {
+        const int is_rate = n < X || (n >= W && n < Q);
+
+        y[n] = is_rate && !p->inertial ? 0 : y[n]; /* not read */
         sum += y[n];
     }
     for (int n = Q; n < SIZE; n++)
@@ -271,8 +387,10 @@ static ellipsoid_status begin(const ellipsoid_problem *p,
         ellipsoid_normalise(y + Q);
     }
     memcpy(&start->state, y, sizeof(start->state));
-    return ellipsoid_problem_evaluate(p, &start->state, &start->derivative,
-                                      &start->contact, &start->blocks);
+    start->has_blocks = p->inertial;
+    return ellipsoid_problem_evaluate(
+        p, &start->state, !p->inertial, &start->derivative, &start->contact,
+        start->has_blocks ? &start->blocks : NULL);
 }
 
 ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
@@ -294,6 +412,7 @@ ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
         .length = fmax(a[0], fmax(a[1], a[2])),
         .rate = drag ? 1 / model->relaxation_time : 0,
         .rotation_rate = drag ? 1 / model->rotation_relaxation_time : 0,
+        .inertial = model->options.motion == ELLIPSOID_MOTION_INERTIAL,
         .walls = ellipsoid_has_walls(model, surroundings),
         .observed = observer != NULL,
     };
@@ -302,9 +421,17 @@ ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
     long attempts = 0;
     ellipsoid_status status;
 
+    if (!isfinite(*t) || !isfinite(end))
+    {
+        return ELLIPSOID_NON_FINITE;
+    }
     if (!(end > *t))
     {
         return ELLIPSOID_OK;
+    }
+    if (!p.inertial && !drag)
+    {
+        return ELLIPSOID_BAD_OPTION;
     }
     memset(&points[0].contact, 0, sizeof(points[0].contact));
     points[0].contact.gap = HUGE_VAL;

@@ -89,7 +89,8 @@ static int serves(const ellipsoid_contact_cache *cache,
     {
         /* R(q) stretches by q.q, which is near 1 but not bound to be */
         const double longer = product(q, q) - product(cache->q, cache->q);
-        const double left = cache->clearance - arm * (longer > 0 ? longer : 0);
+        /* NaN is not served */
+        const double left = cache->clearance - arm * (longer <= 0 ? 0 : longer);
 
         return left > 0 && squared < left * left;
     }

@@ -16,19 +16,25 @@ ellipsoid_options ellipsoid_options_default(void)
         .density = 1040,
         .fluid_density = 997.5,
         .kinematic_viscosity = 1e-6,
+        .motion = ELLIPSOID_MOTION_INERTIAL,
         .drag = 1,
+        .flow_at = ELLIPSOID_FLOW_CENTRE,
+        .flow_points = 26,
         .buoyancy = 1,
         .pressure_gradient = ELLIPSOID_PRESSURE_DUDT,
         .gravity = {0, 0, -9.81},
         .external_force = {0, 0, 0},
         .external_torque = {0, 0, 0},
+        .charge = 0,
+        .dipole = {0, 0, 0},
+        .electric_field = {0, 0, 0},
         .contact = 1,
         .bead_layout = ELLIPSOID_BEADS_STAGGERED,
         .bead_count = 32,
         .bead_radius = 0.285e-6,
         .contact_modulus = 1e6,
         .tolerance = 1e-6,
-        .initial_step = 1e-8,
+        .initial_step = 0,
         .minimum_step = 1e-18,
         .maximum_step = 1,
         .maximum_steps = 10000000,
@@ -69,10 +75,7 @@ static int all_finite(const double value[3])
     return isfinite(value[0]) && isfinite(value[1]) && isfinite(value[2]);
 }
 
-static int is_switch(int value)
-{
-    return value == 0 || value == 1;
-}
+static int is_switch(int value) { return value == 0 || value == 1; }
 
 /* The ranges keep every derived quantity a normal, finite number. */
 static void check_body_and_fluid(verdict *v, const ellipsoid_options *o)
@@ -87,9 +90,23 @@ static void check_body_and_fluid(verdict *v, const ellipsoid_options *o)
             "kinematic_viscosity", "1e-15 to 1e12 m2/s");
 }
 
-static void check_forces(verdict *v, const ellipsoid_options *o)
+static void check_equations(verdict *v, const ellipsoid_options *o)
 {
+    const int points = o->flow_points;
+
+    require(v,
+            o->motion == ELLIPSOID_MOTION_INERTIAL
+                || o->motion == ELLIPSOID_MOTION_INERTIALESS,
+            "motion", "INERTIAL or INERTIALESS");
     require(v, is_switch(o->drag), "drag", "0 or 1");
+    require(v, o->drag || o->motion != ELLIPSOID_MOTION_INERTIALESS, "drag",
+            "1 with motion INERTIALESS");
+    require(v,
+            o->flow_at == ELLIPSOID_FLOW_CENTRE
+                || o->flow_at == ELLIPSOID_FLOW_BODY,
+            "flow_at", "CENTRE or BODY");
+    require(v, points == 6 || points == 14 || points == 26 || points == 50,
+            "flow_points", "6, 14, 26 or 50");
     require(v, is_switch(o->buoyancy), "buoyancy", "0 or 1");
     require(v,
             o->pressure_gradient == ELLIPSOID_PRESSURE_NONE
@@ -99,6 +116,9 @@ static void check_forces(verdict *v, const ellipsoid_options *o)
     require(v, all_finite(o->gravity), "gravity", "finite");
     require(v, all_finite(o->external_force), "external_force", "finite");
     require(v, all_finite(o->external_torque), "external_torque", "finite");
+    require(v, isfinite(o->charge), "charge", "finite");
+    require(v, all_finite(o->dipole), "dipole", "finite");
+    require(v, all_finite(o->electric_field), "electric_field", "finite");
 }
 
 static void check_contact(verdict *v, const ellipsoid_options *o)
@@ -138,8 +158,10 @@ static void check_integrator(verdict *v, const ellipsoid_options *o)
             "above 0 s");
     require(v, o->maximum_step >= o->minimum_step && isfinite(o->maximum_step),
             "maximum_step", "minimum_step or more, finite");
-    require(v, within(o->initial_step, o->minimum_step, o->maximum_step),
-            "initial_step", "minimum_step to maximum_step");
+    require(v,
+            o->initial_step == 0
+                || within(o->initial_step, o->minimum_step, o->maximum_step),
+            "initial_step", "minimum_step to maximum_step, or 0");
     require(v, o->maximum_steps >= 1, "maximum_steps", "1 or more");
 }
 
@@ -149,7 +171,7 @@ ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
     verdict v = {NULL, NULL};
 
     check_body_and_fluid(&v, options);
-    check_forces(&v, options);
+    check_equations(&v, options);
     check_contact(&v, options);
     check_integrator(&v, options);
 

@@ -3,10 +3,12 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    rosenbrock.c - one step of RODAS4.
+    rosenbrock.c - one step of a Rosenbrock method.
 
     Hairer & Wanner, Solving Ordinary Differential Equations II (1996), section
-    IV.7 and code RODAS: six stages, order 4(3), L-stable, stiffly accurate.
+    IV.7. Without inertia the equations for u and omega become algebraic, with
+    index 1, and the method is that of section VI.4: the same with a mass matrix
+    that has zeros there.
 */
 #include "ellipsoidInternal.h"
 
@@ -22,33 +24,9 @@ enum
     Q = ELLIPSOID_Q
 };
 
-/* Coefficients of RODAS, first set (METH = 1). */
-const ellipsoid_rosenbrock_table ellipsoid_rodas4 = {
-    .gamma = 0.25,
-    .a = {{0},
-          {1.544},
-          {0.9466785280815826, 0.2557011698983284},
-          {3.314825187068521, 2.896124015972201, 0.9986419139977817},
-          {1.221224509226641, 6.019134481288629, 12.53708332932087,
-           -0.6878860361058950},
-          {1.221224509226641, 6.019134481288629, 12.53708332932087,
-           -0.6878860361058950, 1}},
-    .c = {{0},
-          {-5.6688},
-          {-2.430093356833875, -0.2063599157091915},
-          {-0.1073529058151375, -9.594562251023355, -20.47028614809616},
-          {7.496443313967647, -10.24680431464352, -33.99990352819905,
-           11.70890893206160},
-          {8.083246795921522, -7.981132988064893, -31.52159432874371,
-           16.31930543123136, -6.058818238834054}},
-    .dense = {{10.12623508344586, -7.487995877610167, -34.80091861555747,
-               -7.992771707568823, 1.025137723295662},
-              {-0.6762803392801253, 6.087714651680015, 16.43084320892478,
-               24.76722511418386, -6.594389125716872}},
-};
-
 ellipsoid_status ellipsoid_problem_evaluate(const ellipsoid_problem *problem,
-                                            const ellipsoid_state *state,
+                                            ellipsoid_state *state,
+                                            int balanced,
                                             ellipsoid_state *derivative,
                                             ellipsoid_contact *contact,
                                             ellipsoid_blocks *blocks)
@@ -56,17 +34,19 @@ ellipsoid_status ellipsoid_problem_evaluate(const ellipsoid_problem *problem,
     problem->statistics->rhs++;
     problem->statistics->jacobians += blocks != NULL;
     return ellipsoid_evaluate(problem->model, problem->surroundings, state,
-                              problem->cache, derivative, contact, blocks);
+                              balanced, problem->cache, derivative, contact,
+                              blocks);
 }
 
 /* ------------------------------------------------------- linear systems */
 
 /*
-    (g I - J) k = r with g = 1/(gamma h). As dx/dt = u, k_x = (r_x + k_u)/g; as
-    Q^2 = -|omega|^2 I, (g I - Q/2)^-1 = (g I + Q/2)/(g^2 + |omega|^2/4) gives
-    k_q from k_omega. A dense 6x6 system in (k_u, k_omega) is left. The solution
-    is wanted six times, hence explicit matrices instead of substitutions, in
-    which each number waits for the one before.
+    (g M - J) k = r with g = 1/(gamma h), M = I but for inertialess motion. As
+   dx/dt = u, k_x = (r_x + k_u)/g; as Q^2 = -|omega|^2 I, (g I - Q/2)^-1 = (g I
+   + Q/2)/(g^2 + |omega|^2/4) gives k_q from k_omega. A dense 6x6 system in
+   (k_u, k_omega) is left. The solution is wanted six times, hence explicit
+   matrices instead of substitutions, in which each number waits for the one
+   before.
 */
 typedef struct stage_system
 {
@@ -81,16 +61,12 @@ typedef struct elimination
 {
     const ellipsoid_state *state;
     double g, per_g;
+    double g_rates;       /* g, or 0 without inertia */
     double per_square;    /* 1/(g^2 + |omega|^2/4) */
     double x[6][3];       /* blocks / g, rows u then omega */
     double q[6][4];       /* blocks (g I - Q/2)^-1 */
     double inverse[6][6]; /* transposed */
 } elimination;
-
-static inline double dot4(const double a[4], const double b[4])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-}
 
 static inline void swap(double *a, double *b)
 {
@@ -200,7 +176,7 @@ static inline void eliminate_row(elimination *e, int row, const double of_u[3],
     e->inverse[3][row] = scale_w * (coupling(e->q[row], q, 0, 1, 2) - of_w[0]);
     e->inverse[4][row] = scale_w * (coupling(e->q[row], q, 1, 2, 0) - of_w[1]);
     e->inverse[5][row] = scale_w * (coupling(e->q[row], q, 2, 0, 1) - of_w[2]);
-    e->inverse[row][row] += e->g;
+    e->inverse[row][row] += e->g_rates;
 }
 
 /* result = inverse column, column given as every stride-th number. */
@@ -242,17 +218,19 @@ static void fill_quaternion_part(const elimination *e, stage_system *s)
 }
 
 /* Returns 0 if the step is so long that the matrix is singular. */
-static int prepare(stage_system *s, const ellipsoid_point *start, double h,
-                   double length)
+static int prepare(stage_system *s, const ellipsoid_problem *problem,
+                   const ellipsoid_point *start, double h)
 {
     static const double none[3] = {0, 0, 0};
     const ellipsoid_blocks *b = &start->blocks;
     const double *w = start->state.omega;
+    const double length = problem->length;
     elimination e;
 
     e.state = &start->state;
     e.per_g = ellipsoid_rodas4.gamma * h;
     e.g = 1 / e.per_g;
+    e.g_rates = problem->inertial ? e.g : 0;
     e.per_square = 1 / (e.g * e.g + 0.25 * ellipsoid_dot(w, w));
 
     for (int i = 0; i < 3; i++)
@@ -368,35 +346,38 @@ static inline void stage_sums(double k[][SIZE], int stage, double a[SIZE],
     }
 }
 
-static inline void keep_sample(ellipsoid_stages *stages, int stage,
-                               const ellipsoid_state *state, double gap)
-{
-    memcpy(stages->x[stage], state->x, sizeof(state->x));
-    memcpy(stages->q[stage], state->q, sizeof(state->q));
-    stages->gap[stage] = gap;
-}
+/* The stages in the order of their times 0, 0.21, 0.386, 0.63, 1, 1. */
+static const int in_time[ELLIPSOID_ROSENBROCK_STAGES] = {0, 2, 1, 3, 4, 5};
 
 ellipsoid_status ellipsoid_rosenbrock_step(const ellipsoid_problem *problem,
                                            const ellipsoid_point *start,
                                            double h, ellipsoid_stages *stages)
 {
-    const double per_h = 1 / h;
     stage_system system;
-    double y0[SIZE], r[SIZE];
+    double y0[SIZE], r[SIZE], mass[SIZE]; /* the latter over h */
 
-    if (!prepare(&system, start, h, problem->length))
+    stages->order = 4;
+    stages->sampled = ELLIPSOID_ROSENBROCK_STAGES;
+    stages->in_time = in_time;
+    if (!prepare(&system, problem, start, h))
     {
         return ELLIPSOID_NON_FINITE;
+    }
+    for (int n = 0; n < SIZE; n++)
+    {
+        const int is_rate = n < X || (n >= W && n < Q);
+
+        mass[n] = is_rate && !problem->inertial ? 0 : 1 / h;
     }
     memcpy(y0, &start->state, sizeof(y0));
     memcpy(r, &start->derivative, sizeof(r));
     solve(&system, r, stages->k[0]);
     if (problem->walls)
     {
-        keep_sample(stages, 0, &start->state, start->contact.gap);
+        ellipsoid_stages_sample(stages, 0, &start->state, start->contact.gap);
     }
 
-    for (int i = 1; i < ELLIPSOID_STAGES; i++)
+    for (int i = 1; i < ELLIPSOID_ROSENBROCK_STAGES; i++)
     {
         union
         {
@@ -412,13 +393,11 @@ ellipsoid_status ellipsoid_rosenbrock_step(const ellipsoid_problem *problem,
         {
             at.y[n] += y0[n];
         }
-        /* the callbacks are never asked about nowhere */
-        if (!isfinite(at.y[X] + at.y[X + 1] + at.y[X + 2]
-                      + dot4(at.y + Q, at.y + Q)))
+        if (!ellipsoid_is_pose(at.y + X, at.y + Q))
         {
-            return ELLIPSOID_NON_FINITE;
+            return ELLIPSOID_STEP_UNDERFLOW;
         }
-        status = ellipsoid_problem_evaluate(problem, &at.state, &rate.state,
+        status = ellipsoid_problem_evaluate(problem, &at.state, 0, &rate.state,
                                             &contact, NULL);
         if (status != ELLIPSOID_OK)
         {
@@ -426,18 +405,19 @@ ellipsoid_status ellipsoid_rosenbrock_step(const ellipsoid_problem *problem,
         }
         if (problem->walls)
         {
-            keep_sample(stages, i, &at.state, contact.gap);
+            ellipsoid_stages_sample(stages, i, &at.state, contact.gap);
         }
         for (int n = 0; n < SIZE; n++)
         {
-            rate.y[n] += per_h * change[n];
+            rate.y[n] += mass[n] * change[n];
         }
         solve(&system, rate.y, stages->k[i]);
-        if (i == ELLIPSOID_STAGES - 1)
+        if (i == ELLIPSOID_ROSENBROCK_STAGES - 1)
         {
             for (int n = 0; n < SIZE; n++)
             {
                 stages->y[n] = at.y[n] + stages->k[i][n];
+                stages->error[n] = stages->k[i][n];
             }
         }
     }
@@ -445,35 +425,12 @@ ellipsoid_status ellipsoid_rosenbrock_step(const ellipsoid_problem *problem,
 }
 
 void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,
-                                double dense[2][ELLIPSOID_STATE_SIZE])
+                                double dense[3][ELLIPSOID_STATE_SIZE])
 {
-    weighted_sum(stages->k, ellipsoid_rodas4.dense[0], ELLIPSOID_STAGES - 1,
-                 dense[0]);
-    weighted_sum(stages->k, ellipsoid_rodas4.dense[1], ELLIPSOID_STAGES - 1,
-                 dense[1]);
-}
-
-/* Continuous output of code RODAS; at its ends the step's own states. */
-void ellipsoid_step_state(const ellipsoid_step *step, double t,
-                          ellipsoid_state *state)
-{
-    const double s = (t - step->start) / (step->end - step->start);
-    double before[SIZE], after[SIZE], y[SIZE];
-
-    if (t <= step->start || t >= step->end)
+    for (int i = 0; i < 2; i++)
     {
-        *state = t <= step->start ? step->before : step->after;
-        return;
+        weighted_sum(stages->k, ellipsoid_rodas4.dense[i],
+                     ELLIPSOID_ROSENBROCK_STAGES - 1, dense[i]);
     }
-    memcpy(before, &step->before, sizeof(before));
-    memcpy(after, &step->after, sizeof(after));
-    for (int n = 0; n < SIZE; n++)
-    {
-        y[n] = (1 - s) * before[n]
-             + s
-                   * (after[n]
-                      + (1 - s) * (step->dense[0][n] + s * step->dense[1][n]));
-    }
-    ellipsoid_normalise(y + Q);
-    memcpy(state, y, sizeof(*state));
+    memset(dense[2], 0, sizeof(dense[2]));
 }

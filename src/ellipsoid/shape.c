@@ -51,12 +51,25 @@ ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
         m.inertia[i] = m.mass / 5 * sum;
         /* a product, so that a near-sphere keeps its digits */
         m.strain_factor[i] = (aj - ak) * (aj + ak) / sum;
-        m.relaxation_time =
-            fmax(m.relaxation_time, m.mass / (m.viscosity * m.resistance[i]));
-        m.rotation_relaxation_time =
-            fmax(m.rotation_relaxation_time,
-                 m.inertia[i] / (m.viscosity * m.rotation_resistance[i]));
+        m.constant_force[i] = options->external_force[i];
+        if (options->buoyancy)
+        {
+            m.constant_force[i] +=
+                (m.mass - m.fluid_mass) * options->gravity[i];
+        }
+        m.mobility[i] = 1 / (m.viscosity * m.resistance[i]);
+        m.rotation_mobility[i] = 1 / (m.viscosity * m.rotation_resistance[i]);
+        m.relaxation_time = fmax(m.relaxation_time, m.mass * m.mobility[i]);
+        m.rotation_relaxation_time = fmax(
+            m.rotation_relaxation_time, m.inertia[i] * m.rotation_mobility[i]);
     }
+
+    if (options->flow_at == ELLIPSOID_FLOW_BODY)
+    {
+        ellipsoid_flow_points(&m);
+    }
+    m.electric = options->charge != 0 || options->dipole[0] != 0
+              || options->dipole[1] != 0 || options->dipole[2] != 0;
 
     m.reach = fmax(a[0], fmax(a[1], a[2]));
     if (options->contact)

@@ -33,6 +33,22 @@ Foam::ellipsoidProperties::layoutNames_
 });
 
 
+const Foam::Enum<ellipsoid_motion>
+Foam::ellipsoidProperties::motionNames_
+({
+    { ELLIPSOID_MOTION_INERTIAL, "inertial" },
+    { ELLIPSOID_MOTION_INERTIALESS, "inertialess" }
+});
+
+
+const Foam::Enum<ellipsoid_flow_at>
+Foam::ellipsoidProperties::flowAtNames_
+({
+    { ELLIPSOID_FLOW_CENTRE, "centre" },
+    { ELLIPSOID_FLOW_BODY, "body" }
+});
+
+
 const Foam::Enum<ellipsoid_pressure_gradient>
 Foam::ellipsoidProperties::pressureGradientNames_
 ({
@@ -71,6 +87,11 @@ namespace Foam
         { "semi_axes", "cell", "semiAxes" },
         { "density", "cell", "density" },
         { "fluid_density", "fluid", "density" },
+        { "drag", "forces", "drag" },
+        { "flow_points", "forces", "flowPoints" },
+        { "charge", "forces", "charge" },
+        { "dipole", "forces", "dipole" },
+        { "electric_field", "forces", "electricField" },
         { "gravity", "forces", "gravity" },
         { "external_force", "forces", "externalForce" },
         { "external_torque", "forces", "externalTorque" },
@@ -91,6 +112,9 @@ namespace Foam
 
 void Foam::ellipsoidProperties::readOptions()
 {
+    options_.motion =
+        motionNames_.getOrDefault("motion", *this, options_.motion);
+
     const dictionary& cell = section("cell");
     checkKeywords(cell, {"semiAxes", "density"});
     readVector(cell, "semiAxes", options_.semi_axes);
@@ -106,11 +130,16 @@ void Foam::ellipsoidProperties::readOptions()
     (
         forces,
         {
-            "drag", "buoyancy", "pressureGradient", "gravity",
-            "externalForce", "externalTorque"
+            "drag", "flow", "flowPoints", "buoyancy", "pressureGradient",
+            "gravity", "externalForce", "externalTorque", "charge", "dipole",
+            "electricField"
         }
     );
     options_.drag = forces.getOrDefault("drag", Switch(options_.drag));
+    options_.flow_at =
+        flowAtNames_.getOrDefault("flow", forces, options_.flow_at);
+    options_.flow_points =
+        forces.getOrDefault("flowPoints", options_.flow_points);
     options_.buoyancy =
         forces.getOrDefault("buoyancy", Switch(options_.buoyancy));
     options_.pressure_gradient =
@@ -121,6 +150,9 @@ void Foam::ellipsoidProperties::readOptions()
     readVector(forces, "gravity", options_.gravity);
     readVector(forces, "externalForce", options_.external_force);
     readVector(forces, "externalTorque", options_.external_torque);
+    options_.charge = forces.getOrDefault("charge", options_.charge);
+    readVector(forces, "dipole", options_.dipole);
+    readVector(forces, "electricField", options_.electric_field);
 
     const dictionary& contact = section("contact");
     checkKeywords
@@ -291,7 +323,7 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     (
         *this,
         {
-            "interpolation", "seed", "cell", "fluid", "forces", "contact",
+            "interpolation", "seed", "motion", "cell", "fluid", "forces", "contact",
             "integration", "injection", "capture", "tracks"
         }
     );

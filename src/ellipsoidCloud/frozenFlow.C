@@ -151,15 +151,40 @@ Foam::frozenFlow::placeType Foam::frozenFlow::walk
 }
 
 
-void Foam::frozenFlow::addQuadratic
+void Foam::frozenFlow::interpolateVelocity
 (
     const vertex* const v[4],
     const scalar coordinates[4],
     const scalar gradients[4][3],
-    const bool derivatives,
-    ellipsoid_flow_sample& sample
+    scalar velocity[3],
+    scalar (*jacobian)[3]
 ) const
 {
+    for (int i = 0; i < 3; ++i)
+    {
+        velocity[i] = 0;
+
+        for (int a = 0; a < 4; ++a)
+        {
+            velocity[i] += coordinates[a]*v[a]->u[i];
+        }
+
+        for (int j = 0; jacobian && j < 3; ++j)
+        {
+            jacobian[i][j] = 0;
+
+            for (int a = 0; a < 4; ++a)
+            {
+                jacobian[i][j] += gradients[a][j]*v[a]->u[i];
+            }
+        }
+    }
+
+    if (scheme_ != stCellPointQuadratic)
+    {
+        return;
+    }
+
     for (int a = 0; a < 3; ++a)
     {
         for (int b = a + 1; b < 4; ++b)
@@ -177,19 +202,16 @@ void Foam::frozenFlow::addQuadratic
                        *(v[b]->x[j] - v[a]->x[j]);
                 }
 
-                sample.velocity[i] += weight*bend;
+                velocity[i] += weight*bend;
 
-                if (derivatives)
+                for (int j = 0; jacobian && j < 3; ++j)
                 {
-                    for (int j = 0; j < 3; ++j)
-                    {
-                        sample.velocity_jacobian[i][j] +=
-                            0.5*bend
-                           *(
-                                gradients[a][j]*coordinates[b]
-                              + coordinates[a]*gradients[b][j]
-                            );
-                    }
+                    jacobian[i][j] +=
+                        0.5*bend
+                       *(
+                            gradients[a][j]*coordinates[b]
+                          + coordinates[a]*gradients[b][j]
+                        );
                 }
             }
         }
@@ -322,7 +344,6 @@ int Foam::frozenFlow::sample
     const tetrahedron& tet = tetRef(at.tet);
     const vertex* v[4];
 
-    std::fill_n(sample.velocity, 3, scalar(0));
     std::fill_n(&sample.gradient[0][0], 9, scalar(0));
     std::fill_n(sample.pressure_gradient, 3, scalar(0));
 
@@ -332,7 +353,6 @@ int Foam::frozenFlow::sample
 
         for (int i = 0; i < 3; ++i)
         {
-            sample.velocity[i] += coordinates[a]*v[a]->u[i];
             sample.pressure_gradient[i] +=
                 coordinates[a]*v[a]->pressureGradient[i];
 
@@ -343,9 +363,18 @@ int Foam::frozenFlow::sample
         }
     }
 
+    interpolateVelocity
+    (
+        v,
+        coordinates,
+        gradients,
+        sample.velocity,
+        derivatives ? sample.velocity_jacobian : nullptr
+    );
+
     if (derivatives)
     {
-        std::fill_n(&sample.velocity_jacobian[0][0], 9, scalar(0));
+        std::fill_n(&sample.pressure_jacobian[0][0], 9, scalar(0));
         std::fill_n(&sample.gradient_jacobian[0][0][0], 27, scalar(0));
 
         for (int a = 0; a < 4; ++a)
@@ -354,8 +383,8 @@ int Foam::frozenFlow::sample
             {
                 for (int k = 0; k < 3; ++k)
                 {
-                    sample.velocity_jacobian[i][k] +=
-                        gradients[a][k]*v[a]->u[i];
+                    sample.pressure_jacobian[i][k] +=
+                        gradients[a][k]*v[a]->pressureGradient[i];
 
                     for (int j = 0; j < 3; ++j)
                     {
@@ -367,12 +396,50 @@ int Foam::frozenFlow::sample
         }
     }
 
-    if (scheme_ == stCellPointQuadratic)
+    return 0;
+}
+
+
+void Foam::frozenFlow::velocity
+(
+    const scalar x[3],
+    const probe& from,
+    scalar velocity[3],
+    scalar (*jacobian)[3]
+) const
+{
+    probe at(from);
+    scalar coordinates[4];
+    scalar gradients[4][3];
+
+    const placeType place = walk(x, at, coordinates, gradients);
+
+    const tetrahedron& tet = tetRef(at.tet);
+    const vertex* v[4];
+
+    for (int a = 0; a < 4; ++a)
     {
-        addQuadratic(v, coordinates, gradients, derivatives, sample);
+        v[a] = &vertexRef(tet.vertices[a]);
     }
 
-    return 0;
+    if (place == pBeyondWall)
+    {
+        // Back to the face beyond which the position lies
+        scalar sum = 0;
+
+        for (int a = 0; a < 4; ++a)
+        {
+            coordinates[a] = max(coordinates[a], scalar(0));
+            sum += coordinates[a];
+            std::fill_n(gradients[a], 3, scalar(0));
+        }
+        for (int a = 0; a < 4; ++a)
+        {
+            coordinates[a] /= sum;
+        }
+    }
+
+    interpolateVelocity(v, coordinates, gradients, velocity, jacobian);
 }
 
 

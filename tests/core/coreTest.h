@@ -74,7 +74,7 @@ typedef struct test_quadratic
 {
     double u[3], g[3][3];
     double h[3][3][3]; /* dg_ij/dx_k, symmetric in j and k */
-    double pressure_gradient[3];
+    double pressure_gradient[3], pressure_jacobian[3][3];
     int answer; /* what the callback returns */
 } test_quadratic;
 
@@ -87,7 +87,8 @@ static inline int test_quadratic_flow(void *context, const double x[3],
     for (int i = 0; i < 3; i++)
     {
         sample->velocity[i] = f->u[i];
-        sample->pressure_gradient[i] = f->pressure_gradient[i];
+        sample->pressure_gradient[i] =
+            f->pressure_gradient[i] + ellipsoid_dot(f->pressure_jacobian[i], x);
         for (int j = 0; j < 3; j++)
         {
             double change = 0;
@@ -105,6 +106,8 @@ static inline int test_quadratic_flow(void *context, const double x[3],
         memcpy(sample->velocity_jacobian, sample->gradient,
                sizeof(sample->gradient));
         memcpy(sample->gradient_jacobian, f->h, sizeof(f->h));
+        memcpy(sample->pressure_jacobian, f->pressure_jacobian,
+               sizeof(f->pressure_jacobian));
     }
     return f->answer;
 }

@@ -164,7 +164,8 @@ static void test_nothing_to_do(void **unused)
     (void)unused;
     assert_ok(go(&r, 0, NULL, NULL));
     assert_ok(go(&r, -1, NULL, NULL));
-    assert_ok(go(&r, NAN, NULL, NULL));
+    assert_int_equal(go(&r, NAN, NULL, NULL), ELLIPSOID_NON_FINITE);
+    assert_int_equal(go(&r, INFINITY, NULL, NULL), ELLIPSOID_NON_FINITE);
     assert_memory_equal(&r.state, &before, sizeof(before));
     assert_true(r.t == 0 && r.controller.step == 0 && r.statistics.rhs == 0);
 }
@@ -384,7 +385,14 @@ static void test_step_limits(void **unused)
     r.model.options.maximum_step = 1e-5;
     assert_ok(go(&r, 0.005, observe, &l));
     assert_true(l.longest <= 1e-5 * (1 + 1e-9));
-    assert_true(l.t[0] == r.model.options.initial_step);
+    /* chosen: a quarter of the shortest relaxation time */
+    assert_relative(l.t[0], 0.25 * r.model.rotation_relaxation_time, 1e-15);
+
+    r = new_run();
+    memset(&l, 0, sizeof(l));
+    r.model.options.initial_step = 3e-9;
+    assert_ok(go(&r, 0.005, observe, &l));
+    assert_true(l.t[0] == 3e-9);
 }
 
 /* Evaluations: one Jacobian and six right-hand sides a step, of which the one

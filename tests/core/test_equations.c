@@ -33,7 +33,10 @@ static ellipsoid_model random_body(uint64_t *seed)
         o.gravity[i] = test_signed(seed);
         o.external_force[i] = test_signed(seed);
         o.external_torque[i] = test_signed(seed);
+        o.dipole[i] = test_signed(seed);
+        o.electric_field[i] = test_signed(seed);
     }
+    o.charge = test_signed(seed);
     return test_model(&o);
 }
 
@@ -48,6 +51,7 @@ static test_quadratic random_flow(uint64_t *seed)
         for (int j = 0; j < 3; j++)
         {
             f.g[i][j] = test_signed(seed);
+            f.pressure_jacobian[i][j] = test_signed(seed);
             for (int k = 0; k <= j; k++)
             {
                 f.h[i][j][k] = f.h[i][k][j] = test_signed(seed);
@@ -77,11 +81,35 @@ static ellipsoid_state random_state(uint64_t *seed)
     return s;
 }
 
+/* E = (x2, x1 x2, x3^2) */
+static int curved_field(void *context, const double x[3], double field[3],
+                        double (*jacobian)[3])
+{
+    (void)context;
+    ellipsoid_set(field, x[1], x[0] * x[1], x[2] * x[2]);
+    if (jacobian)
+    {
+        ellipsoid_set(jacobian[0], 0, 1, 0);
+        ellipsoid_set(jacobian[1], x[1], x[0], 0);
+        ellipsoid_set(jacobian[2], 0, 0, 2 * x[2]);
+    }
+    return 0;
+}
+
+static ellipsoid_surroundings without_walls(test_quadratic *flow)
+{
+    const ellipsoid_surroundings around = {.flow =
+                                               flow ? test_quadratic_flow : NULL,
+                                           .flow_context = flow,
+                                           .field = curved_field};
+
+    return around;
+}
+
 static void rates(const ellipsoid_model *model, test_quadratic *flow,
                   const double y[SIZE], double f[SIZE])
 {
-    const ellipsoid_surroundings around = {
-        .flow = flow ? test_quadratic_flow : NULL, .flow_context = flow};
+    const ellipsoid_surroundings around = without_walls(flow);
     ellipsoid_state state, derivative;
 
     memcpy(&state, y, sizeof(state));
@@ -89,13 +117,12 @@ static void rates(const ellipsoid_model *model, test_quadratic *flow,
     memcpy(f, &derivative, sizeof(derivative));
 }
 
-/* Fourth-order central differences; each term is of degree four at most in one
+/* Eighth-order central differences; each term is of degree eight at most in one
    variable, for which they are exact but for rounding over the step. */
 static void compare_jacobian(const ellipsoid_model *model, test_quadratic *flow,
                              const ellipsoid_state *state)
 {
-    const ellipsoid_surroundings around = {
-        .flow = flow ? test_quadratic_flow : NULL, .flow_context = flow};
+    const ellipsoid_surroundings around = without_walls(flow);
     static const int begin[] = {ELLIPSOID_U, ELLIPSOID_X, ELLIPSOID_OMEGA,
                                 ELLIPSOID_Q, SIZE};
     double jacobian[SIZE][SIZE], differences[SIZE][SIZE];
@@ -104,21 +131,25 @@ static void compare_jacobian(const ellipsoid_model *model, test_quadratic *flow,
     assert_ok(ellipsoid_jacobian(model, &around, state, NULL, jacobian));
     for (int j = 0; j < SIZE; j++)
     {
-        double f[4][SIZE];
-
-        for (int p = 0; p < 4; p++)
-        {
-            static const double place[] = {-2, -1, 1, 2};
-            double y[SIZE];
-
-            memcpy(y, state, sizeof(y));
-            y[j] += place[p] * h;
-            rates(model, flow, y, f[p]);
-        }
         for (int i = 0; i < SIZE; i++)
         {
-            differences[i][j] =
-                (f[0][i] - 8 * f[1][i] + 8 * f[2][i] - f[3][i]) / (12 * h);
+            differences[i][j] = 0;
+        }
+        for (int p = 1; p <= 4; p++)
+        {
+            static const double weight[] = {0, 4.0 / 5, -1.0 / 5, 4.0 / 105,
+                                            -1.0 / 280};
+            double y[SIZE], before[SIZE], after[SIZE];
+
+            memcpy(y, state, sizeof(y));
+            y[j] -= p * h;
+            rates(model, flow, y, before);
+            y[j] += 2 * p * h;
+            rates(model, flow, y, after);
+            for (int i = 0; i < SIZE; i++)
+            {
+                differences[i][j] += weight[p] * (after[i] - before[i]) / h;
+            }
         }
     }
 
@@ -155,6 +186,9 @@ static void test_jacobian(void **unused)
         test_quadratic flow = random_flow(&seed);
         const ellipsoid_state state = random_state(&seed);
 
+        compare_jacobian(&model, &flow, &state);
+        model.options.flow_at = ELLIPSOID_FLOW_BODY;
+        model = test_model(&model.options);
         compare_jacobian(&model, &flow, &state);
         model.options.pressure_gradient = ELLIPSOID_PRESSURE_GRADP;
         compare_jacobian(&model, &flow, &state);
@@ -256,19 +290,30 @@ static void test_written_out(void **unused)
         const ellipsoid_options *o = &m.options;
         test_quadratic flow = random_flow(&seed);
         ellipsoid_state s = random_state(&seed);
-        double y[SIZE], f[SIZE], r[3][3], body[3][3];
+        double y[SIZE], f[SIZE], r[3][3], body[3][3], field[3], in_body[3];
         ellipsoid_flow_sample u;
 
         ellipsoid_normalise(s.q);
         memcpy(y, &s, sizeof(y));
         rates(&m, &flow, y, f);
         test_quadratic_flow(&flow, s.x, 0, &u);
+        curved_field(NULL, s.x, field, NULL);
         ellipsoid_rotation(s.q, r);
+        for (int i = 0; i < 3; i++)
+        {
+            field[i] += o->electric_field[i];
+        }
+        for (int i = 0; i < 3; i++)
+        {
+            in_body[i] =
+                r[0][i] * field[0] + r[1][i] * field[1] + r[2][i] * field[2];
+        }
 
         for (int i = 0; i < 3; i++)
         {
             double force =
-                (m.mass - m.fluid_mass) * o->gravity[i] + o->external_force[i];
+                (m.mass - m.fluid_mass) * o->gravity[i] + o->external_force[i]
+                + o->charge * field[i];
 
             for (int j = 0; j < 3; j++)
             {
@@ -305,7 +350,8 @@ static void test_written_out(void **unused)
                 c * ((aj2 - ak2) * strain + (aj2 + ak2) * (turn - s.omega[i]))
                 + m.inertia[j] * s.omega[j] * s.omega[k]
                 - m.inertia[k] * s.omega[k] * s.omega[j]
-                + o->external_torque[i];
+                + o->external_torque[i] + o->dipole[j] * in_body[k]
+                - o->dipole[k] * in_body[j];
 
             assert_near(f[6 + i], torque / m.inertia[i],
                         1e-12 * (1 + fabs(f[6 + i])));
@@ -329,12 +375,12 @@ static void test_rigid_rotation(void **unused)
         double y[SIZE], f[SIZE], r[3][3], w[3];
 
         m.options.pressure_gradient = ELLIPSOID_PRESSURE_NONE;
-        m.options.buoyancy = 0;
+        m.electric = 0;
         ellipsoid_normalise(s.q);
         ellipsoid_rotation(s.q, r);
         for (int i = 0; i < 3; i++)
         {
-            m.options.external_force[i] = m.options.external_torque[i] = 0;
+            m.constant_force[i] = m.options.external_torque[i] = 0;
             m.inertia[i] = 1; /* no gyroscopic torque */
             w[i] = test_signed(&seed);
         }

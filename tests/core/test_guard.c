@@ -33,13 +33,14 @@ typedef struct run
 } run;
 
 /* 8 um before the plate, in a uniform flow that goes straight through it. */
-static void new_run(run *r, int seed, double speed)
+static void new_run(run *r, ellipsoid_motion motion, int seed, double speed)
 {
     ellipsoid_options o = ellipsoid_options_default();
     uint64_t number = (uint64_t)seed;
 
     memset(r, 0, sizeof(*r));
     o.buoyancy = 0;
+    o.motion = motion;
     r->model = test_model(&o);
     make_plate(&r->mesh);
     r->around.flow = test_quadratic_flow;
@@ -65,17 +66,16 @@ static ellipsoid_status go(run *r, double end, ellipsoid_contact_cache *cache,
     be some body lengths. Whatever the orientation and the speed, the cell is
     stopped before the plate: its centre stays half a short axis away at least.
 */
-static void test_thin_plate(void **unused)
+static void test_thin_plate(void **motion)
 {
     static ellipsoid_contact_cache cache;
     static run r;
 
-    (void)unused;
     for (int n = 0; n < 60; n++)
     {
         const double speed = 4e-4 * pow(10, n % 3);
 
-        new_run(&r, n, speed);
+        new_run(&r, *(ellipsoid_motion *)*motion, n, speed);
         ellipsoid_contact_cache_clear(&cache);
         assert_ok(go(&r, 40e-6 / speed, &cache, NULL, NULL));
         assert_true(r.state.x[0] < -0.25e-6);
@@ -87,7 +87,7 @@ static void test_thin_plate(void **unused)
 
 /* Pressed into a corner of a box, at rest: a thousand seconds cost a few
    steps. */
-static void test_rest_is_free(void **unused)
+static void test_rest_is_free(void **motion)
 {
     static ellipsoid_contact_cache cache;
     static run r;
@@ -95,8 +95,7 @@ static void test_rest_is_free(void **unused)
     const double high[3] = {10e-6, 10e-6, 10e-6};
     long steps;
 
-    (void)unused;
-    new_run(&r, 5, 4e-3);
+    new_run(&r, *(ellipsoid_motion *)*motion, 5, 4e-3);
     wall_mesh_free(&r.mesh);
     wall_mesh_init(&r.mesh);
     wall_mesh_box(&r.mesh, low, high, 1, 0, 7);
@@ -125,20 +124,19 @@ static int stop_at(void *context, const ellipsoid_step *step)
 }
 
 /* Stopped and continued with an empty cache: the same bits. */
-static void test_cut_beside_a_wall(void **unused)
+static void test_cut_beside_a_wall(void **motion)
 {
     static ellipsoid_contact_cache cache;
     static run whole, r;
 
-    (void)unused;
-    new_run(&whole, 11, 4e-3);
+    new_run(&whole, *(ellipsoid_motion *)*motion, 11, 4e-3);
     ellipsoid_contact_cache_clear(&cache);
     assert_ok(go(&whole, 0.01, &cache, NULL, NULL));
     for (int stop = 1; stop < whole.statistics.accepted; stop += 11)
     {
         int left = stop;
 
-        new_run(&r, 11, 4e-3);
+        new_run(&r, *(ellipsoid_motion *)*motion, 11, 4e-3);
         ellipsoid_contact_cache_clear(&cache);
         assert_int_equal(go(&r, 0.01, &cache, stop_at, &left),
                          ELLIPSOID_STOPPED);
@@ -150,12 +148,21 @@ static void test_cut_beside_a_wall(void **unused)
     wall_mesh_free(&whole.mesh);
 }
 
+static ellipsoid_motion inertial = ELLIPSOID_MOTION_INERTIAL;
+static ellipsoid_motion inertialess = ELLIPSOID_MOTION_INERTIALESS;
+
+#define WITH_BOTH(test)                                                        \
+    {#test ", inertial", test, NULL, NULL, &inertial},                         \
+    {                                                                          \
+        #test ", inertialess", test, NULL, NULL, &inertialess                  \
+    }
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_thin_plate),
-        cmocka_unit_test(test_rest_is_free),
-        cmocka_unit_test(test_cut_beside_a_wall),
+        WITH_BOTH(test_thin_plate),
+        WITH_BOTH(test_rest_is_free),
+        WITH_BOTH(test_cut_beside_a_wall),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

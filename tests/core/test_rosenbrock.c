@@ -6,13 +6,13 @@
     test_rosenbrock.c - the method itself: its coefficients, its order on the
     thirteen equations, its continuous extension.
 */
-#include "coreTest.h"
+#include "flowTest.h"
 
 #include <complex.h>
 
 enum
 {
-    S = ELLIPSOID_STAGES,
+    S = ELLIPSOID_ROSENBROCK_STAGES,
     SIZE = ELLIPSOID_STATE_SIZE
 };
 
@@ -225,59 +225,12 @@ static void test_dense_order_conditions(void **unused)
 
 /* ---------------------------------------------------------- observed order */
 
-/* Vortices of size pi/k [m] and some shear through them. */
-typedef struct vortices
-{
-    double speed, k;
-} vortices;
-
-static int vortex_flow(void *context, const double x[3], int derivatives,
-                       ellipsoid_flow_sample *f)
-{
-    const vortices *v = context;
-    const double k = v->k, a = v->speed;
-    const double sx = sin(k * x[0]), cx = cos(k * x[0]);
-    const double sy = sin(k * x[1]), cy = cos(k * x[1]);
-    const double sz = sin(k * x[2]), cz = cos(k * x[2]);
-
-    memset(f, 0, sizeof(*f));
-    f->velocity[0] = a * (sx * cy + cz);
-    f->velocity[1] = -a * (cx * sy - 0.5 * sz);
-    f->velocity[2] = a * (0.5 * sx + 0.3 * cy);
-    f->gradient[0][0] = a * k * cx * cy;
-    f->gradient[0][1] = -a * k * sx * sy;
-    f->gradient[0][2] = -a * k * sz;
-    f->gradient[1][0] = a * k * sx * sy;
-    f->gradient[1][1] = -a * k * cx * cy;
-    f->gradient[1][2] = 0.5 * a * k * cz;
-    f->gradient[2][0] = 0.5 * a * k * cx;
-    f->gradient[2][1] = -0.3 * a * k * sy;
-    if (derivatives)
-    {
-        double(*h)[3][3] = f->gradient_jacobian;
-        const double s = a * k * k;
-
-        memcpy(f->velocity_jacobian, f->gradient, sizeof(f->gradient));
-        h[0][0][0] = -s * sx * cy;
-        h[0][0][1] = h[0][1][0] = -s * cx * sy;
-        h[0][1][1] = -s * sx * cy;
-        h[0][2][2] = -s * cz;
-        h[1][0][0] = s * cx * sy;
-        h[1][0][1] = h[1][1][0] = s * sx * cy;
-        h[1][1][1] = s * cx * sy;
-        h[1][2][2] = -0.5 * s * sz;
-        h[2][0][0] = -0.5 * s * sx;
-        h[2][1][1] = -0.3 * s * cy;
-    }
-    return 0;
-}
-
 /* `count` equal steps to `end`; the last one is shown if `last` is not NULL. */
-static ellipsoid_state equal_steps(const ellipsoid_model *model, vortices *flow,
+static ellipsoid_state equal_steps(const ellipsoid_model *model, test_vortices *flow,
                                    const ellipsoid_state *begin, double end,
                                    int count, ellipsoid_step *last)
 {
-    const ellipsoid_surroundings around = {.flow = vortex_flow,
+    const ellipsoid_surroundings around = {.flow = test_vortex_flow,
                                            .flow_context = flow};
     ellipsoid_statistics statistics = {0};
     const ellipsoid_problem problem = {
@@ -285,6 +238,7 @@ static ellipsoid_state equal_steps(const ellipsoid_model *model, vortices *flow,
         .surroundings = &around,
         .statistics = &statistics,
         .length = model->options.semi_axes[1],
+        .inertial = 1,
     };
     ellipsoid_point p = {.state = *begin};
     const double h = end / count;
@@ -293,8 +247,9 @@ static ellipsoid_state equal_steps(const ellipsoid_model *model, vortices *flow,
     {
         ellipsoid_stages stages;
 
-        assert_ok(ellipsoid_problem_evaluate(&problem, &p.state, &p.derivative,
-                                             &p.contact, &p.blocks));
+        assert_ok(ellipsoid_problem_evaluate(&problem, &p.state, 0,
+                                             &p.derivative, &p.contact,
+                                             &p.blocks));
         assert_ok(ellipsoid_rosenbrock_step(&problem, &p, h, &stages));
         ellipsoid_normalise(stages.y + ELLIPSOID_Q);
         if (last)
@@ -310,73 +265,21 @@ static ellipsoid_state equal_steps(const ellipsoid_model *model, vortices *flow,
     return p.state;
 }
 
-typedef struct errors
-{
-    double u, x, omega, q;
-} errors;
-
-static double distance(const double *a, const double *b, int count)
-{
-    double sum = 0;
-
-    for (int i = 0; i < count; i++)
-    {
-        sum += (a[i] - b[i]) * (a[i] - b[i]);
-    }
-    return sqrt(sum);
-}
-
-static errors difference(const ellipsoid_state *a, const ellipsoid_state *b)
-{
-    const errors e = {distance(a->u, b->u, 3), distance(a->x, b->x, 3),
-                      distance(a->omega, b->omega, 3), distance(a->q, b->q, 4)};
-
-    return e;
-}
-
-/* A body and a fluid of order one: every time scale is of order one. */
-static ellipsoid_model unit_body(void)
-{
-    ellipsoid_options o = test_free_cell();
-
-    o.density = 3;
-    o.fluid_density = 1;
-    o.kinematic_viscosity = 0.5;
-    o.semi_axes[0] = 0.8;
-    o.semi_axes[1] = 1.5;
-    o.semi_axes[2] = 0.5;
-    o.external_torque[1] = 1;
-    return test_model(&o);
-}
-
-static ellipsoid_state some_state(const ellipsoid_model *model, vortices *flow)
-{
-    const double a = model->options.semi_axes[1];
-    ellipsoid_state s = {.x = {0.3 * a, 0.2 * a, 0.5 * a},
-                         .q = {0.1, 0.2, 0.3, 0.9}};
-    ellipsoid_flow_sample sample;
-
-    ellipsoid_normalise(s.q);
-    vortex_flow(flow, s.x, 0, &sample);
-    memcpy(s.u, sample.velocity, sizeof(s.u));
-    return s;
-}
-
 /* Steps far below the relaxation time: order 4 in every variable. */
 static void test_order_not_stiff(void **unused)
 {
-    const ellipsoid_model model = unit_body();
-    vortices flow = {1, 1};
-    const ellipsoid_state begin = some_state(&model, &flow);
+    const ellipsoid_model model = test_unit_body();
+    test_vortices flow = {1, 1};
+    const ellipsoid_state begin = test_vortex_state(&model, &flow);
     const ellipsoid_state exact =
         equal_steps(&model, &flow, &begin, 1, 4096, NULL);
     ellipsoid_state s = equal_steps(&model, &flow, &begin, 1, 64, NULL);
-    const errors coarse = difference(&s, &exact);
-    errors fine;
+    const test_errors coarse = test_difference(&s, &exact);
+    test_errors fine;
 
     (void)unused;
     s = equal_steps(&model, &flow, &begin, 1, 256, NULL);
-    fine = difference(&s, &exact);
+    fine = test_difference(&s, &exact);
     assert_near(log2(coarse.u / fine.u) / 2, 4, 0.2);
     assert_near(log2(coarse.x / fine.x) / 2, 4, 0.2);
     assert_near(log2(coarse.omega / fine.omega) / 2, 4, 0.2);
@@ -385,17 +288,17 @@ static void test_order_not_stiff(void **unused)
 
 /*
     The paper's cell, steps hundreds of relaxation times (2e-7 s) long: x and q
-    keep the order while their errors exceed 1e-9 of the body and of one; u and
+    keep the order while their test_errors exceed 1e-9 of the body and of one; u and
     omega, slaved to them, are reported.
 */
 static void test_order_stiff(void **unused)
 {
     const ellipsoid_options options = test_free_cell();
     const ellipsoid_model model = test_model(&options);
-    vortices flow = {4e-3, 3e5};
-    ellipsoid_state begin = some_state(&model, &flow), exact, s;
+    test_vortices flow = {4e-3, 3e5};
+    ellipsoid_state begin = test_vortex_state(&model, &flow), exact, s;
     const double end = 4e-3, a = 2e-6;
-    errors e[3];
+    test_errors e[3];
 
     (void)unused;
     /* past the first relaxation, which equal steps do not resolve */
@@ -404,7 +307,7 @@ static void test_order_stiff(void **unused)
     for (int n = 0; n < 3; n++)
     {
         s = equal_steps(&model, &flow, &begin, end, 50 << n, NULL);
-        e[n] = difference(&s, &exact);
+        e[n] = test_difference(&s, &exact);
     }
     print_message("# errors at 50, 100, 200 steps: x %.1e %.1e %.1e"
                   " q %.1e %.1e %.1e\n",
@@ -422,10 +325,10 @@ static void test_order_stiff(void **unused)
 */
 static void test_dense_order(void **unused)
 {
-    const ellipsoid_model model = unit_body();
-    vortices flow = {1, 1};
-    const ellipsoid_state begin = some_state(&model, &flow);
-    errors e[2];
+    const ellipsoid_model model = test_unit_body();
+    test_vortices flow = {1, 1};
+    const ellipsoid_state begin = test_vortex_state(&model, &flow);
+    test_errors e[2];
 
     (void)unused;
     for (int n = 0; n < 2; n++)
@@ -437,7 +340,7 @@ static void test_dense_order(void **unused)
         equal_steps(&model, &flow, &begin, h, 1, &step);
         exact = equal_steps(&model, &flow, &begin, 0.4 * h, 64, NULL);
         ellipsoid_step_state(&step, 0.4 * h, &s);
-        e[n] = difference(&s, &exact);
+        e[n] = test_difference(&s, &exact);
         ellipsoid_step_state(&step, 0, &s);
         assert_memory_equal(&s, &step.before, sizeof(s));
         ellipsoid_step_state(&step, h, &s);
@@ -453,27 +356,28 @@ static void test_dense_order(void **unused)
    against the full matrix. Rounding times the condition of the blocks. */
 static void test_block_elimination(void **unused)
 {
-    const ellipsoid_model model = unit_body();
-    vortices flow = {1, 1};
-    const ellipsoid_surroundings around = {.flow = vortex_flow,
+    const ellipsoid_model model = test_unit_body();
+    test_vortices flow = {1, 1};
+    const ellipsoid_surroundings around = {.flow = test_vortex_flow,
                                            .flow_context = &flow};
     ellipsoid_statistics statistics = {0};
     const ellipsoid_problem problem = {.model = &model,
                                        .surroundings = &around,
                                        .statistics = &statistics,
-                                       .length = 1.5};
+                                       .length = 1.5,
+                                       .inertial = 1};
     const double h = 0.7, g = 1 / (ellipsoid_rodas4.gamma * h);
     double jacobian[SIZE][SIZE], f[SIZE];
     ellipsoid_stages stages;
     ellipsoid_point p;
 
     (void)unused;
-    p.state = some_state(&model, &flow);
+    p.state = test_vortex_state(&model, &flow);
     p.state.omega[0] = 1;
     p.state.omega[1] = -2;
     p.state.omega[2] = 0.5;
     assert_ok(ellipsoid_jacobian(&model, &around, &p.state, NULL, jacobian));
-    assert_ok(ellipsoid_problem_evaluate(&problem, &p.state, &p.derivative,
+    assert_ok(ellipsoid_problem_evaluate(&problem, &p.state, 0, &p.derivative,
                                          &p.contact, &p.blocks));
     assert_ok(ellipsoid_rosenbrock_step(&problem, &p, h, &stages));
     memcpy(f, &p.derivative, sizeof(f));

@@ -1,0 +1,110 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    derivatives.c - right-hand side and dense Jacobian for callers; the
+    integrators use the blocks of equations.c as they are.
+*/
+#include "ellipsoidInternal.h"
+
+#include <string.h>
+
+ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
+                               const ellipsoid_surroundings *surroundings,
+                               const ellipsoid_state *state,
+                               ellipsoid_contact_cache *cache,
+                               ellipsoid_state *derivative)
+{
+    const int balanced = model->options.motion == ELLIPSOID_MOTION_INERTIALESS;
+    ellipsoid_state at = *state;
+    ellipsoid_contact contact;
+
+    if (balanced && !surroundings->flow)
+    {
+        return ELLIPSOID_BAD_OPTION;
+    }
+    return ellipsoid_evaluate(model, surroundings, &at, balanced, cache,
+                              derivative, &contact, NULL);
+}
+
+ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
+                                   const ellipsoid_surroundings *surroundings,
+                                   ellipsoid_state *state,
+                                   ellipsoid_contact_cache *cache)
+{
+    ellipsoid_state at = *state, derivative;
+    ellipsoid_contact contact;
+    ellipsoid_status status;
+
+    if (!surroundings->flow || !model->options.drag)
+    {
+        return ELLIPSOID_BAD_OPTION;
+    }
+    status = ellipsoid_evaluate(model, surroundings, &at, 1, cache, &derivative,
+                                &contact, NULL);
+    if (status == ELLIPSOID_OK)
+    {
+        *state = at;
+    }
+    return status;
+}
+
+ellipsoid_status
+ellipsoid_jacobian(const ellipsoid_model *model,
+                   const ellipsoid_surroundings *surroundings,
+                   const ellipsoid_state *state, ellipsoid_contact_cache *cache,
+                   double jacobian[ELLIPSOID_STATE_SIZE][ELLIPSOID_STATE_SIZE])
+{
+    enum
+    {
+        U = 0,
+        X = 3,
+        W = 6,
+        Q = 9
+    };
+    ellipsoid_contact contact;
+    ellipsoid_state at = *state, derivative;
+    ellipsoid_blocks b;
+    const ellipsoid_status status = ellipsoid_evaluate(
+        model, surroundings, &at, 0, cache, &derivative, &contact, &b);
+    const double *w = state->omega, *q = state->q;
+    /* 1/2 Q(omega) and the derivative of 1/2 Q(omega) q by omega */
+    const double qq[4][4] = {{0, w[2], -w[1], w[0]},
+                             {-w[2], 0, w[0], w[1]},
+                             {w[1], -w[0], 0, w[2]},
+                             {-w[0], -w[1], -w[2], 0}};
+    const double qw[4][3] = {{q[3], -q[2], q[1]},
+                             {q[2], q[3], -q[0]},
+                             {-q[1], q[0], q[3]},
+                             {-q[0], -q[1], -q[2]}};
+
+    if (status != ELLIPSOID_OK)
+    {
+        return status;
+    }
+    memset(jacobian, 0,
+           sizeof(double[ELLIPSOID_STATE_SIZE][ELLIPSOID_STATE_SIZE]));
+    for (int i = 0; i < 3; i++)
+    {
+        memcpy(&jacobian[U + i][U], b.uu[i], sizeof(b.uu[i]));
+        memcpy(&jacobian[U + i][X], b.ux[i], sizeof(b.ux[i]));
+        memcpy(&jacobian[U + i][Q], b.uq[i], sizeof(b.uq[i]));
+        jacobian[X + i][U + i] = 1;
+        memcpy(&jacobian[W + i][X], b.wx[i], sizeof(b.wx[i]));
+        memcpy(&jacobian[W + i][W], b.ww[i], sizeof(b.ww[i]));
+        memcpy(&jacobian[W + i][Q], b.wq[i], sizeof(b.wq[i]));
+    }
+    for (int n = 0; n < 4; n++)
+    {
+        for (int l = 0; l < 3; l++)
+        {
+            jacobian[Q + n][W + l] = 0.5 * qw[n][l];
+        }
+        for (int l = 0; l < 4; l++)
+        {
+            jacobian[Q + n][Q + l] = 0.5 * qq[n][l];
+        }
+    }
+    return ELLIPSOID_OK;
+}
