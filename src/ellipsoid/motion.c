@@ -130,13 +130,19 @@ static double step_factor(int order, double error, double previous_error)
     return fmin(fmax(0.9 * exp(exponent / order), 0.2), 5);
 }
 
+/* Is it a failure that a shorter step may cure? */
+static int may_recover(ellipsoid_status status)
+{
+    return status == ELLIPSOID_STEP_UNDERFLOW || status == ELLIPSOID_NON_FINITE;
+}
+
 /*
-    A first step. With inertia it resolves the relaxation. Without, the times in
-    which q turns and in which the slopes change say how long it may be; the
-    latter from a short way along the slopes.
+    Sets *step to a first step. With inertia it resolves the relaxation.
+    Without, the times in which q turns and in which the slopes change say how
+    long it may be; the latter from a short way along the slopes.
 */
-static double first_step(const ellipsoid_problem *p,
-                         const ellipsoid_point *start)
+static ellipsoid_status first_step(const ellipsoid_problem *p,
+                                   const ellipsoid_point *start, double *step)
 {
     const ellipsoid_options *o = &p->model->options;
     const double *u = start->derivative.x, *q = start->derivative.q;
@@ -146,20 +152,24 @@ static double first_step(const ellipsoid_problem *p,
     ellipsoid_state at = start->state, there;
     ellipsoid_contact contact;
     double change, bend[3], curve[4];
+    ellipsoid_status status;
 
-    if (o->initial_step > 0)
+    *step = o->initial_step;
+    if (*step > 0)
     {
-        return o->initial_step;
+        return ELLIPSOID_OK;
     }
     if (p->inertial)
     {
-        return 0.25
-             * fmin(p->model->relaxation_time,
-                    p->model->rotation_relaxation_time);
+        *step = 0.25
+              * fmin(p->model->relaxation_time,
+                     p->model->rotation_relaxation_time);
+        return ELLIPSOID_OK;
     }
+    *step = pace > 0 ? h : o->maximum_step;
     if (!(pace > 0))
     {
-        return o->maximum_step;
+        return ELLIPSOID_OK;
     }
     for (int i = 0; i < 3; i++)
     {
@@ -169,10 +179,10 @@ static double first_step(const ellipsoid_problem *p,
     {
         at.q[n] += h * q[n];
     }
-    if (ellipsoid_problem_evaluate(p, &at, 1, &there, &contact, NULL)
-        != ELLIPSOID_OK)
+    status = ellipsoid_problem_evaluate(p, &at, 1, &there, &contact, NULL);
+    if (status != ELLIPSOID_OK)
     {
-        return h;
+        return may_recover(status) ? ELLIPSOID_OK : status;
     }
     ellipsoid_difference(there.x, u, bend);
     for (int n = 0; n < 4; n++)
@@ -181,13 +191,8 @@ static double first_step(const ellipsoid_problem *p,
     }
     change = fmax(ellipsoid_length(bend) / p->length,
                   sqrt(ellipsoid_dot(curve, curve) + curve[3] * curve[3]));
-    return 2 * pow(o->tolerance, 0.2) / fmax(turn, sqrt(change / h));
-}
-
-/* Is it a failure that a shorter step may cure? */
-static int may_recover(ellipsoid_status status)
-{
-    return status == ELLIPSOID_STEP_UNDERFLOW || status == ELLIPSOID_NON_FINITE;
+    *step = 2 * pow(o->tolerance, 0.2) / fmax(turn, sqrt(change / h));
+    return ELLIPSOID_OK;
 }
 
 /* The blocks at a point that has been evaluated without. */
@@ -291,10 +296,21 @@ static ellipsoid_status take_step(const ellipsoid_problem *p,
     const ellipsoid_options *o = &p->model->options;
     const double shortest =
         fmax(o->minimum_step, 4 * DBL_EPSILON * fmax(fabs(t), DBL_MIN));
-    double largest_factor = 5, proposal = controller->step > 0
-                                            ? controller->step
-                                            : first_step(p, start);
+    double largest_factor = 5, proposal = controller->step;
 
+    if (!(proposal > 0))
+    {
+        const ellipsoid_status status = first_step(p, start, &proposal);
+
+        if (status != ELLIPSOID_OK)
+        {
+            return status;
+        }
+    }
+    if (o->maximum_step < shortest)
+    {
+        return ELLIPSOID_STEP_UNDERFLOW;
+    }
     proposal = fmin(fmax(proposal, shortest), o->maximum_step);
     while (*attempts < o->maximum_steps)
     {

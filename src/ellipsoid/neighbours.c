@@ -342,7 +342,7 @@ static ellipsoid_status fill(ellipsoid_contact_cache *cache,
     swarm beads;
 
     ellipsoid_contact_cache_clear(cache);
-    if (!isfinite(x[0] + x[1] + x[2] + q[0] + q[1] + q[2] + q[3]))
+    if (!isfinite(x[0] + x[1] + x[2] + product(q, q)))
     {
         return ELLIPSOID_NON_FINITE;
     }

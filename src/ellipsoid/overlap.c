@@ -76,6 +76,7 @@ ellipsoid_overlaps_walls(const ellipsoid_model *model,
                          const double x[3], const double q[4], int *overlaps)
 {
     const double *axes = model->options.semi_axes;
+    const double longest = fmax(axes[0], fmax(axes[1], axes[2]));
     ellipsoid_facet_list list;
     double rotation[3][3];
 
@@ -86,8 +87,8 @@ ellipsoid_overlaps_walls(const ellipsoid_model *model,
         return ELLIPSOID_OK;
     }
 
-    if (surroundings->walls(surroundings->walls_context, x, model->reach,
-                            &list))
+    if (surroundings->walls(surroundings->walls_context, x,
+                            (1 + 1e-9) * longest, &list))
     {
         return ELLIPSOID_WALLS_FAILED;
     }

@@ -307,7 +307,8 @@ static void weigh(const contacts *all, const mix *m, scalar *weight)
 {
     scalar one[MAX_CONTACTS], share[MAX_CONTACTS];
 
-    for (int i = 0; i < m->count; i++)
+    /* all, lest compilers fear for those beyond the count */
+    for (int i = 0; i < MAX_CONTACTS; i++)
     {
         one[i] = share[i] = unity;
     }
