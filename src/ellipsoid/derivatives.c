@@ -24,7 +24,7 @@ ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
     {
         return ELLIPSOID_BAD_OPTION;
     }
-    return ellipsoid_evaluate(model, surroundings, &at, balanced, cache,
+    return ellipsoid_evaluate(model, surroundings, NULL, &at, balanced, cache,
                               derivative, &contact, NULL);
 }
 
@@ -41,8 +41,8 @@ ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
     {
         return ELLIPSOID_BAD_OPTION;
     }
-    status = ellipsoid_evaluate(model, surroundings, &at, 1, cache, &derivative,
-                                &contact, NULL);
+    status = ellipsoid_evaluate(model, surroundings, NULL, &at, 1, cache,
+                                &derivative, &contact, NULL);
     if (status == ELLIPSOID_OK)
     {
         *state = at;
@@ -67,7 +67,7 @@ ellipsoid_jacobian(const ellipsoid_model *model,
     ellipsoid_state at = *state, derivative;
     ellipsoid_blocks b;
     const ellipsoid_status status = ellipsoid_evaluate(
-        model, surroundings, &at, 0, cache, &derivative, &contact, &b);
+        model, surroundings, NULL, &at, 0, cache, &derivative, &contact, &b);
     const double *w = state->omega, *q = state->q;
     /* 1/2 Q(omega) and the derivative of 1/2 Q(omega) q by omega */
     const double qq[4][4] = {{0, w[2], -w[1], w[0]},

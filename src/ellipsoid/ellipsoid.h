@@ -129,6 +129,12 @@ typedef struct ellipsoid_options
     double electric_field[3];  /* [V/m] lab, uniform E, 0; added to that of the
                                   surroundings */
 
+    /* Brownian motion; needs drag */
+    int brownian;          /* random force and torque, 0 */
+    double temperature;    /* [K] 298.15; 0 to 1e5 */
+    double noise_interval; /* [s] over which they are constant in the body
+                              frame; 1e-3; 1e-15 to 1e6 */
+
     /* contact */
     int contact;              /* beads against wall facets, 1 */
     ellipsoid_bead_layout bead_layout; /* STAGGERED */
@@ -177,6 +183,8 @@ typedef struct ellipsoid_model
     double rotation_mobility[3]; /* [1/(J s)] 1/(mu C_i) */
     double relaxation_time;          /* [s] slowest translational m/(mu K^) */
     double rotation_relaxation_time; /* [s] slowest I/(mu C) */
+    double noise_force[3];  /* [N] body, standard deviation; of the torque: */
+    double noise_torque[3]; /* [N m] */
     int electric;           /* does a field act? */
     double reach;           /* [m] farthest contact surface from the centre */
     int flow_points;        /* 0 unless FLOW_BODY */
@@ -315,6 +323,8 @@ typedef struct ellipsoid_surroundings
     ellipsoid_velocities_function velocities;
     ellipsoid_field_function field;
     void *field_context;
+    uint64_t seed; /* with the cell's id, the key of its Brownian motion; noise */
+    uint32_t id;   /* interval n begins at n noise_interval */
 } ellipsoid_surroundings;
 
 /* --------------------------------------------------------------- state */
@@ -447,17 +457,23 @@ ellipsoid_overlaps_walls(const ellipsoid_model *model,
 /*
     `count` numbers uniform in [0, 1), a function of the key alone: the same
     for any order of calls, any number of threads or ranks, and after a
-    restart. Streams keep independent uses of one cell apart.
+    restart. Streams keep independent uses of one cell apart; those from 2^31 on
+    are the core's.
 */
 void ellipsoid_random_uniform(uint64_t seed, uint32_t id, uint32_t stream,
                               uint32_t index, int count, double *uniform);
+
+/* Six numbers of the standard normal distribution: those of the random force
+   and torque in a noise interval. */
+void ellipsoid_random_normal(uint64_t seed, uint32_t id, int64_t interval,
+                             double normal[6]);
 
 /* ----------------------------------------------------------- equations */
 
 /*
     The thirteen time derivatives at a state, paper eqs. (1)-(4); of INERTIALESS
     motion those of x and q, where x changes with the u and q with the omega
-    that balance the forces, and zero for u and omega.
+    that balance the forces, and zero for u and omega. Without the random force.
     STEP_UNDERFLOW: a callback wants a shorter step, that is, not this state.
     cache may be NULL where there are no walls.
 */
@@ -523,6 +539,8 @@ typedef int (*ellipsoid_observer)(void *context, const ellipsoid_step *step);
     every accepted step; on a failure they are those of the last accepted step.
     Statistics count failed attempts as well. observer may be NULL, and so may
     cache where there are no walls. INERTIALESS motion needs a flow: BAD_OPTION.
+    With Brownian motion steps end where noise intervals do; the noise is that of
+    the interval, whatever the steps.
     Returns OK, STOPPED (by the observer; *t is the end of that step), or why
     it could not go on.
 */

@@ -27,21 +27,6 @@ typedef struct ellipsoid_blocks
     double wx[3][3], ww[3][3], wq[3][4];
 } ellipsoid_blocks;
 
-/*
-    One evaluation of the equations: derivative, the contact met (may be NULL
-    where there are no walls) and, if not NULL, the blocks. balanced: the
-    state's u and omega are first set to those that balance the forces; their
-    derivatives are then zero. Returns STEP_UNDERFLOW where a callback asks for
-    a shorter step.
-*/
-ellipsoid_status ellipsoid_evaluate(const ellipsoid_model *model,
-                                    const ellipsoid_surroundings *surroundings,
-                                    ellipsoid_state *state, int balanced,
-                                    ellipsoid_contact_cache *cache,
-                                    ellipsoid_state *derivative,
-                                    ellipsoid_contact *contact,
-                                    ellipsoid_blocks *blocks);
-
 /* The motion that the flow would give a body free of other forces, and its
    derivatives; u_q only of FLOW_BODY. */
 typedef struct ellipsoid_free_motion
@@ -65,6 +50,29 @@ ellipsoid_body_flow(const ellipsoid_model *model,
                     double axis[3][3], double axis_derivatives[4][3][3],
                     ellipsoid_free_motion *free);
 
+/* The random force and torque of a noise interval (brownian.c). */
+typedef struct ellipsoid_noise
+{
+    double force[3];  /* [N] body */
+    double torque[3]; /* [N m] body */
+    double start, end; /* [s] of the interval; */
+    double slack;      /* [s] a time so close to one is that */
+} ellipsoid_noise;
+
+/* Sets the model's standard deviations. */
+void ellipsoid_noise_scales(ellipsoid_model *model);
+
+/* The noise of the interval that holds t. STEP_UNDERFLOW: t is too far from 0
+   for intervals so short. */
+ellipsoid_status ellipsoid_noise_at(const ellipsoid_model *model,
+                                    const ellipsoid_surroundings *surroundings,
+                                    double t, ellipsoid_noise *noise);
+
+/* Adds it to force [N, lab], torque [N m, body] and, if wanted, the blocks. */
+void ellipsoid_add_noise(const ellipsoid_noise *noise, double axis[3][3],
+                         double axis_derivatives[4][3][3], double force[3],
+                         double torque[3], ellipsoid_blocks *blocks);
+
 /* Sets force [N, lab] and torque [N m, body] to all but drag and contact, and
    adds to the blocks their derivatives, if wanted (forces.c). flow may be
    NULL. */
@@ -73,6 +81,22 @@ ellipsoid_status ellipsoid_set_forces(
     const double x[3], double axis[3][3], double axis_derivatives[4][3][3],
     ellipsoid_flow_sample *flow, double force[3], double torque[3],
     ellipsoid_blocks *blocks);
+
+/*
+    One evaluation of the equations: derivative, the contact met (may be NULL
+    where there are no walls) and, if not NULL, the blocks. balanced: the
+    state's u and omega are first set to those that balance the forces; their
+    derivatives are then zero. noise may be NULL. Returns STEP_UNDERFLOW where a
+    callback asks for a shorter step.
+*/
+ellipsoid_status ellipsoid_evaluate(const ellipsoid_model *model,
+                                    const ellipsoid_surroundings *surroundings,
+                                    const ellipsoid_noise *noise,
+                                    ellipsoid_state *state, int balanced,
+                                    ellipsoid_contact_cache *cache,
+                                    ellipsoid_state *derivative,
+                                    ellipsoid_contact *contact,
+                                    ellipsoid_blocks *blocks);
 
 /* What the flow or the field meant by an answer other than 0. */
 static inline ellipsoid_status ellipsoid_answer_status(int answer)
@@ -117,6 +141,7 @@ typedef struct ellipsoid_problem
     double length;        /* [m] largest semi-axis */
     double rate;          /* [1/s] 1/tau of u, 0 in vacuum */
     double rotation_rate; /* [1/s] 1/tau of omega, 0 in vacuum */
+    const ellipsoid_noise *noise; /* NULL: none */
     int inertial;
     int walls;
     int observed; /* is the whole of ellipsoid_step asked for? */
@@ -193,6 +218,46 @@ ellipsoid_status ellipsoid_explicit_step(const ellipsoid_problem *problem,
 void ellipsoid_explicit_dense(ellipsoid_stages *stages,
                               const ellipsoid_step *step,
                               double dense[3][ELLIPSOID_STATE_SIZE]);
+
+/* At the start of a noise interval that lasts many relaxation times: takes the
+   state to where they have passed, in no time (brownian.c). */
+ellipsoid_status ellipsoid_cross_layer(const ellipsoid_problem *problem,
+                                       double t, double until,
+                                       ellipsoid_state *state);
+
+/* -------------------------------------------------------- step control */
+
+/* A step as planned. */
+typedef struct ellipsoid_plan
+{
+    double h;
+    int last;      /* ends at `end` */
+    int shortened; /* less than proposed, to land on `end` */
+} ellipsoid_plan;
+
+/* The next step from t towards end (stepControl.c). */
+ellipsoid_plan ellipsoid_plan_step(double proposal, double t, double end);
+
+/* Sets *step to a first step from a point. */
+ellipsoid_status ellipsoid_first_step(const ellipsoid_problem *problem,
+                                      const ellipsoid_point *start,
+                                      double *step);
+
+/* Sets *error to what the step has made, above 1 if it is too much. NON_FINITE
+   if it is not finite. */
+ellipsoid_status ellipsoid_judge_step(const ellipsoid_problem *problem,
+                                      double h,
+                                      const ellipsoid_stages *stages,
+                                      double *error);
+
+/* The factor by which the next step differs from one that made that error. */
+double ellipsoid_step_factor(int order, double error, double previous_error);
+
+/* Is it a failure that a shorter step may cure? */
+static inline int ellipsoid_may_recover(ellipsoid_status status)
+{
+    return status == ELLIPSOID_STEP_UNDERFLOW || status == ELLIPSOID_NON_FINITE;
+}
 
 /* ------------------------------------------------------------- contact */
 

@@ -364,6 +364,7 @@ sample_flow(evaluation *e, const ellipsoid_surroundings *surroundings,
 
 ellipsoid_status ellipsoid_evaluate(const ellipsoid_model *model,
                                     const ellipsoid_surroundings *surroundings,
+                                    const ellipsoid_noise *noise,
                                     ellipsoid_state *state, int balanced,
                                     ellipsoid_contact_cache *cache,
                                     ellipsoid_state *derivative,
@@ -397,6 +398,10 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_model *model,
     status = ellipsoid_set_forces(
         model, surroundings, state->x, e.axis, blocks ? d : NULL,
         surroundings->flow ? &e.flow : NULL, e.force, e.torque, blocks);
+    if (noise)
+    {
+        ellipsoid_add_noise(noise, e.axis, d, e.force, e.torque, blocks);
+    }
     if (status == ELLIPSOID_OK && ellipsoid_has_walls(model, surroundings))
     {
         status = add_contact(&e, surroundings, cache, contact, blocks);

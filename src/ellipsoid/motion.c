@@ -20,181 +20,6 @@ enum
     Q = ELLIPSOID_Q
 };
 
-/*
-    The error in units of the tolerance. Errors of u and omega count by what
-    they do to x and q: they last one relaxation time or one step, whichever is
-    shorter. So the stiff components do not govern the step.
-*/
-static double scaled_error(const ellipsoid_problem *p, const double error[SIZE],
-                           double h)
-{
-    const double per_h = 1 / h;
-    const double *q = error + Q;
-    const double ex = ellipsoid_length(error + X) / p->length;
-    const double eq = sqrt(ellipsoid_dot(q, q) + q[3] * q[3]);
-    double eu = 0, ew = 0, sum;
-
-    if (p->inertial)
-    {
-        eu = ellipsoid_length(error + U) / (p->length * fmax(p->rate, per_h));
-        ew = ellipsoid_length(error + W) / fmax(p->rotation_rate, per_h);
-    }
-    sum = ex + eu + ew + eq;
-
-    /* fmax would drop a NaN */
-    return isfinite(sum)
-             ? fmax(fmax(ex, eq), fmax(eu, ew)) / p->model->options.tolerance
-             : sum;
-}
-
-/* A step as planned. */
-typedef struct plan
-{
-    double h;
-    int last;      /* ends at `end` */
-    int shortened; /* less than proposed, to land on `end` */
-} plan;
-
-/*
-    The walls are felt only at the poses where the equations are evaluated. A
-    bead that passes through a wall between two of them unseen has to leave the
-    one gap, the wall by two radii less an overlap, and the other gap. So none
-    does if none travels farther than both gaps and a bead radius: the farthest
-    travel in units of that.
-*/
-static double unseen_travel(const ellipsoid_problem *p,
-                            const ellipsoid_stages *stages)
-{
-    double worst = 0;
-
-    for (int n = 1; n < stages->sampled; n++)
-    {
-        const int i = stages->in_time[n - 1], j = stages->in_time[n];
-        const double safe = fmax(stages->gap[i], 0) + fmax(stages->gap[j], 0)
-                          + p->model->options.bead_radius;
-        double move[3], turn[4], travel;
-
-        for (int l = 0; l < 3; l++)
-        {
-            move[l] = stages->x[j][l] - stages->x[i][l];
-        }
-        for (int l = 0; l < 4; l++)
-        {
-            turn[l] = stages->q[j][l] - stages->q[i][l];
-        }
-        /* a change of q by d turns the body by 2 d */
-        travel = ellipsoid_length(move)
-               + 2 * p->model->reach
-                     * sqrt(ellipsoid_dot(turn, turn) + turn[3] * turn[3]);
-        worst = fmax(worst, travel / safe);
-    }
-    return worst;
-}
-
-/*
-    The last two steps share what is left, so that none is tiny. A proposal
-    that lands on `end` but for rounding is not altered: a run cut there goes
-    on as if it had not been cut.
-*/
-static plan plan_step(double proposal, double t, double end)
-{
-    const double left = end - t;
-    const double slack = 4 * DBL_EPSILON * fmax(fabs(t), proposal);
-
-    if (fabs(left - proposal) <= slack)
-    {
-        return (plan){proposal, 1, 0};
-    }
-    if (left < proposal)
-    {
-        return (plan){left, 1, 1};
-    }
-    if (left < 1.25 * proposal)
-    {
-        return (plan){0.5 * left, 0, 1};
-    }
-    return (plan){proposal, 0, 0};
-}
-
-/*
-    PI control (Hairer & Wanner II, section IV.2): the factor by which the next
-    step differs, where errors grow with the step to the power of the order.
-*/
-static double step_factor(int order, double error, double previous_error)
-{
-    const double e = log(fmax(error, 1e-8));
-    const double exponent = previous_error > 0 && error <= 1
-                              ? 0.4 * log(previous_error) - 0.7 * e
-                              : -e;
-
-    return fmin(fmax(0.9 * exp(exponent / order), 0.2), 5);
-}
-
-/* Is it a failure that a shorter step may cure? */
-static int may_recover(ellipsoid_status status)
-{
-    return status == ELLIPSOID_STEP_UNDERFLOW || status == ELLIPSOID_NON_FINITE;
-}
-
-/*
-    Sets *step to a first step. With inertia it resolves the relaxation.
-    Without, the times in which q turns and in which the slopes change say how
-    long it may be; the latter from a short way along the slopes.
-*/
-static ellipsoid_status first_step(const ellipsoid_problem *p,
-                                   const ellipsoid_point *start, double *step)
-{
-    const ellipsoid_options *o = &p->model->options;
-    const double *u = start->derivative.x, *q = start->derivative.q;
-    const double turn = sqrt(ellipsoid_dot(q, q) + q[3] * q[3]);
-    const double pace = fmax(turn, ellipsoid_length(u) / p->length);
-    const double h = 0.01 / pace;
-    ellipsoid_state at = start->state, there;
-    ellipsoid_contact contact;
-    double change, bend[3], curve[4];
-    ellipsoid_status status;
-
-    *step = o->initial_step;
-    if (*step > 0)
-    {
-        return ELLIPSOID_OK;
-    }
-    if (p->inertial)
-    {
-        *step = 0.25
-              * fmin(p->model->relaxation_time,
-                     p->model->rotation_relaxation_time);
-        return ELLIPSOID_OK;
-    }
-    *step = pace > 0 ? h : o->maximum_step;
-    if (!(pace > 0))
-    {
-        return ELLIPSOID_OK;
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        at.x[i] += h * u[i];
-    }
-    for (int n = 0; n < 4; n++)
-    {
-        at.q[n] += h * q[n];
-    }
-    status = ellipsoid_problem_evaluate(p, &at, 1, &there, &contact, NULL);
-    if (status != ELLIPSOID_OK)
-    {
-        return may_recover(status) ? ELLIPSOID_OK : status;
-    }
-    ellipsoid_difference(there.x, u, bend);
-    for (int n = 0; n < 4; n++)
-    {
-        curve[n] = there.q[n] - q[n];
-    }
-    change = fmax(ellipsoid_length(bend) / p->length,
-                  sqrt(ellipsoid_dot(curve, curve) + curve[3] * curve[3]));
-    *step = 2 * pow(o->tolerance, 0.2) / fmax(turn, sqrt(change / h));
-    return ELLIPSOID_OK;
-}
-
 /* The blocks at a point that has been evaluated without. */
 static ellipsoid_status add_blocks(const ellipsoid_problem *p,
                                    ellipsoid_point *at)
@@ -205,31 +30,13 @@ static ellipsoid_status add_blocks(const ellipsoid_problem *p,
                                       &at->blocks);
 }
 
-/* Is the error of a step, or what it may have passed unseen, acceptable? */
-static ellipsoid_status judge(const ellipsoid_problem *p, double h,
-                              const ellipsoid_stages *stages, double *error)
-{
-    *error = scaled_error(p, stages->error, h);
-    if (!isfinite(*error))
-    {
-        return ELLIPSOID_NON_FINITE;
-    }
-    if (p->walls)
-    {
-        /* travel is proportional to the step */
-        *error =
-            fmax(*error, pow(unseen_travel(p, stages), (double)stages->order));
-    }
-    return ELLIPSOID_OK;
-}
-
 /*
     One attempt at a Rosenbrock step. A step counts only if the equations can be
     evaluated where it ends.
 */
 static ellipsoid_status try_rosenbrock(const ellipsoid_problem *p,
                                        ellipsoid_point *start,
-                                       const plan *planned,
+                                       const ellipsoid_plan *planned,
                                        ellipsoid_stages *stages,
                                        ellipsoid_point *next, double *error)
 {
@@ -242,7 +49,7 @@ static ellipsoid_status try_rosenbrock(const ellipsoid_problem *p,
     }
     if (status == ELLIPSOID_OK)
     {
-        status = judge(p, planned->h, stages, error);
+        status = ellipsoid_judge_step(p, planned->h, stages, error);
     }
     if (status != ELLIPSOID_OK || *error > 1)
     {
@@ -260,11 +67,10 @@ static ellipsoid_status try_rosenbrock(const ellipsoid_problem *p,
     One attempt at a step. Without inertia it is explicit, unless the cell
     touches a wall in it. Sets next; *error is above 1 if it is too large.
 */
-static ellipsoid_status try_step(const ellipsoid_problem *p,
-                                 ellipsoid_point *start, const plan *planned,
-                                 ellipsoid_stages *stages,
-                                 ellipsoid_point *next, double *error,
-                                 int *explicitly)
+static ellipsoid_status
+try_step(const ellipsoid_problem *p, ellipsoid_point *start,
+         const ellipsoid_plan *planned, ellipsoid_stages *stages,
+         ellipsoid_point *next, double *error, int *explicitly)
 {
     int touched = start->contact.touching_beads > 0;
     ellipsoid_status status = ELLIPSOID_OK;
@@ -279,8 +85,9 @@ static ellipsoid_status try_step(const ellipsoid_problem *p,
     {
         return try_rosenbrock(p, start, planned, stages, next, error);
     }
-    return status == ELLIPSOID_OK ? judge(p, planned->h, stages, error)
-                                  : status;
+    return status == ELLIPSOID_OK
+             ? ellipsoid_judge_step(p, planned->h, stages, error)
+             : status;
 }
 
 /*
@@ -300,7 +107,8 @@ static ellipsoid_status take_step(const ellipsoid_problem *p,
 
     if (!(proposal > 0))
     {
-        const ellipsoid_status status = first_step(p, start, &proposal);
+        const ellipsoid_status status =
+            ellipsoid_first_step(p, start, &proposal);
 
         if (status != ELLIPSOID_OK)
         {
@@ -314,7 +122,7 @@ static ellipsoid_status take_step(const ellipsoid_problem *p,
     proposal = fmin(fmax(proposal, shortest), o->maximum_step);
     while (*attempts < o->maximum_steps)
     {
-        const plan planned = plan_step(proposal, t, end);
+        const ellipsoid_plan planned = ellipsoid_plan_step(proposal, t, end);
         ellipsoid_stages stages;
         double error = 0;
         int explicitly;
@@ -324,10 +132,11 @@ static ellipsoid_status take_step(const ellipsoid_problem *p,
         ++*attempts;
         if (status == ELLIPSOID_OK && error <= 1)
         {
-            controller->step = planned.h
-                             * fmin(step_factor(stages.order, error,
-                                                controller->previous_error),
-                                    largest_factor);
+            controller->step =
+                planned.h
+                * fmin(ellipsoid_step_factor(stages.order, error,
+                                             controller->previous_error),
+                       largest_factor);
             if (planned.shortened)
             {
                 controller->step = fmax(controller->step, proposal);
@@ -357,13 +166,14 @@ static ellipsoid_status take_step(const ellipsoid_problem *p,
         }
 
         p->statistics->rejected++;
-        if (status != ELLIPSOID_OK && !may_recover(status))
+        if (status != ELLIPSOID_OK && !ellipsoid_may_recover(status))
         {
             return status;
         }
         proposal = planned.h
-                 * (status == ELLIPSOID_OK ? step_factor(stages.order, error, 0)
-                                           : 0.25);
+                 * (status == ELLIPSOID_OK
+                        ? ellipsoid_step_factor(stages.order, error, 0)
+                        : 0.25);
         largest_factor = 1;
         if (proposal < shortest)
         {
@@ -377,10 +187,11 @@ static ellipsoid_status take_step(const ellipsoid_problem *p,
 /* Where the run begins. An orientation of length one is taken as it is, so
    that a run can be continued without a change in the last digit. */
 static ellipsoid_status begin(const ellipsoid_problem *p,
-                              const ellipsoid_state *state,
-                              ellipsoid_point *start)
+                              const ellipsoid_state *state, double t,
+                              double end, ellipsoid_point *start)
 {
     double y[SIZE], sum = 0, square = 0;
+    ellipsoid_status status;
 
     memcpy(y, state, sizeof(y));
     for (int n = 0; n < SIZE; n++)
@@ -403,10 +214,62 @@ static ellipsoid_status begin(const ellipsoid_problem *p,
         ellipsoid_normalise(y + Q);
     }
     memcpy(&start->state, y, sizeof(start->state));
+    status = ellipsoid_cross_layer(p, t, end, &start->state);
+    if (status != ELLIPSOID_OK)
+    {
+        return status;
+    }
     start->has_blocks = p->inertial;
     return ellipsoid_problem_evaluate(
         p, &start->state, !p->inertial, &start->derivative, &start->contact,
         start->has_blocks ? &start->blocks : NULL);
+}
+
+/* What the caller of an advance hands in, and how many steps it has tried. */
+typedef struct journey
+{
+    ellipsoid_state *state;
+    double *t;
+    ellipsoid_controller *controller;
+    ellipsoid_observer observer;
+    void *observer_context;
+    long attempts;
+} journey;
+
+/* Goes on to `end`, in one noise interval if there is noise. */
+static ellipsoid_status go_to(const ellipsoid_problem *p, double end,
+                              journey *j)
+{
+    ellipsoid_point points[2], *start = &points[0], *next = &points[1];
+    ellipsoid_step step;
+    ellipsoid_status status;
+
+    memset(&points[0].contact, 0, sizeof(points[0].contact));
+    points[0].contact.gap = HUGE_VAL;
+    points[1].contact = points[0].contact;
+
+    status = begin(p, j->state, *j->t, end, start);
+    while (status == ELLIPSOID_OK && *j->t < end)
+    {
+        ellipsoid_point *finished = start;
+
+        status = take_step(p, start, *j->t, end, &j->attempts, j->controller,
+                           next, &step);
+        if (status == ELLIPSOID_OK)
+        {
+            *j->state = next->state;
+            *j->t = step.end;
+            p->statistics->deepest =
+                fmax(p->statistics->deepest, next->contact.deepest);
+            if (j->observer && j->observer(j->observer_context, &step))
+            {
+                status = ELLIPSOID_STOPPED;
+            }
+            start = next;
+            next = finished;
+        }
+    }
+    return status;
 }
 
 ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
@@ -420,6 +283,8 @@ ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
 {
     const double *a = model->options.semi_axes;
     const int drag = model->options.drag && surroundings->flow != NULL;
+    const int noisy = model->options.brownian && drag;
+    ellipsoid_noise noise;
     const ellipsoid_problem p = {
         .model = model,
         .surroundings = surroundings,
@@ -428,50 +293,37 @@ ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
         .length = fmax(a[0], fmax(a[1], a[2])),
         .rate = drag ? 1 / model->relaxation_time : 0,
         .rotation_rate = drag ? 1 / model->rotation_relaxation_time : 0,
+        .noise = noisy ? &noise : NULL,
         .inertial = model->options.motion == ELLIPSOID_MOTION_INERTIAL,
         .walls = ellipsoid_has_walls(model, surroundings),
         .observed = observer != NULL,
     };
-    ellipsoid_point points[2], *start = &points[0], *next = &points[1];
-    ellipsoid_step step;
-    long attempts = 0;
-    ellipsoid_status status;
+    journey j = {state, t, controller, observer, observer_context, 0};
+    ellipsoid_status status = ELLIPSOID_OK;
 
     if (!isfinite(*t) || !isfinite(end))
     {
         return ELLIPSOID_NON_FINITE;
     }
-    if (!(end > *t))
-    {
-        return ELLIPSOID_OK;
-    }
     if (!p.inertial && !drag)
     {
-        return ELLIPSOID_BAD_OPTION;
+        return *t < end ? ELLIPSOID_BAD_OPTION : ELLIPSOID_OK;
     }
-    memset(&points[0].contact, 0, sizeof(points[0].contact));
-    points[0].contact.gap = HUGE_VAL;
-    points[1].contact = points[0].contact;
-
-    status = begin(&p, state, start);
     while (status == ELLIPSOID_OK && *t < end)
     {
-        ellipsoid_point *finished = start;
+        double until = end;
 
-        status =
-            take_step(&p, start, *t, end, &attempts, controller, next, &step);
+        if (noisy)
+        {
+            status = ellipsoid_noise_at(model, surroundings, *t, &noise);
+            if (noise.end < end - noise.slack)
+            {
+                until = noise.end;
+            }
+        }
         if (status == ELLIPSOID_OK)
         {
-            *state = next->state;
-            *t = step.end;
-            statistics->deepest =
-                fmax(statistics->deepest, next->contact.deepest);
-            if (observer && observer(observer_context, &step))
-            {
-                status = ELLIPSOID_STOPPED;
-            }
-            start = next;
-            next = finished;
+            status = go_to(&p, until, &j);
         }
     }
     return status;

@@ -28,6 +28,9 @@ ellipsoid_options ellipsoid_options_default(void)
         .charge = 0,
         .dipole = {0, 0, 0},
         .electric_field = {0, 0, 0},
+        .brownian = 0,
+        .temperature = 298.15,
+        .noise_interval = 1e-3,
         .contact = 1,
         .bead_layout = ELLIPSOID_BEADS_STAGGERED,
         .bead_count = 32,
@@ -121,6 +124,15 @@ static void check_equations(verdict *v, const ellipsoid_options *o)
     require(v, all_finite(o->electric_field), "electric_field", "finite");
 }
 
+static void check_brownian(verdict *v, const ellipsoid_options *o)
+{
+    require(v, is_switch(o->brownian), "brownian", "0 or 1");
+    require(v, o->drag || !o->brownian, "brownian", "0 without drag");
+    require(v, within(o->temperature, 0, 1e5), "temperature", "0 to 1e5 K");
+    require(v, within(o->noise_interval, 1e-15, 1e6), "noise_interval",
+            "1e-15 to 1e6 s");
+}
+
 static void check_contact(verdict *v, const ellipsoid_options *o)
 {
     const double *a = o->semi_axes;
@@ -172,6 +184,7 @@ ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
 
     check_body_and_fluid(&v, options);
     check_equations(&v, options);
+    check_brownian(&v, options);
     check_contact(&v, options);
     check_integrator(&v, options);
 

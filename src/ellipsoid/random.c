@@ -6,9 +6,14 @@
     random.c - numbers that depend on their key alone: Philox4x32-10 of
     Random123 (Salmon et al., SC11, 2011).
 */
-#include "ellipsoid.h"
+#include "ellipsoidInternal.h"
 
 #include <Random123/philox.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* The streams of the core itself begin here. */
+static const uint32_t normal_stream = 0x80000000u;
 
 void ellipsoid_random_uniform(uint64_t seed, uint32_t id, uint32_t stream,
                               uint32_t index, int count, double *uniform)
@@ -27,5 +32,25 @@ void ellipsoid_random_uniform(uint64_t seed, uint32_t id, uint32_t stream,
                 ((uint64_t)bits.v[2 * j] << 32) | bits.v[2 * j + 1];
             uniform[i + j] = (double)(word >> 11) * 0x1.0p-53;
         }
+    }
+}
+
+/* Box & Muller, Ann. Math. Stat. 29, 610 (1958). */
+void ellipsoid_random_normal(uint64_t seed, uint32_t id, int64_t interval,
+                             double normal[6])
+{
+    const uint64_t index = (uint64_t)interval;
+    const uint32_t high = (uint32_t)(index >> 32) & 0x7fffffffu;
+    double uniform[6];
+
+    ellipsoid_random_uniform(seed, id, normal_stream | high, (uint32_t)index, 6,
+                             uniform);
+    for (int i = 0; i < 6; i += 2)
+    {
+        const double length = sqrt(-2 * log(1 - uniform[i]));
+        const double angle = 2 * pi * uniform[i + 1];
+
+        normal[i] = length * cos(angle);
+        normal[i + 1] = length * sin(angle);
     }
 }

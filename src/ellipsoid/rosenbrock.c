@@ -33,9 +33,9 @@ ellipsoid_status ellipsoid_problem_evaluate(const ellipsoid_problem *problem,
 {
     problem->statistics->rhs++;
     problem->statistics->jacobians += blocks != NULL;
-    return ellipsoid_evaluate(problem->model, problem->surroundings, state,
-                              balanced, problem->cache, derivative, contact,
-                              blocks);
+    return ellipsoid_evaluate(problem->model, problem->surroundings,
+                              problem->noise, state, balanced, problem->cache,
+                              derivative, contact, blocks);
 }
 
 /* ------------------------------------------------------- linear systems */

@@ -68,6 +68,10 @@ ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
     {
         ellipsoid_flow_points(&m);
     }
+    if (options->brownian)
+    {
+        ellipsoid_noise_scales(&m);
+    }
     m.electric = options->charge != 0 || options->dipole[0] != 0
               || options->dipole[1] != 0 || options->dipole[2] != 0;
 

@@ -199,7 +199,9 @@ bool Foam::ellipsoidCloud::move(ellipsoidParcel& parcel, const scalar end)
     const frozenFlow::probe at{cell.tet, -1};
 
     cellSurroundings here(*flow_, *walls_, at);
-    const ellipsoid_surroundings around(here.core());
+    ellipsoid_surroundings around(here.core());
+    around.seed = properties_.seed();
+    around.id = cell.id;
 
     cellJourney journey
     {

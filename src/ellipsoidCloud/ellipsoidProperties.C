@@ -95,6 +95,9 @@ namespace Foam
         { "gravity", "forces", "gravity" },
         { "external_force", "forces", "externalForce" },
         { "external_torque", "forces", "externalTorque" },
+        { "brownian", "brownian", "active" },
+        { "temperature", "brownian", "temperature" },
+        { "noise_interval", "brownian", "interval" },
         { "bead_layout", "contact", "beadLayout" },
         { "bead_count", "contact", "beads" },
         { "bead_radius", "contact", "beadRadius" },
@@ -153,6 +156,15 @@ void Foam::ellipsoidProperties::readOptions()
     options_.charge = forces.getOrDefault("charge", options_.charge);
     readVector(forces, "dipole", options_.dipole);
     readVector(forces, "electricField", options_.electric_field);
+
+    const dictionary& brownian = section("brownian");
+    checkKeywords(brownian, {"active", "temperature", "interval"});
+    options_.brownian =
+        brownian.getOrDefault("active", Switch(options_.brownian));
+    options_.temperature =
+        brownian.getOrDefault("temperature", options_.temperature);
+    options_.noise_interval =
+        brownian.getOrDefault("interval", options_.noise_interval);
 
     const dictionary& contact = section("contact");
     checkKeywords
@@ -323,7 +335,8 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     (
         *this,
         {
-            "interpolation", "seed", "motion", "cell", "fluid", "forces", "contact",
+            "interpolation", "seed", "motion", "cell", "fluid", "forces",
+            "brownian", "contact",
             "integration", "injection", "capture", "tracks"
         }
     );
