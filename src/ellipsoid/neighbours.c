@@ -27,8 +27,7 @@ static const double first_margin = 0.5, widest = 1, narrowest = 1.0 / 32;
 static const double few = 0.01, many = 0.06; /* poses for each facet listed */
 
 /* Where facets are too many: smaller margins, each by this factor. */
-static const double smaller = 0.5;
-#define ATTEMPTS 5
+static const double smaller = 0.5, smallest = 1.0 / 256;
 
 void ellipsoid_contact_cache_clear(ellipsoid_contact_cache *cache)
 {
@@ -383,17 +382,19 @@ static ellipsoid_status fill(ellipsoid_contact_cache *cache,
     place_beads(model, x, q, &beads);
     memcpy(cache->rotation, beads.rotation, sizeof cache->rotation);
     memcpy(cache->half_box, beads.half_box, sizeof cache->half_box);
-    for (int i = 0; i < ATTEMPTS; i++, margin *= smaller)
+    while (!collect(&list, &beads, radius + horizon, margin, cache))
     {
-        if (collect(&list, &beads, radius + horizon, margin, cache))
+        /* the answer is that of the smallest, whichever was the first */
+        if (margin <= smallest * radius)
         {
-            cache->margin = margin;
-            cache->listed = list.count;
-            cache->valid = 1;
-            return ELLIPSOID_OK;
+            return ELLIPSOID_TOO_MANY_FACETS;
         }
+        margin = fmax(margin * smaller, smallest * radius);
     }
-    return ELLIPSOID_TOO_MANY_FACETS;
+    cache->margin = margin;
+    cache->listed = list.count;
+    cache->valid = 1;
+    return ELLIPSOID_OK;
 }
 
 ellipsoid_status
