@@ -26,8 +26,9 @@
 static const double first_margin = 0.5, widest = 1, narrowest = 1.0 / 32;
 static const double few = 0.01, many = 0.06; /* poses for each facet listed */
 
-/* Where facets are too many: smaller margins, each by this factor. */
-static const double smaller = 0.5, smallest = 1.0 / 256;
+/* Where facets are too many: smaller margins, each by this factor, down to the
+   narrowest. */
+static const double smaller = 0.5;
 
 void ellipsoid_contact_cache_clear(ellipsoid_contact_cache *cache)
 {
@@ -385,11 +386,11 @@ static ellipsoid_status fill(ellipsoid_contact_cache *cache,
     while (!collect(&list, &beads, radius + horizon, margin, cache))
     {
         /* the answer is that of the smallest, whichever was the first */
-        if (margin <= smallest * radius)
+        if (margin <= narrowest * radius)
         {
             return ELLIPSOID_TOO_MANY_FACETS;
         }
-        margin = fmax(margin * smaller, smallest * radius);
+        margin = fmax(margin * smaller, narrowest * radius);
     }
     cache->margin = margin;
     cache->listed = list.count;
