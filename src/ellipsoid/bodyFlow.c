@@ -130,8 +130,7 @@ static int velocities_of_flow(const ellipsoid_surroundings *surroundings,
     return 0;
 }
 
-/* One point's part in the derivatives; rel: velocity less that at the centre.
- */
+/* One point's part in the derivatives. rel: its velocity less the centre's. */
 static void add_derivatives(const double point[3], double weight,
                             const double rel[3], double jacobian[3][3],
                             double axis[3][3], double d[4][3][3],

@@ -185,7 +185,7 @@ typedef struct ellipsoid_model
     double rotation_relaxation_time; /* [s] slowest I/(mu C) */
     double noise_force[3];  /* [N] body, standard deviation; of the torque: */
     double noise_torque[3]; /* [N m] */
-    int electric;           /* does a field act? */
+    int electric, aligned;  /* does a field act? On a dipole? */
     double reach;           /* [m] farthest contact surface from the centre */
     int flow_points;        /* 0 unless FLOW_BODY */
     double flow_point[ELLIPSOID_MAX_FLOW_POINTS][3]; /* [m] body, on the surface */

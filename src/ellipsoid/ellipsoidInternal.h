@@ -142,6 +142,7 @@ typedef struct ellipsoid_problem
     double rate;          /* [1/s] 1/tau of u, 0 in vacuum */
     double rotation_rate; /* [1/s] 1/tau of omega, 0 in vacuum */
     const ellipsoid_noise *noise; /* NULL: none */
+    int aligned; /* by a dipole */
     int inertial;
     int walls;
     int observed; /* is the whole of ellipsoid_step asked for? */

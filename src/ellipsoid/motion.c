@@ -65,14 +65,14 @@ static ellipsoid_status try_rosenbrock(const ellipsoid_problem *p,
 
 /*
     One attempt at a step. Without inertia it is explicit, unless the cell
-    touches a wall in it. Sets next; *error is above 1 if it is too large.
+    touches a wall in it or is turned by a dipole: both may be stiff. Sets next; *error is above 1 if it is too large.
 */
 static ellipsoid_status
 try_step(const ellipsoid_problem *p, ellipsoid_point *start,
          const ellipsoid_plan *planned, ellipsoid_stages *stages,
          ellipsoid_point *next, double *error, int *explicitly)
 {
-    int touched = start->contact.touching_beads > 0;
+    int touched = p->aligned || start->contact.touching_beads > 0;
     ellipsoid_status status = ELLIPSOID_OK;
 
     if (!p->inertial && !touched)
@@ -294,6 +294,7 @@ ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
         .rate = drag ? 1 / model->relaxation_time : 0,
         .rotation_rate = drag ? 1 / model->rotation_relaxation_time : 0,
         .noise = noisy ? &noise : NULL,
+        .aligned = model->aligned,
         .inertial = model->options.motion == ELLIPSOID_MOTION_INERTIAL,
         .walls = ellipsoid_has_walls(model, surroundings),
         .observed = observer != NULL,

@@ -72,8 +72,9 @@ ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
     {
         ellipsoid_noise_scales(&m);
     }
-    m.electric = options->charge != 0 || options->dipole[0] != 0
-              || options->dipole[1] != 0 || options->dipole[2] != 0;
+    m.aligned = options->dipole[0] != 0 || options->dipole[1] != 0
+             || options->dipole[2] != 0;
+    m.electric = options->charge != 0 || m.aligned;
 
     m.reach = fmax(a[0], fmax(a[1], a[2]));
     if (options->contact)

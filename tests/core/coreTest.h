@@ -69,6 +69,15 @@ static inline void test_orientation(uint64_t *seed, double q[4])
     ellipsoid_quaternion_from_uniform(uniform, q);
 }
 
+/* The body axis x^2 in the lab. */
+static inline void test_long_axis(const ellipsoid_state *state, double axis[3])
+{
+    double r[3][3];
+
+    ellipsoid_rotation(state->q, r);
+    ellipsoid_set(axis, r[0][1], r[1][1], r[2][1]);
+}
+
 /* A flow that is a quadratic polynomial of the position (context). */
 typedef struct test_quadratic
 {

@@ -30,8 +30,7 @@ static ellipsoid_options spheroid(double ratio)
     return o;
 }
 
-/* ------------------------------------------------------------ Jeffery orbits
- */
+/* ----------------------------------------------------------- Jeffery orbits */
 
 /*
     Jeffery (1922), eqs. 46 to 49, for u = (rate x2, 0, 0): with O the axis,
@@ -40,13 +39,6 @@ static ellipsoid_options spheroid(double ratio)
         T = 2 pi (r + 1/r)/rate,
         C^2 = (r^2 O2^2 + O1^2)/(r^2 O3^2), constant.
 */
-static void axis_of(const ellipsoid_state *state, double axis[3])
-{
-    double r[3][3];
-
-    ellipsoid_rotation(state->q, r);
-    ellipsoid_set(axis, r[0][1], r[1][1], r[2][1]);
-}
 
 /* C/(1+C), which is 1 for a tumbling body and 0 for one that rolls */
 static double orbit(const double axis[3], double ratio)
@@ -86,7 +78,7 @@ static void check_orbit(double ratio, double height)
 
         assert_ok(test_advance(&model, &flow, &state, &t, n * period / 8,
                                &controller, &statistics));
-        axis_of(&state, axis);
+        test_long_axis(&state, axis);
         /* the projection on the plane of shear runs on an ellipse */
         ellipsoid_set(expected, ratio * along * sin(phase), along * cos(phase),
                       height);

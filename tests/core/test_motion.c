@@ -7,18 +7,6 @@
 */
 #include "coreTest.h"
 
-/* The long axis x^2 in the lab. */
-static void long_axis(const ellipsoid_state *state, double axis[3])
-{
-    double r[3][3];
-
-    ellipsoid_rotation(state->q, r);
-    for (int i = 0; i < 3; i++)
-    {
-        axis[i] = r[i][1];
-    }
-}
-
 /* ----------------------------------------------------------- Jeffery orbits */
 
 /*
@@ -60,7 +48,7 @@ static double jeffery_deviation(double density, double tolerance, double r,
     ellipsoid_quaternion_from_axis(start, 0, s.q);
     assert_ok(test_advance(&model, &flow, &s, &t, turns * period, &controller,
                            &statistics));
-    long_axis(&s, axis);
+    test_long_axis(&s, axis);
     *constant = orbit_constant(axis, r) / c - 1;
 
     phase = 2 * test_pi * turns;
@@ -128,144 +116,9 @@ static void test_log_rolling(void **unused)
     ellipsoid_quaternion_from_axis((const double[3]){0, 0, 1}, 0, s.q);
     assert_ok(
         test_advance(&model, &flow, &s, &t, 0.06, &controller, &statistics));
-    long_axis(&s, axis);
+    test_long_axis(&s, axis);
     assert_near(axis[2], 1, 1e-14);
     assert_relative(s.omega[1], -500, 1e-6);
-}
-
-/* ---------------------------------------------------- translation, rotation */
-
-/*
-    Along a principal axis m du/dt = -mu K u: u = u0 exp(-t/tau). The first
-    step of 1e-8 s resolves tau of about 1e-7 s. Allowed errors are, per step,
-    tolerance/tau for the spin and tolerance a/tau for u; ten of them here.
-*/
-static void test_relaxation(void **unused)
-{
-    ellipsoid_options o = test_free_cell();
-    test_quadratic still = {.answer = 0};
-    ellipsoid_model model;
-
-    (void)unused;
-    o.tolerance = 1e-10;
-    model = test_model(&o);
-    for (int i = 0; i < 3; i++)
-    {
-        ellipsoid_state s = {.q = {0, 0, 0, 1}};
-        ellipsoid_controller controller = {0};
-        ellipsoid_statistics statistics = {0};
-        const double u0 = 4e-3, w0 = 1000;
-        const double tau = model.mass / (model.viscosity * model.resistance[i]);
-        const double turn =
-            model.inertia[i] / (model.viscosity * model.rotation_resistance[i]);
-        double t = 0;
-
-        s.u[i] = u0;
-        s.omega[i] = w0;
-        assert_ok(test_advance(&model, &still, &s, &t, tau, &controller,
-                               &statistics));
-        assert_near(s.omega[i], w0 * exp(-tau / turn),
-                    10 * o.tolerance / model.rotation_relaxation_time);
-        if (i == 1)
-        {
-            /* along the axis it spins about: the drag stays the same */
-            assert_near(s.u[i], u0 * exp(-1),
-                        10 * o.tolerance * 2e-6 / model.relaxation_time);
-            assert_near(s.x[i], u0 * tau * (1 - exp(-1)),
-                        10 * o.tolerance * 2e-6);
-        }
-    }
-}
-
-/*
-    Sedimentation of an inclined spheroid: mu R K^ R^T u = (m_p - m_f) g, so it
-    drifts sideways; it does not turn. The rest of the start is damped by every
-    step, so the tolerance does not matter after some long ones: 1e-10.
-*/
-static void test_inclined_sedimentation(void **unused)
-{
-    ellipsoid_options o = test_free_cell();
-    test_quadratic still = {.answer = 0};
-    ellipsoid_state s;
-    ellipsoid_controller controller = {0};
-    ellipsoid_statistics statistics = {0};
-    ellipsoid_model m;
-    const double inclination = 0.7;
-    double t = 0, along, across, weight, before[4];
-
-    (void)unused;
-    o.buoyancy = 1;
-    o.tolerance = 1e-8;
-    m = test_model(&o);
-    memset(&s, 0, sizeof(s));
-    ellipsoid_quaternion_from_axis(
-        (const double[3]){sin(inclination), 0, cos(inclination)}, 0, s.q);
-    memcpy(before, s.q, sizeof(before));
-    assert_ok(test_advance(&m, &still, &s, &t, 1e4 * m.relaxation_time,
-                           &controller, &statistics));
-
-    weight = (m.mass - m.fluid_mass) * -9.81;
-    along = weight * cos(inclination) / (m.viscosity * m.resistance[1]);
-    across = -weight * sin(inclination) / (m.viscosity * m.resistance[0]);
-    assert_relative(
-        s.u[2], along * cos(inclination) - across * sin(inclination), 1e-10);
-    assert_relative(
-        s.u[0], along * sin(inclination) + across * cos(inclination), 1e-10);
-    assert_near(s.u[1], 0, 1e-20);
-    for (int n = 0; n < 4; n++)
-    {
-        assert_near(s.q[n], before[n], 1e-15);
-    }
-}
-
-/*
-    Euler's free asymmetric top, in vacuum: energy and the angular momentum in
-    the lab are constant. 1000 turns at the tightest useful tolerance.
-*/
-static void test_free_top(void **unused)
-{
-    ellipsoid_options o = test_free_cell();
-    ellipsoid_state s = {.omega = {0.3, 0.2, 1}, .q = {0, 0, 0, 1}};
-    ellipsoid_controller controller = {0};
-    ellipsoid_statistics statistics = {0};
-    ellipsoid_model m;
-    double t = 0, energy[2] = {0, 0}, momentum[2][3];
-
-    (void)unused;
-    o.semi_axes[0] = 1;
-    o.semi_axes[1] = 1.6;
-    o.semi_axes[2] = 0.7;
-    o.tolerance = 1e-14;
-    o.maximum_steps = 100000000;
-    m = test_model(&o);
-    for (int n = 0; n < 2; n++)
-    {
-        double r[3][3];
-
-        ellipsoid_rotation(s.q, r);
-        for (int i = 0; i < 3; i++)
-        {
-            energy[n] += m.inertia[i] * s.omega[i] * s.omega[i] / 2;
-            momentum[n][i] = 0;
-            for (int j = 0; j < 3; j++)
-            {
-                momentum[n][i] += r[i][j] * m.inertia[j] * s.omega[j];
-            }
-        }
-        if (n == 0)
-        {
-            assert_ok(test_advance(&m, NULL, &s, &t, 2000 * test_pi,
-                                   &controller, &statistics));
-        }
-    }
-    print_message("# free top: %ld steps, energy changes by %.1e\n",
-                  statistics.accepted, energy[1] / energy[0] - 1);
-    assert_relative(energy[1], energy[0], 1e-10);
-    for (int i = 0; i < 3; i++)
-    {
-        assert_near(momentum[1][i], momentum[0][i],
-                    1e-10 * ellipsoid_length(momentum[0]));
-    }
 }
 
 /* -------------------------------------------------------------- plane slit */
@@ -386,9 +239,6 @@ int main(void)
         cmocka_unit_test(test_jeffery_without_inertia),
         cmocka_unit_test(test_jeffery_with_inertia),
         cmocka_unit_test(test_log_rolling),
-        cmocka_unit_test(test_relaxation),
-        cmocka_unit_test(test_inclined_sedimentation),
-        cmocka_unit_test(test_free_top),
         cmocka_unit_test(test_slit_steps),
         cmocka_unit_test(test_length_of_q),
     };
