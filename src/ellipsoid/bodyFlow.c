@@ -161,12 +161,16 @@ static void add_derivatives(const double point[3], double weight,
         ellipsoid_cross(point, body, turning);
         for (int i = 0; i < 3; i++)
         {
-            double *of_u = l < 3 ? &free->u_x[i][l] : &free->u_q[i][l - 3];
-            double *of_omega =
-                l < 3 ? &free->omega_x[i][l] : &free->omega_q[i][l - 3];
-
-            *of_u += weight * change[i];
-            *of_omega += weight * turning[i];
+            if (l < 3)
+            {
+                free->u_x[i][l] += weight * change[i];
+                free->omega_x[i][l] += weight * turning[i];
+            }
+            else
+            {
+                free->u_q[i][l - 3] += weight * change[i];
+                free->omega_q[i][l - 3] += weight * turning[i];
+            }
         }
     }
 }
