@@ -130,48 +130,48 @@ static int velocities_of_flow(const ellipsoid_surroundings *surroundings,
     return 0;
 }
 
+/* Adds to two columns the change of the velocity and its turning moment. */
+static void add_column(const double point[3], double weight,
+                       const double change[3], const double body[3],
+                       double *of_u, double *of_omega, int stride)
+{
+    double turning[3];
+
+    ellipsoid_cross(point, body, turning);
+    for (int i = 0; i < 3; i++)
+    {
+        of_u[i * stride] += weight * change[i];
+        of_omega[i * stride] += weight * turning[i];
+    }
+}
+
 /* One point's part in the derivatives. rel: its velocity less the centre's. */
 static void add_derivatives(const double point[3], double weight,
                             const double rel[3], double jacobian[3][3],
                             double axis[3][3], double d[4][3][3],
                             ellipsoid_free_motion *free)
 {
-    for (int l = 0; l < 7; l++)
+    double change[3], body[3];
+
+    for (int l = 0; l < 3; l++)
     {
-        double change[3], body[3], turning[3];
+        ellipsoid_set(change, jacobian[0][l], jacobian[1][l], jacobian[2][l]);
+        ellipsoid_product(axis, change, body);
+        add_column(point, weight, change, body, &free->u_x[0][l],
+                   &free->omega_x[0][l], 3);
+    }
+    for (int n = 0; n < 4; n++)
+    {
+        /* the point moves, and the body turns under the flow */
+        double moved[3], turned[3];
 
-        if (l < 3)
-        {
-            ellipsoid_set(change, jacobian[0][l], jacobian[1][l],
-                          jacobian[2][l]);
-            ellipsoid_product(axis, change, body);
-        }
-        else
-        {
-            /* the point moves, and the body turns under the flow */
-            double moved[3], turned[3];
-
-            ellipsoid_combination(d[l - 3], point[0], point[1], point[2],
-                                  moved);
-            ellipsoid_product(jacobian, moved, change);
-            ellipsoid_product(axis, change, body);
-            ellipsoid_product(d[l - 3], rel, turned);
-            ellipsoid_add(body, turned);
-        }
-        ellipsoid_cross(point, body, turning);
-        for (int i = 0; i < 3; i++)
-        {
-            if (l < 3)
-            {
-                free->u_x[i][l] += weight * change[i];
-                free->omega_x[i][l] += weight * turning[i];
-            }
-            else
-            {
-                free->u_q[i][l - 3] += weight * change[i];
-                free->omega_q[i][l - 3] += weight * turning[i];
-            }
-        }
+        ellipsoid_combination(d[n], point[0], point[1], point[2], moved);
+        ellipsoid_product(jacobian, moved, change);
+        ellipsoid_product(axis, change, body);
+        ellipsoid_product(d[n], rel, turned);
+        ellipsoid_add(body, turned);
+        add_column(point, weight, change, body, &free->u_q[0][n],
+                   &free->omega_q[0][n], 4);
     }
 }
 

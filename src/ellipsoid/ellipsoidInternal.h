@@ -73,10 +73,10 @@ void ellipsoid_add_noise(const ellipsoid_noise *noise, double axis[3][3],
                          double axis_derivatives[4][3][3], double force[3],
                          double torque[3], ellipsoid_blocks *blocks);
 
-/* Sets force [N, lab] and torque [N m, body] to all but drag and contact, and
-   adds to the blocks their derivatives, if wanted (forces.c). flow may be
-   NULL. */
-ellipsoid_status ellipsoid_set_forces(
+/* Adds to force [N, lab] and torque [N m, body], and to the blocks if wanted,
+   what is not drag, contact, constant or DUDT; of that the blocks alone
+   (forces.c). flow may be NULL. */
+ellipsoid_status ellipsoid_add_forces(
     const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
     const double x[3], double axis[3][3], double axis_derivatives[4][3][3],
     ellipsoid_flow_sample *flow, double force[3], double torque[3],
@@ -191,6 +191,33 @@ ellipsoid_status ellipsoid_problem_evaluate(const ellipsoid_problem *problem,
                                             ellipsoid_state *derivative,
                                             ellipsoid_contact *contact,
                                             ellipsoid_blocks *blocks);
+
+/*
+    (g M - J) k = r with g = 1/(gamma h), M = I but for inertialess motion. As
+   dx/dt = u, k_x = (r_x + k_u)/g; as Q^2 = -|omega|^2 I, (g I - Q/2)^-1 = (g I
+   + Q/2)/(g^2 + |omega|^2/4) gives k_q from k_omega. A dense 6x6 system in
+   (k_u, k_omega) is left. The solution is wanted six times, hence explicit
+   matrices instead of substitutions, in which each number waits for the one
+   before.
+*/
+typedef struct ellipsoid_stage_system
+{
+    double per_g;
+    double to_rates[ELLIPSOID_STATE_SIZE][6]; /* transposed: (k_u, k_omega)
+                                                 from r */
+    double q_from_q[4][4];    /* transposed: k_q from r_q */
+    double q_from_w[3][4];    /* transposed: k_q from k_omega */
+} ellipsoid_stage_system;
+
+/* Returns 0 if the step is so long that the matrix is singular
+   (stageSystem.c). */
+int ellipsoid_stage_system_prepare(ellipsoid_stage_system *system,
+                                   const ellipsoid_problem *problem,
+                                   const ellipsoid_point *start, double h);
+
+void ellipsoid_stage_system_solve(const ellipsoid_stage_system *system,
+                                  const double r[ELLIPSOID_STATE_SIZE],
+                                  double k[ELLIPSOID_STATE_SIZE]);
 
 /*
     One Rosenbrock step of length h [s] from a point that has its blocks; y has

@@ -26,7 +26,7 @@ typedef struct evaluation
 {
     const ellipsoid_model *model;
     const ellipsoid_state *state;
-    ellipsoid_flow_sample flow;
+    ellipsoid_flow_sample *flow;
     ellipsoid_free_motion free;
     double axis[3][3];    /* r_i: body axes in the lab, the columns of R(q) */
     double stretch[3][3]; /* G r_i; of FLOW_CENTRE */
@@ -52,11 +52,11 @@ static inline double free_spin_about(const evaluation *e, int i, int j, int k)
 
 static inline void set_free_motion(evaluation *e)
 {
-    ellipsoid_product(e->flow.gradient, e->axis[0], e->stretch[0]);
-    ellipsoid_product(e->flow.gradient, e->axis[1], e->stretch[1]);
-    ellipsoid_product(e->flow.gradient, e->axis[2], e->stretch[2]);
-    ellipsoid_set(e->free.u, e->flow.velocity[0], e->flow.velocity[1],
-                  e->flow.velocity[2]);
+    ellipsoid_product(e->flow->gradient, e->axis[0], e->stretch[0]);
+    ellipsoid_product(e->flow->gradient, e->axis[1], e->stretch[1]);
+    ellipsoid_product(e->flow->gradient, e->axis[2], e->stretch[2]);
+    ellipsoid_set(e->free.u, e->flow->velocity[0], e->flow->velocity[1],
+                  e->flow->velocity[2]);
     ellipsoid_set(e->free.omega, free_spin_about(e, 0, 1, 2),
                   free_spin_about(e, 1, 2, 0), free_spin_about(e, 2, 0, 1));
 }
@@ -98,15 +98,15 @@ static void set_free_derivatives(evaluation *e, double d[4][3][3])
     double back[3][3];      /* G^T r_i */
     double change[3][3][3]; /* [i][s][l]: sum_t dG_st/dx_l r_i[t] */
 
-    memcpy(e->free.u_x, e->flow.velocity_jacobian, sizeof(e->free.u_x));
+    memcpy(e->free.u_x, e->flow->velocity_jacobian, sizeof(e->free.u_x));
     for (int i = 0; i < 3; i++)
     {
         const double *r = e->axis[i];
 
-        ellipsoid_combination(e->flow.gradient, r[0], r[1], r[2], back[i]);
+        ellipsoid_combination(e->flow->gradient, r[0], r[1], r[2], back[i]);
         for (int s = 0; s < 3; s++)
         {
-            ellipsoid_combination(e->flow.gradient_jacobian[s], r[0], r[1],
+            ellipsoid_combination(e->flow->gradient_jacobian[s], r[0], r[1],
                                   r[2], change[i][s]);
         }
     }
@@ -118,7 +118,7 @@ static void set_free_derivatives(evaluation *e, double d[4][3][3])
 /* ------------------------------------------------------------------ drag */
 
 /* u and omega with which the drag balances all other forces. */
-static void balance(evaluation *e, ellipsoid_state *state)
+static inline void balance(evaluation *e, double u[3], double omega[3])
 {
     const double *m = e->model->mobility, *w = e->model->rotation_mobility;
     double slip[3];
@@ -126,9 +126,9 @@ static void balance(evaluation *e, ellipsoid_state *state)
     ellipsoid_combination(e->axis, m[0] * ellipsoid_dot(e->axis[0], e->force),
                           m[1] * ellipsoid_dot(e->axis[1], e->force),
                           m[2] * ellipsoid_dot(e->axis[2], e->force), slip);
-    ellipsoid_set(state->u, e->free.u[0] + slip[0], e->free.u[1] + slip[1],
+    ellipsoid_set(u, e->free.u[0] + slip[0], e->free.u[1] + slip[1],
                   e->free.u[2] + slip[2]);
-    ellipsoid_set(state->omega, e->free.omega[0] + w[0] * e->torque[0],
+    ellipsoid_set(omega, e->free.omega[0] + w[0] * e->torque[0],
                   e->free.omega[1] + w[1] * e->torque[1],
                   e->free.omega[2] + w[2] * e->torque[2]);
 }
@@ -212,11 +212,10 @@ static void add_drag_blocks(evaluation *e, double d[4][3][3],
 /* --------------------------------------------------------------- contact */
 
 /* F_W and T^_W. */
-static ellipsoid_status add_contact(evaluation *e,
-                                    const ellipsoid_surroundings *surroundings,
-                                    ellipsoid_contact_cache *cache,
-                                    ellipsoid_contact *contact,
-                                    ellipsoid_blocks *b)
+static inline ellipsoid_status
+add_contact(evaluation *e, const ellipsoid_surroundings *surroundings,
+            ellipsoid_contact_cache *cache, ellipsoid_contact *contact,
+            ellipsoid_blocks *b)
 {
     ellipsoid_contact_jacobian jacobian;
     const ellipsoid_status status = ellipsoid_contact_evaluate(
@@ -227,11 +226,8 @@ static ellipsoid_status add_contact(evaluation *e,
     {
         return status;
     }
-    for (int i = 0; i < 3; i++)
-    {
-        e->force[i] += contact->force[i];
-        e->torque[i] += contact->torque[i];
-    }
+    ellipsoid_add(e->force, contact->force);
+    ellipsoid_add(e->torque, contact->torque);
     if (b && contact->touching_beads > 0)
     {
         for (int i = 0; i < 3; i++)
@@ -314,13 +310,14 @@ static void finish_blocks(const evaluation *e, int inertial,
 }
 
 /* Kinematics, paper eqs. (2) and (4). One NaN or infinity makes the sum one. */
-static inline ellipsoid_status finish(const ellipsoid_state *state,
+static inline ellipsoid_status finish(const double u[3], const double omega[3],
+                                      const double at[4],
                                       ellipsoid_state *derivative)
 {
     double q[4];
 
-    ellipsoid_set(derivative->x, state->u[0], state->u[1], state->u[2]);
-    ellipsoid_spin(state->omega, state->q, q);
+    ellipsoid_set(derivative->x, u[0], u[1], u[2]);
+    ellipsoid_spin(omega, at, q);
     for (int n = 0; n < 4; n++)
     {
         derivative->q[n] = 0.5 * q[n];
@@ -332,27 +329,24 @@ static inline ellipsoid_status finish(const ellipsoid_state *state,
              : ELLIPSOID_NON_FINITE;
 }
 
-/* The undisturbed flow, and the motion that it would give a free body. */
+/* The motion that the flow would give a free body. The copy is for those who
+   want an address: so the compiler need not give the original one. */
 static inline ellipsoid_status
-sample_flow(evaluation *e, const ellipsoid_surroundings *surroundings,
-            double d[4][3][3], int derivatives)
+set_free(evaluation *e, const ellipsoid_surroundings *surroundings,
+         double d[4][3][3], int derivatives)
 {
-    const int answer = surroundings->flow(surroundings->flow_context,
-                                          e->state->x, derivatives, &e->flow);
-
-    if (answer != 0)
-    {
-        return ellipsoid_answer_status(answer);
-    }
-    if (!e->model->options.drag)
-    {
-        return ELLIPSOID_OK;
-    }
     if (e->model->flow_points > 0)
     {
-        return ellipsoid_body_flow(e->model, surroundings, e->state->x,
-                                   e->flow.velocity, e->axis,
-                                   derivatives ? d : NULL, &e->free);
+        double axis[3][3];
+        ellipsoid_free_motion motion;
+        ellipsoid_status status;
+
+        memcpy(axis, e->axis, sizeof(axis));
+        status = ellipsoid_body_flow(e->model, surroundings, e->state->x,
+                                     e->flow->velocity, axis,
+                                     derivatives ? d : NULL, &motion);
+        e->free = motion;
+        return status;
     }
     set_free_motion(e);
     if (derivatives)
@@ -362,26 +356,71 @@ sample_flow(evaluation *e, const ellipsoid_surroundings *surroundings,
     return ELLIPSOID_OK;
 }
 
-ellipsoid_status ellipsoid_evaluate(const ellipsoid_model *model,
-                                    const ellipsoid_surroundings *surroundings,
-                                    const ellipsoid_noise *noise,
-                                    ellipsoid_state *state, int balanced,
-                                    ellipsoid_contact_cache *cache,
-                                    ellipsoid_state *derivative,
-                                    ellipsoid_contact *contact,
-                                    ellipsoid_blocks *blocks)
+/* All but drag and contact. */
+static inline ellipsoid_status
+set_forces(evaluation *e, const ellipsoid_surroundings *surroundings,
+           const ellipsoid_noise *noise, double d[4][3][3],
+           ellipsoid_blocks *blocks)
+{
+    const ellipsoid_model *m = e->model;
+
+    ellipsoid_set(e->force, m->constant_force[0], m->constant_force[1],
+                  m->constant_force[2]);
+    ellipsoid_set(e->torque, m->options.external_torque[0],
+                  m->options.external_torque[1], m->options.external_torque[2]);
+    if (e->flow && m->options.pressure_gradient == ELLIPSOID_PRESSURE_DUDT)
+    {
+        double push[3];
+
+        ellipsoid_product(e->flow->gradient, e->flow->velocity, push);
+        ellipsoid_set(push, m->fluid_mass * push[0], m->fluid_mass * push[1],
+                      m->fluid_mass * push[2]);
+        ellipsoid_add(e->force, push);
+    }
+    if (blocks || noise || m->electric
+        || m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
+    {
+        double axis[3][3], force[3], torque[3];
+        ellipsoid_status status;
+
+        memcpy(axis, e->axis, sizeof(axis));
+        ellipsoid_copy(e->force, force);
+        ellipsoid_copy(e->torque, torque);
+        status = ellipsoid_add_forces(m, surroundings, e->state->x, axis,
+                                      blocks ? d : NULL, e->flow, force, torque,
+                                      blocks);
+        if (noise)
+        {
+            ellipsoid_add_noise(noise, axis, d, force, torque, blocks);
+        }
+        ellipsoid_copy(force, e->force);
+        ellipsoid_copy(torque, e->torque);
+        return status;
+    }
+    return ELLIPSOID_OK;
+}
+
+/* Inlined thrice below, with constants that tell the compiler what to leave
+   out; e has no address taken, so that it stays in registers. */
+static inline ellipsoid_status
+evaluate(const ellipsoid_model *model,
+         const ellipsoid_surroundings *surroundings,
+         const ellipsoid_noise *noise, ellipsoid_state *state, int balanced,
+         ellipsoid_contact_cache *cache, ellipsoid_state *derivative,
+         ellipsoid_contact *contact, ellipsoid_blocks *blocks)
 {
     const int inertial = model->options.motion == ELLIPSOID_MOTION_INERTIAL;
     const int drag = model->options.drag && surroundings->flow;
     const double *q = state->q;
-    const double conjugate[4] = {q[0], q[1], q[2], -q[3]}; /* or its minus */
     double d[4][3][3];
     ellipsoid_status status = ELLIPSOID_OK;
+    ellipsoid_flow_sample flow;
+    double u[3], omega[3];
     evaluation e;
 
     e.model = model;
     e.state = state;
-    ellipsoid_rotation_inline(conjugate, e.axis);
+    e.flow = NULL;
     if (blocks)
     {
         memset(blocks, 0, sizeof(*blocks));
@@ -389,18 +428,26 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_model *model,
     }
     if (surroundings->flow)
     {
-        status = sample_flow(&e, surroundings, d, blocks != NULL);
-        if (status != ELLIPSOID_OK)
+        const int answer = surroundings->flow(surroundings->flow_context,
+                                              state->x, blocks != NULL, &flow);
+
+        if (answer != 0)
         {
-            return status;
+            return ellipsoid_answer_status(answer);
         }
+        e.flow = &flow;
     }
-    status = ellipsoid_set_forces(
-        model, surroundings, state->x, e.axis, blocks ? d : NULL,
-        surroundings->flow ? &e.flow : NULL, e.force, e.torque, blocks);
-    if (noise)
+
+    const double conjugate[4] = {q[0], q[1], q[2], -q[3]}; /* or its minus */
+
+    ellipsoid_rotation_inline(conjugate, e.axis);
+    if (drag)
     {
-        ellipsoid_add_noise(noise, e.axis, d, e.force, e.torque, blocks);
+        status = set_free(&e, surroundings, d, blocks != NULL);
+    }
+    if (status == ELLIPSOID_OK)
+    {
+        status = set_forces(&e, surroundings, noise, d, blocks);
     }
     if (status == ELLIPSOID_OK && ellipsoid_has_walls(model, surroundings))
     {
@@ -410,9 +457,13 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_model *model,
     {
         return status;
     }
+    ellipsoid_copy(state->u, u);
+    ellipsoid_copy(state->omega, omega);
     if (balanced)
     {
-        balance(&e, state);
+        balance(&e, u, omega);
+        ellipsoid_copy(u, state->u);
+        ellipsoid_copy(omega, state->omega);
     }
     if (drag && (blocks || !balanced))
     {
@@ -430,11 +481,32 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_model *model,
     }
     if (balanced)
     {
-        memset(derivative, 0, sizeof(*derivative));
+        ellipsoid_set(derivative->u, 0, 0, 0);
+        ellipsoid_set(derivative->omega, 0, 0, 0);
     }
     else
     {
         accelerations(&e, inertial, derivative);
     }
-    return finish(state, derivative);
+    return finish(u, omega, q, derivative);
+}
+
+ellipsoid_status ellipsoid_evaluate(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const ellipsoid_noise *noise, ellipsoid_state *state, int balanced,
+    ellipsoid_contact_cache *cache, ellipsoid_state *derivative,
+    ellipsoid_contact *contact, ellipsoid_blocks *blocks)
+{
+    if (blocks)
+    {
+        return evaluate(model, surroundings, noise, state, balanced, cache,
+                        derivative, contact, blocks);
+    }
+    if (balanced)
+    {
+        return evaluate(model, surroundings, noise, state, 1, cache, derivative,
+                        contact, NULL);
+    }
+    return evaluate(model, surroundings, noise, state, 0, cache, derivative,
+                    contact, NULL);
 }

@@ -7,20 +7,12 @@
 */
 #include "ellipsoidInternal.h"
 
-/* F_PG: m_f (u_f . grad) u_f, or -V grad p. */
+/* F_PG = -V grad p; the other one is in equations.c, where it costs less. */
 static void add_pressure_gradient(const ellipsoid_model *m,
                                   const ellipsoid_flow_sample *flow,
                                   double force[3])
 {
-    if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_DUDT)
-    {
-        for (int i = 0; i < 3; i++)
-        {
-            force[i] += m->fluid_mass
-                      * ellipsoid_dot(flow->gradient[i], flow->velocity);
-        }
-    }
-    else if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
+    if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
     {
         for (int i = 0; i < 3; i++)
         {
@@ -126,14 +118,12 @@ static ellipsoid_status add_electric(const ellipsoid_model *m,
     return ELLIPSOID_OK;
 }
 
-ellipsoid_status ellipsoid_set_forces(
+ellipsoid_status ellipsoid_add_forces(
     const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
     const double x[3], double axis[3][3], double axis_derivatives[4][3][3],
     ellipsoid_flow_sample *flow, double force[3], double torque[3],
     ellipsoid_blocks *blocks)
 {
-    ellipsoid_copy(model->constant_force, force);
-    ellipsoid_copy(model->options.external_torque, torque);
     if (flow)
     {
         add_pressure_gradient(model, flow, force);

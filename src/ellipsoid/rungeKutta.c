@@ -101,8 +101,9 @@ static inline void keep_slopes(const ellipsoid_state *state,
                                const ellipsoid_state *derivative,
                                double k[SIZE])
 {
-    memcpy(k, derivative, SIZE * sizeof(*k));
-    memcpy(k + W, state->omega, sizeof(state->omega));
+    ellipsoid_copy(derivative->x, k + X);
+    ellipsoid_copy(state->omega, k + W);
+    memcpy(k + Q, derivative->q, sizeof(derivative->q));
 }
 
 ellipsoid_status ellipsoid_explicit_step(const ellipsoid_problem *problem,
