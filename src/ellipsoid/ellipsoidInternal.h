@@ -118,9 +118,10 @@ typedef struct ellipsoid_rosenbrock_table
     double a[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
     double c[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
     double dense[2][ELLIPSOID_ROSENBROCK_STAGES];
+    int in_time[ELLIPSOID_ROSENBROCK_STAGES]; /* stages by their time */
 } ellipsoid_rosenbrock_table;
 
-extern const ellipsoid_rosenbrock_table ellipsoid_rodas4; /* rodas4.c */
+extern const ellipsoid_rosenbrock_table ellipsoid_rosenbrock_set; /* rodas4p2.c */
 
 /* Indices of the unknowns in a vector of thirteen. */
 enum

@@ -59,8 +59,8 @@ static inline void weighted_sum(double k[][SIZE], const double *weight,
 static inline void stage_sums(double k[][SIZE], int stage, double a[SIZE],
                               double c[SIZE])
 {
-    const double *wa = ellipsoid_rodas4.a[stage];
-    const double *wc = ellipsoid_rodas4.c[stage];
+    const double *wa = ellipsoid_rosenbrock_set.a[stage];
+    const double *wc = ellipsoid_rosenbrock_set.c[stage];
 
     switch (stage)
     {
@@ -86,9 +86,6 @@ static inline void stage_sums(double k[][SIZE], int stage, double a[SIZE],
     }
 }
 
-/* The stages in the order of their times 0, 0.21, 0.386, 0.63, 1, 1. */
-static const int in_time[ELLIPSOID_ROSENBROCK_STAGES] = {0, 2, 1, 3, 4, 5};
-
 ellipsoid_status ellipsoid_rosenbrock_step(const ellipsoid_problem *problem,
                                            const ellipsoid_point *start,
                                            double h, ellipsoid_stages *stages)
@@ -98,7 +95,7 @@ ellipsoid_status ellipsoid_rosenbrock_step(const ellipsoid_problem *problem,
 
     stages->order = 4;
     stages->sampled = ELLIPSOID_ROSENBROCK_STAGES;
-    stages->in_time = in_time;
+    stages->in_time = ellipsoid_rosenbrock_set.in_time;
     if (!ellipsoid_stage_system_prepare(&system, problem, start, h))
     {
         return ELLIPSOID_NON_FINITE;
@@ -169,7 +166,7 @@ void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,
 {
     for (int i = 0; i < 2; i++)
     {
-        weighted_sum(stages->k, ellipsoid_rodas4.dense[i],
+        weighted_sum(stages->k, ellipsoid_rosenbrock_set.dense[i],
                      ELLIPSOID_ROSENBROCK_STAGES - 1, dense[i]);
     }
     memset(dense[2], 0, sizeof(dense[2]));

@@ -198,7 +198,7 @@ int ellipsoid_stage_system_prepare(ellipsoid_stage_system *s,
     elimination e;
 
     e.state = &start->state;
-    e.per_g = ellipsoid_rodas4.gamma * h;
+    e.per_g = ellipsoid_rosenbrock_set.gamma * h;
     e.g = 1 / e.per_g;
     e.g_rates = problem->inertial ? e.g : 0;
     e.per_square = 1 / (e.g * e.g + 0.25 * ellipsoid_dot(w, w));

@@ -124,7 +124,7 @@ static void check_third_order(method *m, const double b[S], double s,
    to 34: 1e-13. */
 static void test_order_conditions(void **unused)
 {
-    method m = standard_form(&ellipsoid_rodas4);
+    method m = standard_form(&ellipsoid_rosenbrock_set);
     double aaa[S], aa[S], ab[S], baa[S], bb[S], bbb[S];
 
     (void)unused;
@@ -151,7 +151,7 @@ static void test_order_conditions(void **unused)
    stages are at the end of the step. */
 static void test_stiffly_accurate(void **unused)
 {
-    const method m = standard_form(&ellipsoid_rodas4);
+    const method m = standard_form(&ellipsoid_rosenbrock_set);
 
     (void)unused;
     for (int i = 0; i < S; i++)
@@ -186,7 +186,7 @@ static double complex stability(const method *m, double complex z)
    with R(infinity) = 0, L-stable. */
 static void test_l_stable(void **unused)
 {
-    const method m = standard_form(&ellipsoid_rodas4);
+    const method m = standard_form(&ellipsoid_rosenbrock_set);
 
     (void)unused;
     for (double y = 1e-3; y < 1e6; y *= 1.01)
@@ -204,7 +204,7 @@ static void test_l_stable(void **unused)
 /* The continuous extension is of order 3 at every point of the step. */
 static void test_dense_order_conditions(void **unused)
 {
-    const ellipsoid_rosenbrock_table *t = &ellipsoid_rodas4;
+    const ellipsoid_rosenbrock_table *t = &ellipsoid_rosenbrock_set;
     method m = standard_form(t);
 
     (void)unused;
@@ -367,7 +367,7 @@ static void test_block_elimination(void **unused)
                                        .statistics = &statistics,
                                        .length = 1.5,
                                        .inertial = 1};
-    const double h = 0.7, g = 1 / (ellipsoid_rodas4.gamma * h);
+    const double h = 0.7, g = 1 / (ellipsoid_rosenbrock_set.gamma * h);
     double jacobian[SIZE][SIZE], f[SIZE];
     ellipsoid_stages stages;
     ellipsoid_point p;
@@ -458,7 +458,7 @@ static void test_elimination_in_contact(void **unused)
         memcpy(f, &p.derivative, sizeof(f));
         for (int i = 0; i < SIZE; i++)
         {
-            double sum = stages.k[0][i] / (ellipsoid_rodas4.gamma * h) - f[i];
+            double sum = stages.k[0][i] / (ellipsoid_rosenbrock_set.gamma * h) - f[i];
             double size = fabs(sum) + fabs(f[i]);
 
             for (int j = 0; j < SIZE; j++)

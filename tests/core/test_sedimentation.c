@@ -112,7 +112,7 @@ static void settle(const ellipsoid_options *o, const double friction[3],
 /*
     mu R K^ R^T u = (m_p - m_f) g: the body drifts sideways as it settles, and
     does not turn. In five orientations and by three ways: the balance of
-    forces, motion without inertia, and from rest with inertia for 1e4
+    forces, motion without inertia, and from rest with inertia for 1e6
     relaxation times, after which nothing is left of the errors of the start.
     Rounding: 1e-14.
 */
@@ -129,7 +129,7 @@ static void check_settling(const double axes[3], const double friction[3])
         const ellipsoid_model m =
             heavy_body(axes, way == 1 ? ELLIPSOID_MOTION_INERTIALESS
                                       : ELLIPSOID_MOTION_INERTIAL);
-        const double end = way == 0 ? 0 : 1e4 * m.relaxation_time;
+        const double end = way == 0 ? 0 : 1e6 * m.relaxation_time;
         ellipsoid_state s = {.u = {0}};
         ellipsoid_controller controller = {0};
         ellipsoid_statistics statistics = {0};
