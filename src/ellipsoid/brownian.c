@@ -103,7 +103,8 @@ ellipsoid_status ellipsoid_cross_layer(const ellipsoid_problem *problem,
     double axis[3][3], slip[3], angle[3], turn[4];
     ellipsoid_status status;
 
-    if (!noise || !problem->inertial || fabs(t - noise->start) > noise->slack
+    if (!noise || !problem->inertial
+        || fabs(t - noise->start) > 8 * DBL_EPSILON * fmax(fabs(t), until - t)
         || until - t < many * slowest)
     {
         return ELLIPSOID_OK;

@@ -518,7 +518,12 @@ typedef struct ellipsoid_statistics
     double deepest;          /* [m] deepest overlap at the end of a step */
 } ellipsoid_statistics;
 
-/* An accepted step, for dense output: see ellipsoid_step_state(). */
+/*
+    An accepted step, for dense output: see ellipsoid_step_state(). It begins
+    where the last one ended but for INERTIAL Brownian motion in long noise
+    intervals, where u and omega have jumped and x and q moved by what they do in
+    a relaxation time (docs/theory.md, "Brownian force and torque").
+*/
 typedef struct ellipsoid_step
 {
     double start, end;           /* [s] */

@@ -73,11 +73,6 @@ static int all_within(const double value[3], double low, double high)
         && within(value[2], low, high);
 }
 
-static int all_finite(const double value[3])
-{
-    return isfinite(value[0]) && isfinite(value[1]) && isfinite(value[2]);
-}
-
 static int is_switch(int value) { return value == 0 || value == 1; }
 
 /* The ranges keep every derived quantity a normal, finite number. */
@@ -116,12 +111,15 @@ static void check_equations(verdict *v, const ellipsoid_options *o)
                 || o->pressure_gradient == ELLIPSOID_PRESSURE_DUDT
                 || o->pressure_gradient == ELLIPSOID_PRESSURE_GRADP,
             "pressure_gradient", "NONE, DUDT or GRADP");
-    require(v, all_finite(o->gravity), "gravity", "finite");
-    require(v, all_finite(o->external_force), "external_force", "finite");
-    require(v, all_finite(o->external_torque), "external_torque", "finite");
-    require(v, isfinite(o->charge), "charge", "finite");
-    require(v, all_finite(o->dipole), "dipole", "finite");
-    require(v, all_finite(o->electric_field), "electric_field", "finite");
+    require(v, all_within(o->gravity, -1e30, 1e30), "gravity", "-1e30 to 1e30");
+    require(v, all_within(o->external_force, -1e30, 1e30), "external_force",
+            "-1e30 to 1e30");
+    require(v, all_within(o->external_torque, -1e30, 1e30), "external_torque",
+            "-1e30 to 1e30");
+    require(v, within(o->charge, -1e30, 1e30), "charge", "-1e30 to 1e30");
+    require(v, all_within(o->dipole, -1e30, 1e30), "dipole", "-1e30 to 1e30");
+    require(v, all_within(o->electric_field, -1e30, 1e30), "electric_field",
+            "-1e30 to 1e30");
 }
 
 static void check_brownian(verdict *v, const ellipsoid_options *o)

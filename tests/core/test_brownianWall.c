@@ -1,0 +1,514 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    test_brownianWall.c - Brownian motion over a wall that the body touches:
+    Boltzmann's distribution of height and orientation.
+*/
+#include "brownianProfile.h"
+#include "wallMesh.h"
+
+static const double micron = 1e-6; /* [m] */
+
+static const double radius = 0.499999e-6; /* [m] of the sphere's one bead */
+static const double scale = 0.2e-6;       /* [m] kT/weight of the sphere */
+
+/* ----------------------------------------------------------- the scene */
+
+/* The wall x3 = 0, far beyond where a cell gets in a test. */
+static wall_mesh wall;
+static ellipsoid_contact_cache cache;
+
+static int build_wall(void **unused)
+{
+    const double corner[3] = {-1e-3, -1e-3, 0};
+    const double u[3] = {2e-3, 0, 0}, v[3] = {0, 2e-3, 0};
+
+    (void)unused;
+    wall_mesh_init(&wall);
+    wall_mesh_plane(&wall, corner, u, v, 1, 1, 0, 0);
+    wall_mesh_finish(&wall);
+    return 0;
+}
+
+static int free_wall(void **unused)
+{
+    (void)unused;
+    wall_mesh_free(&wall);
+    return 0;
+}
+
+/* A body as heavy as to have the scale height [m]. */
+static ellipsoid_options over_wall(ellipsoid_motion motion, int beads,
+                                   double modulus, double scale_height,
+                                   double interval)
+{
+    ellipsoid_options o = test_brownian(motion, interval);
+    double volume;
+
+    o.contact = 1;
+    o.buoyancy = 1;
+    o.contact_modulus = modulus;
+    o.bead_count = beads;
+    if (beads == 1)
+    {
+        o.semi_axes[1] = o.semi_axes[0];
+        o.bead_radius = radius;
+    }
+    volume = 4 * test_pi / 3 * o.semi_axes[0] * o.semi_axes[1] * o.semi_axes[2];
+    o.density =
+        o.fluid_density - test_kt / (scale_height * volume * o.gravity[2]);
+    return o;
+}
+
+static test_walk walk_over_wall(const ellipsoid_options *options, uint64_t seed,
+                                uint32_t id, double height)
+{
+    test_walk w = test_walk_of(options, seed, id);
+
+    w.around.walls = wall_mesh_list;
+    w.around.walls_context = &wall;
+    w.cache = &cache;
+    w.state.x[2] = height;
+    ellipsoid_contact_cache_clear(&cache);
+    return w;
+}
+
+/* Interval after which a sphere has moved by `way` [m], rms along an axis. */
+static double interval_of(double way)
+{
+    const ellipsoid_options o =
+        over_wall(ELLIPSOID_MOTION_INERTIALESS, 1, 1, scale, 1);
+
+    return way * way / (2 * test_kt * test_model(&o).mobility[0]);
+}
+
+/* -------------------------------------------------------------- sphere */
+
+/*
+    A soft sphere: kT presses it in by 0.1 um, (2.5 kT/k)^(2/5). An interval
+    moves it by 0.04 um, which by test_soft_wall_refinement makes the mean low
+   by 0.3 (0.04/L)^2 L = 2.4 nm at most, a hundredth of the deviation. Heights
+    relax with 4 L^2/D or faster (Risken, The Fokker-Planck Equation, 1989, of a
+    constant force on a wall), from 3 L above the wall and for 9 of these times:
+    exp(-9) of exp(1.5) is left. 1e-4 of L/2 = 0.1 um is
+    the tolerance, less than a thousandth of the way of an interval.
+
+    Cells are independent. Kolmogorov & Smirnov at a significance of 1e-4, c =
+    2.225; the mean within 5 sigma of its known deviation.
+*/
+static void check_sphere(ellipsoid_motion motion, int cells)
+{
+    const double dt = interval_of(0.2 * scale);
+    const int length =
+        (int)(9 * 8 / (0.2 * 0.2)); /* 4 L^2/D is 8 L^2/way^2 dt */
+    ellipsoid_options o = over_wall(motion, 1, 3.4, scale, dt);
+    double *height = calloc((size_t)cells, sizeof(*height));
+    double distance, sigma;
+    long tried = 0, touching = 0;
+    test_sample sample = {0};
+    ellipsoid_model m;
+    profile p;
+
+    o.tolerance = 1e-4;
+    m = test_model(&o);
+    p = boltzmann(&m, 0, radius + 20 * scale);
+    assert_non_null(height);
+    for (int id = 0; id < cells; id++)
+    {
+        test_walk w = walk_over_wall(&o, 31, (uint32_t)id, radius + 3 * scale);
+
+        for (int n = 0; n < length; n++)
+        {
+            test_walk_on(&w);
+        }
+        height[id] = w.state.x[2];
+        test_sample_add(&sample, height[id]);
+        tried += w.statistics.accepted + w.statistics.rejected;
+        touching += height[id] < radius;
+    }
+    distance = test_kolmogorov(height, cells, height_distribution, &p);
+    sigma = p.deviation / sqrt(cells);
+    print_message(
+        "# %s sphere, %d cells, dt = %.2e s: %.2f touch, mean %.4f of "
+        "%.4f +- %.4f um, deviation %.4f of %.4f um, sqrt(n) D = %.2f "
+        "(2.225 allowed), %.2f steps an interval\n",
+        test_motion_name(motion), cells, dt, (double)touching / cells,
+        sample.mean / micron, p.mean / micron, sigma / micron,
+        test_sample_sigma(&sample) * sqrt(cells) / micron, p.deviation / micron,
+        distance, (double)tried / cells / length);
+    free(height);
+    assert_true(touching > cells / 5); /* contact counts */
+    assert_true(distance < 2.225);
+    assert_near(sample.mean, p.mean, 5 * sigma + 2.4e-9);
+}
+
+static void test_sphere_profile(void **unused)
+{
+    (void)unused;
+    check_sphere(ELLIPSOID_MOTION_INERTIALESS, test_full() ? 2500 : 300);
+    check_sphere(ELLIPSOID_MOTION_INERTIAL, test_full() ? 800 : 60);
+}
+
+/* ------------------------------------------------ refinement, hard wall */
+
+/* x3 of a force fixed in a body that turns steadily from a to b: its mean, by
+   Simpson's rule. */
+static double mean_push(const ellipsoid_state *a, const ellipsoid_state *b,
+                        const double force[3])
+{
+    double q[3][4], r[3][3], sum = 0;
+
+    for (int n = 0; n < 4; n++)
+    {
+        q[0][n] = a->q[n];
+        q[1][n] = 0.5 * (a->q[n] + b->q[n]);
+        q[2][n] = b->q[n];
+    }
+    ellipsoid_normalise(q[1]);
+    for (int k = 0; k < 3; k++)
+    {
+        ellipsoid_rotation(q[k], r);
+        sum += (k == 1 ? 4 : 1) * ellipsoid_dot(r[2], force) / 6;
+    }
+    return sum;
+}
+
+/*
+    On a hard wall (1 MPa: pressed in by 0.1 nm) a cell that is pushed against
+   it waits there for the interval to end. With the same noise, heights at
+   interval ends are those of Lindley's recursion h -> max(0, h + sigma n -
+   sigma^2/(2 L)), sigma = sqrt(2 D dt), whose stationary mean is (Chang &
+   Peres, Ann. Probab. 25, 787 (1997)) L + sigma zeta(1/2)/sqrt(2 pi) +
+   sigma^2/(8 L) + O(sigma^3/L^2), zeta(1/2)/sqrt(2 pi) = -0.5826. So the
+   profile converges with sqrt(dt).
+
+    The mean of the cell's heights is compared with that of the recursion: they
+    differ by the depth and by what Simpson's rule makes of the turn of the
+   force in an interval, phi^4/2880: 0.005 L is far more. The recursion's with
+   the theory: 5 sigma; the mean over N intervals has a deviation of L sqrt(8/N)
+   L/sigma, as a Brownian motion with drift above a wall stays correlated for 2
+   L^2/D (Abate & Whitt, Adv. Appl. Probab. 19, 560 (1987)).
+*/
+static void check_hard_wall(ellipsoid_motion motion, double part,
+                            double tolerance, long count)
+{
+    const double way = part * scale;
+    const double theory = scale - 0.582597 * way + way * way / (8 * scale);
+    const double sigma = scale * sqrt(8 / (double)count) / part;
+    ellipsoid_options o = over_wall(motion, 1, 1e6, scale, interval_of(way));
+    double height = 0, sum = 0, expected = 0;
+    test_walk w;
+
+    o.tolerance = tolerance;
+    w = walk_over_wall(&o, 32, 1, radius);
+    for (long n = 0; n < count; n++)
+    {
+        const ellipsoid_state before = w.state;
+        double normal[6];
+
+        test_walk_on(&w);
+        ellipsoid_random_normal(32, 1, n, normal);
+        height = fmax(0, height + way * mean_push(&before, &w.state, normal)
+                             - way * way / (2 * scale));
+        expected += height / (double)count;
+        sum += (w.state.x[2] - radius) / (double)count;
+    }
+    print_message("# hard wall, %s, sqrt(2 D dt) = %.3f L (dt = %.1e s), "
+                  "tolerance %.0e: mean height %.4f L, by Lindley %.4f, in the "
+                  "long run %.4f +- %.4f; %.1f + %.1f steps an interval\n",
+                  test_motion_name(motion), part, o.noise_interval, tolerance,
+                  sum / scale, expected / scale, theory / scale, sigma / scale,
+                  (double)w.statistics.accepted / (double)count,
+                  (double)w.statistics.rejected / (double)count);
+    assert_near(sum / scale, expected / scale, 0.005);
+    /* measured: the third order is -0.01 (sigma/L)^3 L */
+    assert_near(expected, theory, 5 * sigma + 0.02 * way * part * part);
+}
+
+static void test_hard_wall(void **unused)
+{
+    const long count = test_full() ? 300000 : 20000;
+
+    (void)unused;
+    check_hard_wall(ELLIPSOID_MOTION_INERTIALESS, 0.5, 1e-6, count);
+    check_hard_wall(ELLIPSOID_MOTION_INERTIALESS, 0.25, 1e-6, count);
+    check_hard_wall(ELLIPSOID_MOTION_INERTIALESS, 0.125, 1e-6, 2 * count);
+    check_hard_wall(ELLIPSOID_MOTION_INERTIAL, 0.25, 1e-6, count);
+}
+
+/* The same at a loose tolerance: step control must not hold a cell on the
+   wall. */
+static void test_hard_wall_loosely(void **unused)
+{
+    const long count = test_full() ? 300000 : 20000;
+
+    (void)unused;
+    check_hard_wall(ELLIPSOID_MOTION_INERTIALESS, 0.25, 1e-4, count);
+    check_hard_wall(ELLIPSOID_MOTION_INERTIAL, 0.25, 1e-4, count);
+}
+
+/*
+    A sphere pressed on the wall by a force, which is then reversed: nothing
+    holds it, and in one interval it goes where the drag lets it, F t/(mu K), to
+    the tolerance and the depth it was pressed in (0.03 nm and less).
+*/
+static int lifts(ellipsoid_motion motion, double modulus, double tolerance)
+{
+    const double force = 1.4e-13, time = 4e-3;
+    ellipsoid_options o = over_wall(motion, 1, modulus, scale, 1);
+    double theory, height;
+    test_walk w;
+
+    o.brownian = 0;
+    o.buoyancy = 0;
+    o.tolerance = tolerance;
+    o.external_force[2] = -force;
+    w = walk_over_wall(&o, 1, 1, radius);
+    assert_ok(test_walk_to(&w, 1));
+    o.external_force[2] = force;
+    w.model = test_model(&o);
+    w.controller = (ellipsoid_controller){.step = time};
+    assert_ok(test_walk_to(&w, 1 + time));
+    theory = force * w.model.mobility[2] * time;
+    height = w.state.x[2] - radius;
+    print_message("# pulled off, %s, E* = %.0e Pa, tolerance %.0e: %.4f of "
+                  "%.4f um, %ld + %ld steps in all\n",
+                  test_motion_name(motion), modulus, tolerance, height / micron,
+                  theory / micron, w.statistics.accepted,
+                  w.statistics.rejected);
+    return fabs(height - theory) <= 10 * tolerance * o.semi_axes[0] + 1e-10;
+}
+
+static void test_pulled_off(void **unused)
+{
+    int held = 0;
+
+    (void)unused;
+    for (double tolerance = 1e-8; tolerance < 5e-3; tolerance *= 100)
+    {
+        for (double modulus = 1e6; modulus < 5e9; modulus *= 1000)
+        {
+            held += !lifts(ELLIPSOID_MOTION_INERTIAL, modulus, tolerance);
+            held += !lifts(ELLIPSOID_MOTION_INERTIALESS, modulus, tolerance);
+        }
+    }
+    assert_int_equal(held, 0);
+}
+
+/* ------------------------------------------------ refinement, soft wall */
+
+/* Cells are independent: each gives its mean over time after 12 relaxation
+   times, and their scatter the deviation. */
+static test_sample mean_height(const ellipsoid_options *o, double way,
+                               int cells, long length)
+{
+    const long before = (long)(12 * 8 * scale * scale / (way * way));
+    test_sample sample = {0};
+
+    for (int id = 0; id < cells; id++)
+    {
+        test_walk w = walk_over_wall(o, 36, (uint32_t)id, radius + scale);
+        double sum = 0;
+
+        for (long n = -before; n < length; n++)
+        {
+            test_walk_on(&w);
+            sum += n >= 0 ? w.state.x[2] - radius : 0;
+        }
+        test_sample_add(&sample, sum / (double)length);
+    }
+    return sample;
+}
+
+/*
+    Where kT presses the sphere in by 0.5 L (3.4 Pa) the mean height is that of
+    Boltzmann once an interval's way is short against it; before, it is lower,
+    and by less than half as much when the way is halved: better than on a hard
+    wall. In the long run 0.8 L and 0.4 L are off by 0.26 (sigma/L)^2: of the
+    finest 0.3 (sigma/L)^2 is allowed, and 5 sigma.
+*/
+static void test_soft_wall_refinement(void **unused)
+{
+    const long length = test_full() ? 20000 : 1000;
+    double before = 0;
+
+    (void)unused;
+    for (double part = 1.6; part > 0.19; part /= 2)
+    {
+        const double way = part * scale;
+        ellipsoid_options o = over_wall(ELLIPSOID_MOTION_INERTIALESS, 1, 3.4,
+                                        scale, interval_of(way));
+        test_sample sample;
+        ellipsoid_model m;
+        double sigma, off;
+        profile p;
+
+        o.tolerance = 1e-4;
+        m = test_model(&o);
+        p = boltzmann(&m, 0, radius + 20 * scale);
+        sample = mean_height(&o, way, 40, length);
+        sigma = test_sample_sigma(&sample) / scale;
+        off = (sample.mean - (p.mean - radius)) / scale;
+        print_message("# soft wall, sqrt(2 D dt) = %.2f L (dt = %.1e s): mean "
+                      "height off by %.4f +- %.4f L\n",
+                      part, o.noise_interval, off, sigma);
+        if (before < 0)
+        {
+            assert_true(fabs(off) < 0.5 * fabs(before) + 5 * sigma);
+        }
+        before = off;
+        if (part < 0.21)
+        {
+            assert_near(off, 0, 5 * sigma + 0.3 * part * part);
+        }
+    }
+}
+
+/* ------------------------------------------------------ the paper's cell */
+
+/*
+    32 beads, kT/weight = 0.3 um: it lies on the wall, on several beads, and
+    rises on one end at times. One bead is pressed in by 0.1 um by kT; an
+    interval of 4 ms moves the centre by 0.04 um and an end by 0.06 um. Heights
+    relax with 4 L^2/D = 1.7 s. Started 2 um up, in any direction, and sampled
+    from 12 s to 24 s: each cell is independent and gives one mean over time,
+    and the scatter of these the deviation; its last height goes into
+    Kolmogorov & Smirnov's test, at a significance of 1e-4.
+*/
+static void check_cell(ellipsoid_motion motion, double dt, int cells)
+{
+    ellipsoid_options o = over_wall(motion, 32, 4.6, 0.3 * micron, dt);
+    const long half = lround(12 / dt);
+    double *height = calloc((size_t)cells, sizeof(*height));
+    double distance;
+    long tried = 0;
+    test_sample mean = {0}, upright = {0};
+    uint64_t seed = 33;
+    ellipsoid_model m;
+    profile p;
+
+    assert_non_null(height);
+    o.tolerance = 1e-4;
+    m = test_model(&o);
+    p = boltzmann(&m, 0, 6 * micron);
+    for (int id = 0; id < cells; id++)
+    {
+        test_walk w = walk_over_wall(&o, 34, (uint32_t)id, 2 * micron);
+        double sum = 0, square = 0;
+
+        test_orientation(&seed, w.state.q);
+        for (long n = 0; n < 2 * half; n++)
+        {
+            test_walk_on(&w);
+            if (n >= half)
+            {
+                double r[3][3];
+
+                ellipsoid_rotation(w.state.q, r);
+                sum += w.state.x[2];
+                square += r[2][1] * r[2][1];
+            }
+        }
+        height[id] = w.state.x[2];
+        test_sample_add(&mean, sum / (double)half);
+        test_sample_add(&upright, square / (double)half);
+        tried += w.statistics.accepted + w.statistics.rejected;
+    }
+    distance = test_kolmogorov(height, cells, height_distribution, &p);
+    print_message("# %s cell of 32 beads, %d, dt = %.0e s: height %.4f +- %.4f "
+                  "of %.4f um, <O3^2> %.5f +- %.5f of %.5f, sqrt(n) D = %.2f "
+                  "(2.225 allowed), %.2f steps an interval\n",
+                  test_motion_name(motion), cells, dt, mean.mean / micron,
+                  test_sample_sigma(&mean) / micron, p.mean / micron,
+                  upright.mean, test_sample_sigma(&upright), p.upright,
+                  distance, (double)tried / cells / (double)(2 * half));
+    free(height);
+    assert_true(distance < 2.225);
+    assert_near(mean.mean, p.mean, 5 * test_sample_sigma(&mean));
+    assert_near(upright.mean, p.upright, 5 * test_sample_sigma(&upright));
+}
+
+static void test_cell_profile(void **unused)
+{
+    (void)unused;
+    check_cell(ELLIPSOID_MOTION_INERTIALESS, 4e-3, test_full() ? 500 : 30);
+    if (test_full())
+    {
+        check_cell(ELLIPSOID_MOTION_INERTIALESS, 1e-3, 100);
+        check_cell(ELLIPSOID_MOTION_INERTIAL, 4e-3, 100);
+    }
+}
+
+/* --------------------------------------------------------------- steps */
+
+/*
+    Resting on a wall, pressed by 1 and 10 pN (the drag of 0.1 and 1 mm/s on the
+    paper's cell; the noise has 0.3 pN), at the default interval, tolerance and
+    modulus. A free cell takes one step an interval (test_brownianPath.c). Here
+    the noise shifts the depth by some 1e-11 m, ten times the tolerance, and
+    rocks the cell from bead to bead: 2 to 25 steps were found, rejected ones
+    included, and no interval that took a hundred.
+*/
+static double steps_an_interval(ellipsoid_motion motion, int beads,
+                                double force)
+{
+    const long count = 3000;
+    ellipsoid_options o = over_wall(motion, beads, 1e6, scale, 1e-3);
+    long worst = 0, before = 0, tried = 0;
+    test_walk w;
+
+    o.buoyancy = 0;
+    o.density = 1040;
+    o.external_force[2] = -force;
+    w = walk_over_wall(&o, 35, 1, 0.5 * micron);
+    for (long n = 0; n < count; n++)
+    {
+        test_walk_on(&w);
+        tried = w.statistics.accepted + w.statistics.rejected;
+        worst = worst > tried - before ? worst : tried - before;
+        before = tried;
+    }
+    print_message("# %s, %2d beads, pressed by %.0e N: %.2f + %.2f steps an "
+                  "interval, at most %ld\n",
+                  test_motion_name(motion), beads, force,
+                  (double)w.statistics.accepted / (double)count,
+                  (double)w.statistics.rejected / (double)count, worst);
+    assert_true(worst < 100);
+    return (double)tried / (double)count;
+}
+
+static void test_steps(void **unused)
+{
+    double most = 0;
+
+    (void)unused;
+    for (int k = 0; k < 2; k++)
+    {
+        const ellipsoid_motion motion =
+            k ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL;
+
+        most = fmax(most, steps_an_interval(motion, 1, 1e-11));
+        most = fmax(most, steps_an_interval(motion, 1, 1e-12));
+        most = fmax(most, steps_an_interval(motion, 32, 1e-11));
+        most = fmax(most, steps_an_interval(motion, 32, 1e-12));
+    }
+    assert_true(most <= 30);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sphere_profile),
+        cmocka_unit_test(test_hard_wall),
+        cmocka_unit_test(test_hard_wall_loosely),
+        cmocka_unit_test(test_pulled_off),
+        cmocka_unit_test(test_soft_wall_refinement),
+        cmocka_unit_test(test_cell_profile),
+        cmocka_unit_test(test_steps),
+    };
+
+    return cmocka_run_group_tests_name("brownianWall", tests, build_wall,
+                                       free_wall);
+}
