@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "captureStatistics.H"
+#include "wholeFile.H"
 #include "polyBoundaryMesh.H"
 #include "wallPolyPatch.H"
 #include "wordRes.H"
@@ -65,7 +66,7 @@ void Foam::captureStatistics::count(const packedEvent& event)
 
     if (!cells_.found(id))
     {
-        cells_.insert(id, record{event, event, -1, -1});
+        cells_.insert(id, record{event, event, -1, -1, 0});
     }
     else
     {
@@ -76,6 +77,7 @@ void Foam::captureStatistics::count(const packedEvent& event)
 
     record& cell = cells_[id];
     ++counts_[fateAfter(event)];
+    cell.deepest = event[11];
 
     if (fateAfter(event) == cellState::caught && cell.firstSieve < 0)
     {
@@ -91,7 +93,12 @@ void Foam::captureStatistics::readLog()
     std::string line;
     std::getline(log, line);
 
-    while (std::getline(log, line))
+    // What came after the time to go on from is about to be cut off
+    while
+    (
+        scalar(log.tellg()) < log_.earlier()
+     && std::getline(log, line)
+    )
     {
         std::istringstream fields(line);
         std::string field;
@@ -188,7 +195,7 @@ Foam::captureStatistics::captureStatistics
     const wordList& patchNames,
     const scalar inletSpeed,
     const fileName& folder,
-    const scalar logSize
+    const dictionary& earlierLog
 )
 :
     patchNames_(patchNames),
@@ -202,12 +209,12 @@ Foam::captureStatistics::captureStatistics
     log_
     (
         folder/"events.csv",
-        "t,id,event,patch,x1,x2,x3,eps1,eps2,eps3,eta",
+        "t,id,event,patch,x1,x2,x3,eps1,eps2,eps3,eta,deepest",
         12,
-        logSize
+        earlierLog
     )
 {
-    if (Pstream::master() && logSize > 0)
+    if (Pstream::master() && log_.earlier() > 0)
     {
         readLog();
     }
@@ -225,6 +232,7 @@ void Foam::captureStatistics::note(const eventType what, const cellState& cell)
     event[3] = cell.patch;
     std::copy_n(cell.body.x, 3, event.begin() + 4);
     std::copy_n(cell.body.q, 4, event.begin() + 7);
+    event[11] = cell.deepest;
 
     pending_.append(event);
 }
@@ -333,6 +341,34 @@ void Foam::captureStatistics::gather()
 }
 
 
+bool Foam::captureStatistics::inside(const label id) const
+{
+    if (!cells_.found(id))
+    {
+        return false;
+    }
+
+    const cellState::fateType fate = fateAfter(cells_[id].last);
+
+    return fate != cellState::escaped && fate != cellState::lost;
+}
+
+
+Foam::labelList Foam::captureStatistics::cellsInside() const
+{
+    DynamicList<label> ids;
+    for (const label id : cells_.sortedToc())
+    {
+        if (inside(id))
+        {
+            ids.append(id);
+        }
+    }
+
+    return labelList(std::move(ids));
+}
+
+
 void Foam::captureStatistics::report(Ostream& os) const
 {
     os  << "cells: " << cells_.size() << " injected, "
@@ -344,13 +380,34 @@ void Foam::captureStatistics::report(Ostream& os) const
 }
 
 
+void Foam::captureStatistics::update(const Map<scalar>& deepest)
+{
+    forAllConstIters(deepest, iter)
+    {
+        cells_[iter.key()].deepest = iter.val();
+    }
+}
+
+
+Foam::scalar Foam::captureStatistics::deepest() const
+{
+    scalar value = 0;
+    forAllConstIters(cells_, iter)
+    {
+        value = max(value, iter.val().deepest);
+    }
+
+    return value;
+}
+
+
 void Foam::captureStatistics::write(Ostream& os) const
 {
     OFstream cells(folder_/"cells.csv");
     cells.precision(12);
     cells
         << "id,tInjected,x1,x2,x3,eps1,eps2,eps3,eta,fate,patch,tFate,"
-        << "firstSieve,tFirstCatch" << nl;
+        << "firstSieve,tFirstCatch,deepest" << nl;
 
     Map<DynamicList<scalar>> held;
 
@@ -360,7 +417,7 @@ void Foam::captureStatistics::write(Ostream& os) const
         const cellState::fateType fate = fateAfter(cell.last);
 
         cells << id << ',' << cell.injection[0];
-        for (label i = 4; i < cell.injection.size(); ++i)
+        for (label i = 4; i < 11; ++i)
         {
             cells << ',' << cell.injection[i];
         }
@@ -376,7 +433,7 @@ void Foam::captureStatistics::write(Ostream& os) const
         {
             cells << cell.firstCatch;
         }
-        cells << nl;
+        cells << ',' << cell.deepest << nl;
 
         if (fate == cellState::caught)
         {
@@ -410,6 +467,14 @@ void Foam::captureStatistics::write(Ostream& os) const
         captures
             << patchNames_[patchi] << ',' << times.size() << ','
             << list.str().c_str() << nl;
+    }
+
+    for (OFstream* table : {&cells, &captures})
+    {
+        if (!table->stdStream().flush())
+        {
+            cannotWrite(table->name());
+        }
     }
 
     os << nl;

@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "cellTracks.H"
+#include "wholeFile.H"
 #include "Pstream.H"
 #include "PstreamReduceOps.H"
 
@@ -73,7 +74,7 @@ Foam::cellTracks::cellTracks
     const wordList& patchNames,
     const scalar length,
     const fileName& folder,
-    const scalar fileSize
+    const dictionary& earlier
 )
 :
     patchNames_(patchNames),
@@ -87,7 +88,7 @@ Foam::cellTracks::cellTracks
         "t,id,x1,x2,x3,u1,u2,u3,eps1,eps2,eps3,eta,"
         "omega1,omega2,omega3,O1,O2,O3,fate,patch",
         9,
-        fileSize
+        earlier
     )
 {}
 
@@ -309,6 +310,11 @@ void Foam::cellTracks::writeVTP()
         os << offset << '\n';
     }
     os  << "</DataArray>\n</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+
+    if (!os.flush())
+    {
+        cannotWrite(folder_/"tracks.vtp");
+    }
 }
 
 

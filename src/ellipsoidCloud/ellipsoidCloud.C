@@ -10,6 +10,7 @@ License
 #include "ellipsoidCloud.H"
 #include "cellSurroundings.H"
 #include "masterFirst.H"
+#include "throughFlow.H"
 #include "PstreamBuffers.H"
 #include "clockTime.H"
 
@@ -58,27 +59,6 @@ namespace Foam
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-Foam::scalar Foam::ellipsoidCloud::inletSpeed(const volVectorField& U)
-{
-    scalar inflow = 0;
-    scalar area = 0;
-
-    forAll(U.boundaryField(), patchi)
-    {
-        const fvPatchVectorField& pU = U.boundaryField()[patchi];
-        const scalar flux = -sum(pU & pU.patch().Sf());
-
-        if (isType<polyPatch>(pU.patch().patch()) && flux > 0)
-        {
-            inflow += flux;
-            area += sum(pU.patch().magSf());
-        }
-    }
-
-    return inflow > 0 ? inflow/area : max(mag(U.primitiveField()));
-}
-
 
 void Foam::ellipsoidCloud::makeInjections(const undecomposedFlow& whole)
 {
@@ -136,7 +116,6 @@ void Foam::ellipsoidCloud::inject(const scalar start, const scalar end)
         std::copy_n(cell.x, 3, state.body.x);
         std::copy_n(cell.q, 4, state.body.q);
         state.time = cell.time;
-        state.injectionTime = cell.time;
         state.id = cell.id;
         state.tet = cell.at.tet;
         state.fate = cellState::inFlight;
@@ -365,14 +344,16 @@ void Foam::ellipsoidCloud::handOver()
 Foam::ellipsoidCloud::ellipsoidCloud
 (
     const volVectorField& U,
-    const volScalarField& p
+    const volScalarField& p,
+    const surfaceScalarField& phi
 )
 :
+    // Empty: what was written is looked at before it is read
     Cloud<ellipsoidParcel>
     (
         U.mesh(),
         "ellipsoidCloud",
-        false
+        IDLList<ellipsoidParcel>()
     ),
     mesh_(U.mesh()),
     properties_(U.mesh()),
@@ -384,10 +365,12 @@ Foam::ellipsoidCloud::ellipsoidCloud
     injections_(),
     statistics_(),
     tracks_(),
+    meshNotes_(),
     time_(presentTime(U.time())),
     firstTime_(U.time().timeName()),
     totals_(),
     trackingTime_(0),
+    movingTime_(0),
     reportTime_(0)
 {
     const ellipsoid_options& options = properties_.options();
@@ -402,7 +385,17 @@ Foam::ellipsoidCloud::ellipsoidCloud
     const scalar length =
         *std::max_element(options.semi_axes, options.semi_axes + 3);
 
-    const undecomposedFlow whole(U, p);
+    const undecomposedFlow whole(U, p, phi);
+    const writtenState earlier(mesh_.time());
+    {
+        const masterFirst once;
+
+        if (Pstream::master())
+        {
+            meshNotes_ = writtenState::notesOf(whole.mesh());
+            earlier.checkMesh(whole.mesh());
+        }
+    }
 
     flow_.reset
     (
@@ -422,18 +415,25 @@ Foam::ellipsoidCloud::ellipsoidCloud
     if (Pstream::master())
     {
         const undecomposedFlow::serialScope serial;
-        speed = inletSpeed(whole.U());
+        speed = throughFlow(whole.U(), whole.phi()).speed();
     }
     Pstream::scatter(speed);
 
     makeInjections(whole);
-    openFiles(speed);
-    ellipsoidParcel::readFields(*this);
-    checkCells();
+    makeTables(speed, earlier);
+    if (earlier.found())
+    {
+        readCells();
+        checkCells();
+    }
+
+    // Nothing on the disk is touched before all is known to be sound
+    statistics_->open();
+    tracks_->open();
 
     Info<< "ellipsoidCloud: " << flow_->nTets() << " tetrahedra, "
-        << walls_->size() << " wall facets, mean inlet speed " << speed
-        << " m/s" << endl;
+        << walls_->size() << " wall facets; slow is below "
+        << statistics_->slowSpeed() << " m/s" << endl;
 }
 
 
@@ -446,6 +446,8 @@ void Foam::ellipsoidCloud::evolve()
 
     inject(time_, end);
 
+    const scalar begun = timer.elapsedTime();
+
     for (ellipsoidParcel& parcel : *this)
     {
         if (!move(parcel, end))
@@ -454,14 +456,11 @@ void Foam::ellipsoidCloud::evolve()
         }
     }
 
+    movingTime_ += timer.elapsedTime() - begun;
+
     handOver();
     statistics_->gather();
     time_ = end;
-
-    if (mesh_.time().writeTime())
-    {
-        writeFiles();
-    }
 
     trackingTime_ += timer.elapsedTime();
     report();

@@ -13,37 +13,30 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "ellipsoidCloud.H"
+#include "masterFirst.H"
+#include "HashSet.H"
+#include "IOPosition.H"
+#include "StringStream.H"
+#include "wholeFile.H"
 
 #include <algorithm>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::IOdictionary Foam::ellipsoidCloud::filesDict() const
+void Foam::ellipsoidCloud::makeTables
+(
+    const scalar inletSpeed,
+    const writtenState& earlier
+)
 {
-    return IOdictionary
-    (
-        IOobject
-        (
-            "ellipsoidCloudFiles",
-            mesh_.time().timeName(),
-            "uniform",
-            mesh_,
-            IOobject::READ_IF_PRESENT,
-            IOobject::NO_WRITE,
-            false
-        )
-    );
-}
+    dictionary tables;
 
-
-void Foam::ellipsoidCloud::openFiles(const scalar inletSpeed)
-{
-    const IOdictionary earlier(filesDict());
-    const scalar eventsSize = earlier.getOrDefault<scalar>("events", 0);
-    const scalar tracksSize = earlier.getOrDefault<scalar>("tracks", 0);
-
-    earlier.readIfPresent<fileName>("folder", firstTime_);
-    earlier.readIfPresent("time", time_);
+    if (earlier.found())
+    {
+        firstTime_ = earlier.notes().get<string>("folder");
+        time_ = earlier.notes().get<scalar>("time");
+        tables = earlier.notes().subDict("tables");
+    }
 
     const fileName folder
     (
@@ -62,7 +55,7 @@ void Foam::ellipsoidCloud::openFiles(const scalar inletSpeed)
             mesh_.boundaryMesh().names(),
             inletSpeed,
             folder,
-            eventsSize
+            tables.subOrEmptyDict("events")
         )
     );
     tracks_.reset
@@ -73,63 +66,128 @@ void Foam::ellipsoidCloud::openFiles(const scalar inletSpeed)
             mesh_.boundaryMesh().names(),
             *std::max_element(options.semi_axes, options.semi_axes + 3),
             folder,
-            tracksSize
+            tables.subOrEmptyDict("tracks")
         )
     );
 }
 
 
-void Foam::ellipsoidCloud::checkCells() const
+void Foam::ellipsoidCloud::readCells()
 {
-    label nInside = statistics_->nInside();
-    Pstream::scatter(nInside);
+    IOPosition<Cloud<ellipsoidParcel>> positions
+    (
+        *this, cloud::geometryType::COORDINATES
+    );
+    const bool there = positions.headerOk();
+    Istream& is = positions.readStream("", there);
 
-    const label nRead = returnReduce(label(size()), sumOp<label>());
-
-    if (nRead != nInside)
+    if (there)
     {
-        FatalErrorInFunction
-            << "time " << mesh_.time().timeName() << " holds " << nRead
-            << " cells, but by the log of events " << nInside
-            << " are in the device" << nl
-            << "    Its folder lagrangian/" << name()
-            << " is incomplete or of another run: go on from another time"
-            << exit(FatalError);
+        positions.readData(is, *this);
+        positions.close();
     }
 
-    for (const ellipsoidParcel& parcel : *this)
-    {
-        const label teti = parcel.state().tet;
-
-        if (teti < 0 || teti >= flow_->nTets())
-        {
-            FatalErrorInFunction
-                << "cell " << parcel.state().id << " of time "
-                << mesh_.time().timeName() << " is of another mesh"
-                << exit(FatalError);
-        }
-    }
+    ellipsoidParcel::readFields(*this);
 }
 
 
-void Foam::ellipsoidCloud::writeFiles()
+void Foam::ellipsoidCloud::checkCells() const
 {
-    tracks_->flush();
+    // What is wrong on any rank, said once
+    List<labelList> ids(Pstream::nProcs());
+    List<string> complaints(Pstream::nProcs());
 
-    scalar eventsSize = statistics_->logSize();
-    scalar tracksSize = tracks_->fileSize();
-    Pstream::scatter(eventsSize);
-    Pstream::scatter(tracksSize);
+    DynamicList<label> mine(size());
 
-    const fullPrecision digits;
+    for (const ellipsoidParcel& parcel : *this)
+    {
+        const cellState& cell = parcel.state();
+        const point x(cell.body.x[0], cell.body.x[1], cell.body.x[2]);
 
-    IOdictionary files(filesDict());
-    files.clear();
-    files.add("time", time_);
-    files.add("folder", string(firstTime_));
-    files.add("events", eventsSize);
-    files.add("tracks", tracksSize);
-    files.regIOobject::write();
+        mine.append(cell.id);
+
+        frozenFlow::probe at{cell.tet, -1};
+
+        if
+        (
+            cell.tet < 0
+         || cell.tet >= flow_->nTets()
+         || !(mag(x) < GREAT)
+         || flow_->place(x, at) != frozenFlow::pInside
+        )
+        {
+            OStringStream os;
+            os.precision(6);
+            os << "cell " << cell.id << " at " << x << " is outside the mesh";
+            complaints[Pstream::myProcNo()] = os.str();
+        }
+    }
+
+    ids[Pstream::myProcNo()].transfer(mine);
+    Pstream::gatherList(ids);
+    Pstream::gatherList(complaints);
+
+    const masterFirst once;
+
+    if (!Pstream::master())
+    {
+        return;
+    }
+
+    string complaint;
+    const auto complain =
+        [&](const string& text)
+        {
+            if (complaint.empty())
+            {
+                complaint = text;
+            }
+        };
+
+    for (const string& text : complaints)
+    {
+        complain(text);
+    }
+
+    labelHashSet read;
+    for (const labelList& some : ids)
+    {
+        for (const label id : some)
+        {
+            if (!read.insert(id))
+            {
+                complain("cell " + Foam::name(id) + " is there twice");
+            }
+            else if (!statistics_->inside(id))
+            {
+                complain
+                (
+                    "cell " + Foam::name(id)
+                  + " is there, but by the log of events not in the device"
+                );
+            }
+        }
+    }
+    for (const label id : statistics_->cellsInside())
+    {
+        if (!read.found(id))
+        {
+            complain
+            (
+                "cell " + Foam::name(id)
+              + " is missing, but by the log of events in the device"
+            );
+        }
+    }
+
+    if (!complaint.empty())
+    {
+        FatalErrorInFunction
+            << "time " << mesh_.time().timeName() << ": " << complaint.c_str()
+            << nl << "    Its folder lagrangian/" << name()
+            << " is incomplete or of another run: go on from another time"
+            << exit(FatalError);
+    }
 }
 
 
@@ -155,7 +213,57 @@ void Foam::ellipsoidCloud::report()
 }
 
 
+void Foam::ellipsoidCloud::reportLoad() const
+{
+    List<scalar> moving(Pstream::nProcs(), Zero);
+    List<scalar> steps(Pstream::nProcs(), Zero);
+
+    moving[Pstream::myProcNo()] = movingTime_;
+    steps[Pstream::myProcNo()] = totals_.accepted + totals_.rejected;
+    Pstream::gatherList(moving);
+    Pstream::gatherList(steps);
+
+    const scalar longest = max(max(moving), VSMALL);
+
+    Info<< "load of the ranks, as seconds (steps):";
+    forAll(moving, ranki)
+    {
+        Info<< ' ' << moving[ranki] << " (" << steps[ranki] << ')';
+    }
+    Info<< "; evenness " << 100*average(moving)/longest << " %" << endl;
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::ellipsoidCloud::writeFields() const
+{
+    writtenState::begin(mesh_.time());
+
+    tracks_->flush();
+
+    const fileName failed
+    (
+        failedFile([&]() { ellipsoidParcel::writeFields(*this); })
+    );
+    if (!failed.empty())
+    {
+        cannotWrite(failed);
+    }
+
+    dictionary tables;
+    tables.add("events", statistics_->notes());
+    tables.add("tracks", tracks_->notes());
+
+    dictionary notes;
+    notes.add("time", time_);
+    notes.add("folder", string(firstTime_));
+    notes.add("mesh", meshNotes_);
+    notes.add("tables", tables);
+
+    writtenState::end(mesh_.time(), notes);
+}
+
 
 void Foam::ellipsoidCloud::finish()
 {
@@ -165,7 +273,13 @@ void Foam::ellipsoidCloud::finish()
     }
     tracks_->flush();
 
-    const scalar deepest = returnReduce(totals_.deepest, maxOp<scalar>());
+    Map<scalar> deepest;
+    for (const ellipsoidParcel& parcel : *this)
+    {
+        deepest.insert(parcel.state().id, parcel.state().deepest);
+    }
+    Pstream::mapCombineGather(deepest, maxEqOp<scalar>());
+
     const scalar longest = returnReduce(trackingTime_, maxOp<scalar>());
 
     // Counts may pass a label's range
@@ -175,12 +289,22 @@ void Foam::ellipsoidCloud::finish()
         returnReduce(int64_t(totals_.rejected), sumOp<int64_t>());
 
     Info<< nl << "tracking: " << longest << " s, " << accepted
-        << " steps, " << rejected << " rejected" << nl
-        << "deepest overlap of a bead with a wall: " << deepest*1e9 << " nm, "
-        << 100*deepest/model_.options.bead_radius << " % of its radius" << nl;
+        << " steps, " << rejected << " rejected" << endl;
+
+    if (Pstream::parRun())
+    {
+        reportLoad();
+    }
 
     if (Pstream::master())
     {
+        statistics_->update(deepest);
+
+        Info<< "deepest overlap of a bead with a wall: "
+            << statistics_->deepest()*1e9 << " nm, "
+            << 100*statistics_->deepest()/model_.options.bead_radius
+            << " % of its radius" << nl;
+
         statistics_->write(Info);
         tracks_->writeVTP();
     }

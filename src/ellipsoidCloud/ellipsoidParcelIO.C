@@ -53,7 +53,6 @@ namespace Foam
         { "step", offsetof(cellState, controller.step), 1 },
         { "previousError", offsetof(cellState, controller.previous_error), 1 },
         { "time", offsetof(cellState, time), 1 },
-        { "injectionTime", offsetof(cellState, injectionTime), 1 },
         { "slowTime", offsetof(cellState, slowTime), 1 },
         { "nextRow", offsetof(cellState, nextRow), 1 },
         { "lastRow", offsetof(cellState, lastRow), 8 },
@@ -206,9 +205,9 @@ void Foam::ellipsoidParcel::readFields(Cloud<ellipsoidParcel>& c)
 
 void Foam::ellipsoidParcel::writeFields(const Cloud<ellipsoidParcel>& c)
 {
-    particle::writeFields(c);
-
     const fullPrecision digits;
+
+    particle::writeFields(c);
 
     for (const cellStateMember& m : members)
     {

@@ -10,6 +10,7 @@ License
 #include "ellipsoidProperties.H"
 #include "cellTracks.H"
 #include "masterFirst.H"
+#include "readViscosity.H"
 #include "StringStream.H"
 #include "captureStatistics.H"
 #include "cellInjection.H"
@@ -309,24 +310,11 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     seed_(1),
     empty_()
 {
-    const IOdictionary transport
-    (
-        IOobject
-        (
-            "transportProperties",
-            mesh.time().constant(),
-            mesh,
-            IOobject::MUST_READ,
-            IOobject::NO_WRITE,
-            false
-        )
-    );
+    options_.kinematic_viscosity = readViscosity(mesh).value();
 
     // No reading of files, for which ranks would have to meet, from here on
     const masterFirst once;
 
-    options_.kinematic_viscosity =
-        dimensionedScalar("nu", dimViscosity, transport).value();
     scheme_ =
         frozenFlow::schemeNames.getOrDefault("interpolation", *this, scheme_);
     seed_ = getOrDefault<label>("seed", seed_);

@@ -16,7 +16,6 @@ Description
 #include "volPointInterpolation.H"
 #include "fvcGrad.H"
 #include "wallPolyPatch.H"
-#include "polyMeshTetDecomposition.H"
 #include "EdgeMap.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //

@@ -10,6 +10,7 @@ License
 #include "undecomposedFlow.H"
 #include "labelIOList.H"
 #include "calculatedFvPatchFields.H"
+#include "calculatedFvsPatchFields.H"
 #include "processorPolyPatch.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -211,20 +212,109 @@ Foam::undecomposedFlow::gather
 }
 
 
+Foam::autoPtr<Foam::surfaceScalarField> Foam::undecomposedFlow::gather
+(
+    const surfaceScalarField& flux,
+    const labelList& faceAddressing
+) const
+{
+    // Addresses count from 1, negative where the face looks the other way
+    labelList faces(faceAddressing);
+    scalarField faceValues(faceAddressing.size(), Zero);
+
+    forAll(flux, facei)
+    {
+        faceValues[facei] = flux[facei];
+    }
+    for (const fvsPatchScalarField& pf : flux.boundaryField())
+    {
+        forAll(pf, i)
+        {
+            faceValues[pf.patch().start() + i] = pf[i];
+        }
+    }
+
+    List<labelList> allFaces(Pstream::nProcs());
+    List<scalarField> allValues(Pstream::nProcs());
+
+    allFaces[Pstream::myProcNo()].transfer(faces);
+    allValues[Pstream::myProcNo()].transfer(faceValues);
+
+    Pstream::gatherList(allFaces);
+    Pstream::gatherList(allValues);
+
+    if (!Pstream::master())
+    {
+        return autoPtr<surfaceScalarField>();
+    }
+
+    const serialScope serial;
+
+    autoPtr<surfaceScalarField> whole
+    (
+        new surfaceScalarField
+        (
+            IOobject
+            (
+                flux.name(),
+                time_->timeName(),
+                *mesh_,
+                IOobject::NO_READ,
+                IOobject::NO_WRITE
+            ),
+            *mesh_,
+            dimensionedScalar("zero", flux.dimensions(), Zero),
+            calculatedFvsPatchScalarField::typeName
+        )
+    );
+
+    forAll(allFaces, ranki)
+    {
+        forAll(allFaces[ranki], i)
+        {
+            const label address = allFaces[ranki][i];
+            const label facei = mag(address) - 1;
+            const scalar value =
+                address > 0 ? allValues[ranki][i] : -allValues[ranki][i];
+
+            if (facei < mesh_->nInternalFaces())
+            {
+                whole->primitiveFieldRef()[facei] = value;
+                continue;
+            }
+
+            const label patchi = mesh_->boundaryMesh().whichPatch(facei);
+            fvsPatchScalarField& pf = whole->boundaryFieldRef()[patchi];
+
+            // An empty patch has faces but no values
+            if (pf.size())
+            {
+                pf[facei - pf.patch().start()] = value;
+            }
+        }
+    }
+
+    return whole;
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::undecomposedFlow::undecomposedFlow
 (
     const volVectorField& U,
-    const volScalarField& p
+    const volScalarField& p,
+    const surfaceScalarField& phi
 )
 :
     time_(),
     mesh_(),
     UGathered_(),
     pGathered_(),
+    phiGathered_(),
     U_(&U),
     p_(&p),
+    phi_(&phi),
     cellRank_(),
     cellLocal_()
 {
@@ -260,11 +350,13 @@ Foam::undecomposedFlow::undecomposedFlow
 
         UGathered_ = gather(U, cellAddressing, faceAddressing);
         pGathered_ = gather(p, cellAddressing, faceAddressing);
+        phiGathered_ = gather(phi, faceAddressing);
 
         if (Pstream::master())
         {
             U_ = UGathered_.get();
             p_ = pGathered_.get();
+            phi_ = phiGathered_.get();
         }
     }
     else
@@ -305,6 +397,7 @@ Foam::undecomposedFlow::~undecomposedFlow()
     {
         const serialScope serial;
 
+        phiGathered_.clear();
         pGathered_.clear();
         UGathered_.clear();
         mesh_.clear();

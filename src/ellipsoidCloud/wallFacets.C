@@ -10,7 +10,6 @@ License
 #include "wallFacets.H"
 #include "flatMerging.H"
 #include "wallPolyPatch.H"
-#include "polyMeshTetDecomposition.H"
 #include "treeBoundBox.H"
 #include "Pstream.H"
 

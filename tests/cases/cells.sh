@@ -75,6 +75,28 @@ run_cells()     # RANKS
     return "$status"
 }
 
+# All files of a case but logs and what tests change on purpose
+files()         { find . -type f ! -name 'log*' ! -name ellipsoidCloudProperties ! -path './system/*' -exec cksum {} + | sort -k 3; }
+
+# What the run on so many ranks must say: one message with all of these in it
+refused()       # RANKS REGEX...
+{
+    local text found status=0
+    # A rank that waits for ever shall not hold the test
+    timeout 60 bash -c "$(declare -f run_cells); run_cells $1" > log.shown
+    found=$?
+    shift
+    sed '1,/^Create time/d' log
+    if [ "$found" -ne 1 ]; then echo "exit status $found"; status=1; fi
+    found=$(grep -c "FOAM FATAL" log)
+    if [ "$found" -ne 1 ]; then echo "$found messages"; status=1; fi
+    sed -n '/FOAM FATAL/,/From function/p' log > log.message
+    for text; do
+        if ! grep -qE -- "$text" log.message; then echo "not named: $text"; status=1; fi
+    done
+    return "$status"
+}
+
 # Solves the flow of a case whose mesh is there
 solve_flow()    { ellipsoidTrapFoam -flowOnly > log.flow 2>&1 || { tail -n 20 log.flow; return 1; }; }
 

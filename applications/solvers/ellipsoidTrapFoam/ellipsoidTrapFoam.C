@@ -40,6 +40,7 @@ SourceFiles
 #include "columnFvMesh.H"
 #include "ellipsoidCloud.H"
 #include "steadyFlow.H"
+#include "writtenState.H"
 
 using namespace Foam;
 
@@ -55,6 +56,14 @@ int main(int argc, char *argv[])
     argList::addBoolOption("flowOnly", "Stop after the flow");
 
     #include "setRootCaseLists.H"
+
+    const bool flowOnly = args.found("flowOnly");
+
+    if (!flowOnly)
+    {
+        writtenState::setAsideIncomplete(args);
+    }
+
     #include "createTime.H"
 
     // The digits of writePrecision are for files
@@ -63,11 +72,18 @@ int main(int argc, char *argv[])
 
     #include "createMesh.H"
 
-    const bool flowOnly = args.found("flowOnly");
-
     // Read before the flow takes its time: bad input ends the run here
-    const scalar density =
-        flowOnly ? 0 : ellipsoidProperties(mesh).options().fluid_density;
+    scalar density = 0;
+    if (!flowOnly)
+    {
+        density = ellipsoidProperties(mesh).options().fluid_density;
+
+        const writtenState earlier(runTime);
+        if (!Pstream::parRun())
+        {
+            earlier.checkMesh(mesh);
+        }
+    }
 
     steadyFlow flow(mesh);
 
@@ -81,7 +97,7 @@ int main(int argc, char *argv[])
 
     if (!flowOnly)
     {
-        ellipsoidCloud cells(flow.U(), flow.p());
+        ellipsoidCloud cells(flow.U(), flow.p(), flow.phi());
 
         while (runTime.loop())
         {

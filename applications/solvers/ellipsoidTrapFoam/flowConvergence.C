@@ -11,7 +11,7 @@ License
 #include "flowConvergence.H"
 #include "fvcDiv.H"
 #include "fvMesh.H"
-#include "wallPolyPatch.H"
+#include "throughFlow.H"
 
 #include <cmath>
 
@@ -82,13 +82,24 @@ Foam::scalarField Foam::flowConvergence::record
     Pstream::listCombineGather(scales, plusEqOp<scalar>());
     Pstream::listCombineScatter(scales);
 
-    values[nPatches] /= gSum(mesh_.V());
+    const scalar volume = gSum(mesh_.V());
+
+    values[nPatches] /= volume;
     meanSpeed_ = scales[nPatches] = values[nPatches];
+
+    // A closed domain is as good as one with a flow across it
+    const scalar across = throughFlow::crossFlux(meanSpeed_, volume);
+
+    if (throughFlow::isRounding(inflow_, across))
+    {
+        inflow_ = 0;
+    }
+    through_ = inflow_ > 0 ? inflow_ : across;
 
     // A flux that is nothing beside the others need not be as exact
     for (label i = 0; i < nPatches; ++i)
     {
-        scales[i] = max(scales[i], fluxTolerance_*inflow_);
+        scales[i] = max(scales[i], fluxTolerance_*through_);
     }
 
     history_.append(values);
@@ -154,12 +165,13 @@ Foam::flowConvergence::flowConvergence
 )
 :
     mesh_(mesh),
-    openPatches_(mesh.boundaryMesh().size()),
+    openPatches_(throughFlow::openPatches(mesh.boundaryMesh())),
     fluxTolerance_(),
     fluxWindow_(),
     target_(),
     value_(),
     inflow_(0),
+    through_(0),
     meanSpeed_(0),
     history_()
 {
@@ -176,16 +188,6 @@ Foam::flowConvergence::flowConvergence
         targets.getCheckOrDefault<scalar>("p", 1e-5, positive);
     target_[mVelocity] =
         targets.getCheckOrDefault<scalar>("U", 1e-5, positive);
-
-    label nOpen = 0;
-    for (const polyPatch& pp : mesh.boundaryMesh())
-    {
-        if (!isA<wallPolyPatch>(pp) && !polyPatch::constraintType(pp.type()))
-        {
-            openPatches_[nOpen++] = pp.index();
-        }
-    }
-    openPatches_.resize(nOpen);
 }
 
 
@@ -213,19 +215,13 @@ void Foam::flowConvergence::update
 {
     const scalarField scales(record(U, phi));
 
-    // A closed domain is as good as its mean speed times its cross-section
-    const scalar through =
-        inflow_ > 0
-      ? inflow_
-      : meanSpeed_*pow(gSum(mesh_.V()), 2.0/3.0);
-
     value_[mPressure] =
         forces.pressure > fluxTolerance_ ? pPerf.initialResidual() : 0;
     value_[mVelocity] = largestResidual(UPerf, U);
     value_[mForces] = forces.net;
     value_[mContinuity] =
         gSum(mag(fvc::div(phi)().primitiveField())*mesh_.V())
-       /(through + VSMALL);
+       /(through_ + VSMALL);
     value_[mFluxChange] = fluxChange(scales);
 }
 

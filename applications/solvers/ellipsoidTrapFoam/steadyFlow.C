@@ -23,10 +23,14 @@ License
 #include "fvmLaplacian.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
-#include "IOdictionary.H"
+#include "masterFirst.H"
 #include "PstreamReduceOps.H"
+#include "readViscosity.H"
 #include "sigFpe.H"
+#include "StringStream.H"
 #include "surfaceInterpolate.H"
+#include "throughFlow.H"
+#include "wholeFile.H"
 
 #include <cmath>
 #include <limits>
@@ -50,55 +54,6 @@ static void forgetSolverPerformance(const fvMesh& mesh)
 }
 
 
-// Before an error that all ranks find: the master speaks for all, the others
-// wait to be ended with it
-static void leaveErrorToMaster()
-{
-    if (!Pstream::master())
-    {
-        label never = 0;
-        reduce(never, sumOp<label>());
-    }
-}
-
-
-static dimensionedScalar readViscosity(const fvMesh& mesh)
-{
-    const IOdictionary dict
-    (
-        IOobject
-        (
-            "transportProperties",
-            mesh.time().constant(),
-            mesh,
-            IOobject::MUST_READ,
-            IOobject::NO_WRITE,
-            false
-        )
-    );
-
-    const word model(dict.getOrDefault<word>("transportModel", "Newtonian"));
-    if (model != "Newtonian")
-    {
-        FatalIOErrorInFunction(dict)
-            << "transportModel " << model << " is not available: the fluid is"
-            << " Newtonian" << exit(FatalIOError);
-    }
-
-    const ITstream& nuEntry = dict.lookup("nu");
-    const bool isNumber = nuEntry.size() && nuEntry.last().isNumber();
-
-    if (!isNumber || !(nuEntry.last().number() > 0))
-    {
-        FatalIOErrorInFunction(dict)
-            << "nu " << nuEntry.toString() << " does not end in a positive"
-            << " number [m2/s]" << exit(FatalIOError);
-    }
-
-    return dimensionedScalar("nu", dimViscosity, dict);
-}
-
-
 // The precision of Info is that of the fields, far more than one can read
 static word text(const scalar value)
 {
@@ -106,39 +61,85 @@ static word text(const scalar value)
 }
 
 
+//- The first value that is not finite, and where; empty if there is none
 template<class Type>
-static bool allFinite(const UList<Type>& values)
+static string findNotFinite
+(
+    const UList<Type>& values,
+    const UList<vector>& centres,
+    const word& where
+)
 {
-    for (const Type& value : values)
+    forAll(values, i)
     {
         for (direction cmpt = 0; cmpt < pTraits<Type>::nComponents; ++cmpt)
         {
-            if (!std::isfinite(component(value, cmpt)))
+            if (!std::isfinite(component(values[i], cmpt)))
             {
-                return false;
+                OStringStream os;
+                os.precision(6);
+                os  << values[i] << " in " << where << ' ' << i << " at "
+                    << centres[i] << " m";
+                return os.str();
             }
         }
     }
 
-    return true;
+    return string();
 }
 
 
-template<class Field>
-static void checkFinite(const Field& field)
+//- End the run if a value of a field is not finite
+template<class Field, class Centres>
+static void checkFinite
+(
+    const Field& field,
+    const Centres& centres,
+    const word& where
+)
 {
-    bool finite = allFinite(field.primitiveField());
-    for (const auto& patchField : field.boundaryField())
+    List<string> found(Pstream::nProcs());
+    string& mine = found[Pstream::myProcNo()];
+
+    mine = findNotFinite
+    (
+        field.primitiveField(), centres.primitiveField(), where
+    );
+
+    forAll(field.boundaryField(), patchi)
     {
-        finite = finite && allFinite(patchField);
+        const auto& values = field.boundaryField()[patchi];
+
+        if (mine.empty())
+        {
+            mine = findNotFinite
+            (
+                values,
+                centres.boundaryField()[patchi],
+                "patch " + values.patch().name() + ", face"
+            );
+        }
     }
 
-    if (!returnReduce(finite, andOp<bool>()))
+    Pstream::gatherList(found);
+    const masterFirst once;
+
+    forAll(found, ranki)
     {
-        leaveErrorToMaster();
-        FatalErrorInFunction
-            << "A value of " << field.name() << " is not a finite number in"
-            << nl << "    " << field.objectPath() << exit(FatalError);
+        if (!found[ranki].empty())
+        {
+            FatalErrorInFunction
+                << "A value of " << field.name() << " is not a finite number: "
+                << found[ranki].c_str();
+
+            if (Pstream::parRun())
+            {
+                FatalError<< " of processor" << ranki;
+            }
+
+            FatalError
+                << nl << "    " << field.objectPath() << exit(FatalError);
+        }
     }
 }
 
@@ -363,9 +364,9 @@ Foam::steadyFlow::steadyFlow(const fvMesh& mesh)
     convergence_(mesh, controls_)
 {
     checkControls();
-    checkFinite(U_);
-    checkFinite(p_);
-    checkFinite(phi_);
+    checkFinite(U_, mesh_.C(), "mesh cell");
+    checkFinite(p_, mesh_.C(), "mesh cell");
+    checkFinite(phi_, mesh_.Cf(), "mesh face");
 
     setRefCell(p_, controls_, pRefCell_, pRefValue_);
     mesh_.setFluxRequired(p_.name());
@@ -416,7 +417,7 @@ void Foam::steadyFlow::solve()
     {
         if (iteration == maxIterations_)
         {
-            leaveErrorToMaster();
+            const masterFirst once;
             FatalIOErrorInFunction(controls_)
                 << "The flow is not steady after " << iteration
                 << " iterations:" << nl
@@ -431,7 +432,7 @@ void Foam::steadyFlow::solve()
 
         if (!convergence_.sound())
         {
-            leaveErrorToMaster();
+            const masterFirst once;
             FatalIOErrorInFunction(controls_)
                 << "The flow diverges: iteration " << iteration << " left "
                 << convergence_.measures().c_str() << ", mean speed "
@@ -462,9 +463,9 @@ void Foam::steadyFlow::write()
         std::numeric_limits<scalar>::max_digits10
     );
 
-    phi_.write();
-    p_.write();
-    U_.write();
+    writeWhole(phi_);
+    writeWhole(p_);
+    writeWhole(U_);
     Info<< "flow: written to " << mesh_.time().timeName() << endl;
 
     IOstream::defaultPrecision(asked);
@@ -473,8 +474,17 @@ void Foam::steadyFlow::write()
 
 void Foam::steadyFlow::report(const scalar density) const
 {
-    scalar inflow = 0, inletArea = 0;
-    scalar inP = 0, outflow = 0, outP = 0;
+    const throughFlow through(U_, phi_);
+
+    if (through.closed())
+    {
+        Info<< "flow: nothing flows through, mean speed "
+            << text(through.speed()) << " m/s" << endl;
+        return;
+    }
+
+    scalar inflow = 0, inP = 0;
+    scalar outflow = 0, outP = 0;
 
     for (const label patchi : convergence_.openPatches())
     {
@@ -500,7 +510,6 @@ void Foam::steadyFlow::report(const scalar density) const
         if (flux < 0)
         {
             inflow -= flux;
-            inletArea += area;
             inP -= flux*patchP;
         }
         else
@@ -510,23 +519,20 @@ void Foam::steadyFlow::report(const scalar density) const
         }
     }
 
+    Info<< "flow: mean inlet speed " << text(through.speed()) << " m/s"
+        << endl;
+
     if (inflow > 0 && outflow > 0)
     {
         const scalar drop = inP/inflow - outP/outflow;
 
-        Info<< "flow: mean inlet speed " << text(inflow/inletArea) << " m/s" << nl
-            << "flow: pressure drop " << text(drop) << " m2/s2";
+        Info<< "flow: pressure drop " << text(drop) << " m2/s2";
 
         if (density > 0)
         {
             Info<< " (" << text(density*drop) << " Pa)";
         }
         Info<< endl;
-    }
-    else
-    {
-        Info<< "flow: mean speed " << text(convergence_.meanSpeed()) << " m/s"
-            << endl;
     }
 }
 

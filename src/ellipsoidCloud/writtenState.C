@@ -1,0 +1,415 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+Class
+\*---------------------------------------------------------------------------*/
+#include "writtenState.H"
+#include "wholeFile.H"
+#include "argList.H"
+#include "cloud.H"
+#include "IFstream.H"
+#include "OSspecific.H"
+#include "polyMesh.H"
+#include "PstreamReduceOps.H"
+#include "SHA1.H"
+#include "SortableList.H"
+#include "StringStream.H"
+#include "Time.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- All ranks have come so far
+    static void meet()
+    {
+        label all = 1;
+        reduce(all, sumOp<label>());
+    }
+
+    //- Take the bytes of a list into a digest
+    template<class Type>
+    static void addTo(SHA1& digest, const UList<Type>& list)
+    {
+        digest.append
+        (
+            reinterpret_cast<const char*>(list.cdata()),
+            list.size()*sizeof(Type)
+        );
+    }
+
+    //- Is the run to go on from the latest time there is?
+    static bool fromLatestTime(const argList& args)
+    {
+        bool latest = false;
+
+        if (Pstream::master())
+        {
+            IFstream is
+            (
+                args.rootPath()/args.globalCaseName()/"system"/"controlDict"
+            );
+
+            // What is wrong with it the Time will say
+            latest =
+                is.good()
+             && dictionary(is).getOrDefault<word>("startFrom", "latestTime")
+             == "latestTime";
+        }
+        Pstream::scatter(latest);
+
+        return latest;
+    }
+
+    //- Names of the time directories of all ranks, in ascending order
+    static wordList timeNames(const fileName& path)
+    {
+        List<wordList> all(Pstream::nProcs());
+
+        DynamicList<word> mine;
+        for (const fileName& name : readDir(path, fileName::DIRECTORY))
+        {
+            scalar value;
+            if (readScalar(name.c_str(), value))
+            {
+                mine.append(name);
+            }
+        }
+        all[Pstream::myProcNo()].transfer(mine);
+
+        Pstream::gatherList(all);
+        Pstream::scatterList(all);
+
+        DynamicList<word> names;
+        for (const wordList& some : all)
+        {
+            for (const word& name : some)
+            {
+                if (!names.found(name))
+                {
+                    names.append(name);
+                }
+            }
+        }
+
+        scalarList values(names.size());
+        forAll(names, i)
+        {
+            readScalar(names[i].c_str(), values[i]);
+        }
+
+        return wordList(names, SortableList<scalar>(values).indices());
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::fileName Foam::writtenState::markFile(const fileName& path)
+{
+    return path/"uniform"/"ellipsoidCloudFiles";
+}
+
+
+Foam::fileName Foam::writtenState::cellFolder(const fileName& path)
+{
+    return path/cloud::prefix/"ellipsoidCloud";
+}
+
+
+Foam::dictionary Foam::writtenState::readMark(const fileName& path)
+{
+    if (!isFile(markFile(path)))
+    {
+        return dictionary();
+    }
+
+    IFstream is(markFile(path));
+    return dictionary(is);
+}
+
+
+bool Foam::writtenState::isCopy
+(
+    const dictionary& mark,
+    const fileName& path
+)
+{
+    return
+        !mark.empty()
+     && (
+            Foam::type(path/"uniform", false) == fileName::LINK
+         || mark.get<label>("rank") != Pstream::myProcNo()
+         || mark.get<label>("ranks") != Pstream::nProcs()
+        );
+}
+
+
+Foam::string Foam::writtenState::findDamage() const
+{
+    for (const entry& e : mark_.subDict("files"))
+    {
+        const fileName file(cellFolder(path_)/e.keyword());
+        const fileContent found(file);
+        const scalar bytes = e.dict().get<scalar>("bytes");
+
+        if (!isFile(file))
+        {
+            return file + " is missing";
+        }
+        if (found.bytes != bytes)
+        {
+            return
+                file + " is damaged: it holds "
+              + Foam::name(int64_t(found.bytes)) + " bytes where "
+              + Foam::name(int64_t(bytes)) + " were written";
+        }
+        if (found.digest != e.dict().get<string>("digest"))
+        {
+            return file + " is damaged: it is not what was written";
+        }
+    }
+
+    return string();
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::writtenState::writtenState(const Time& time)
+:
+    path_(time.path()/time.timeName()),
+    mark_(readMark(path_)),
+    notes_()
+{
+    // What the first rank has that has any
+    List<string> marks(Pstream::nProcs());
+    if (!mark_.empty())
+    {
+        OStringStream os;
+        os.precision(17);
+        mark_.write(os, false);
+        marks[Pstream::myProcNo()] = os.str();
+    }
+    Pstream::gatherList(marks);
+    Pstream::scatterList(marks);
+
+    bool all = true;
+    for (const string& mark : marks)
+    {
+        all = all && !mark.empty();
+
+        if (notes_.empty() && !mark.empty())
+        {
+            IStringStream is(mark);
+            notes_ = dictionary(is);
+        }
+    }
+
+    const bool copies = returnReduce(isCopy(mark_, path_), orOp<bool>());
+
+    // Where ranks share a file the folder is another
+    const bool cells = returnReduce
+    (
+        isDir(cellFolder(path_))
+     || isDir(fileHandler().filePath(cellFolder(path_))),
+        orOp<bool>()
+    );
+
+    // The first complaint of any rank, said once
+    List<string> complaints(Pstream::nProcs());
+    string& complaint = complaints[Pstream::myProcNo()];
+
+    if (!all && !copies && (found() || cells))
+    {
+        complaint =
+            "time " + time.timeName() + " was not written to its end";
+    }
+    else if (found() && !copies)
+    {
+        complaint = findDamage();
+    }
+
+    Pstream::gatherList(complaints);
+
+    if (Pstream::master())
+    {
+        for (const string& text : complaints)
+        {
+            if (!text.empty())
+            {
+                FatalErrorInFunction
+                    << text.c_str() << nl
+                    << "    Remove the directory " << time.timeName()
+                    << (Pstream::parRun() ? " of every processor" : "")
+                    << " to go on from an earlier time" << exit(FatalError);
+            }
+        }
+    }
+    meet();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::dictionary Foam::writtenState::notesOf(const polyMesh& mesh)
+{
+    SHA1 digest;
+    addTo(digest, mesh.points());
+    addTo(digest, mesh.faceOwner());
+    addTo(digest, mesh.faceNeighbour());
+    for (const face& f : mesh.faces())
+    {
+        addTo(digest, f);
+    }
+
+    dictionary dict;
+    dict.add("cells", mesh.nCells());
+    dict.add("digest", string(digest.str()));
+    return dict;
+}
+
+
+void Foam::writtenState::checkMesh(const polyMesh& whole) const
+{
+    if (!found())
+    {
+        return;
+    }
+
+    const dictionary& then = notes_.subDict("mesh");
+    const dictionary now(notesOf(whole));
+
+    if (then.get<string>("digest") != now.get<string>("digest"))
+    {
+        FatalErrorInFunction
+            << path_ << " holds cells of another mesh: it had "
+            << then.get<label>("cells") << " mesh cells, this one has "
+            << whole.nCells() << nl
+            << "    Put the mesh back, or start again from the first time"
+            << exit(FatalError);
+    }
+}
+
+
+void Foam::writtenState::setAsideIncomplete(const argList& args)
+{
+    if (!fromLatestTime(args))
+    {
+        return;
+    }
+
+    const fileName folder
+    (
+        args.rootPath()/args.globalCaseName()
+       /"postProcessing"/"ellipsoidCloud"
+    );
+
+    bool tracked = isDir(folder);
+    Pstream::scatter(tracked);
+
+    const wordList names(timeNames(args.path()));
+
+    for (label i = names.size() - 1; i > 0; --i)
+    {
+        const fileName path(args.path()/names[i]);
+
+        const dictionary mark(readMark(path));
+        const bool begun = !mark.empty() || isDir(cellFolder(path));
+        const bool other = isFile(path/"U") || isDir(path/"polyMesh");
+
+        if (returnReduce(isCopy(mark, path), orOp<bool>()))
+        {
+            // decomposePar makes no directory where there are no cells, but
+            // ranks have to start from the same time
+            mkDir(path);
+            meet();
+            return;
+        }
+
+        if (returnReduce(!mark.empty(), andOp<bool>()))
+        {
+            return;
+        }
+
+        // A flow or mesh to start from, or another program's
+        if
+        (
+            !returnReduce(begun, orOp<bool>())
+         && (!tracked || returnReduce(other, orOp<bool>()))
+        )
+        {
+            return;
+        }
+
+        Info<< "ellipsoidCloud: time " << names[i]
+            << " was not written to its end: set aside as " << names[i]
+            << ".incomplete, going on from " << names[i - 1] << endl;
+
+        if (isDir(path))
+        {
+            rmDir(path + ".incomplete", true);
+
+            if (!mv(path, path + ".incomplete"))
+            {
+                FatalErrorInFunction
+                    << "cannot rename " << path << ": remove it by hand"
+                    << exit(FatalError);
+            }
+        }
+        meet();
+    }
+}
+
+
+void Foam::writtenState::begin(const Time& time)
+{
+    const fileName path(time.path()/time.timeName());
+
+    rm(markFile(path));
+    if (Foam::type(path/"uniform", false) == fileName::LINK)
+    {
+        rm(path/"uniform");
+    }
+    meet();
+    rmDir(cellFolder(path), true);
+}
+
+
+void Foam::writtenState::end(const Time& time, const dictionary& notes)
+{
+    const fileName path(time.path()/time.timeName());
+    dictionary files;
+
+    for (const fileName& name : readDir(cellFolder(path)))
+    {
+        const fileContent written(cellFolder(path)/name);
+
+        if (!written.ended)
+        {
+            cannotWrite(cellFolder(path)/name);
+        }
+
+        dictionary file;
+        file.add("bytes", written.bytes);
+        file.add("digest", written.digest);
+        files.add(word(name), file);
+    }
+
+    dictionary mark(notes);
+    mark.add("rank", Pstream::myProcNo());
+    mark.add("ranks", Pstream::nProcs());
+    mark.add("files", files);
+
+    // No mark before all ranks have written
+    meet();
+    writeWhole(mark, markFile(path));
+}
+
+
+// ************************************************************************* //
