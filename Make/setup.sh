@@ -7,11 +7,13 @@
 # from the source package of the same version, kept in one cache folder. Then
 # gives the calling shell OpenFOAM's environment.
 #
-# Usage (bash):  . Make/setup.sh && setup_environment build|run|test
+# Usage (bash):  . Make/setup.sh && setup_environment build|run|test|full
 #   build   compilers, OpenFOAM and the Random123 headers
 #   run     also Python with matplotlib, VTK and numpy: pictures and tables
 #   test    also cmocka
-# Exports OpenFOAM's environment and ELLIPSOID_PYTHON (run, test).
+#   full    also what Alltest --full needs: clang with its sanitizers and
+#           libFuzzer, valgrind, cppcheck, shellcheck and SUNDIALS
+# Exports OpenFOAM's environment and ELLIPSOID_PYTHON (run, test, full).
 #
 # Variables that may be set beforehand:
 #   WM_PROJECT_DIR        an OpenFOAM to use instead of searching
@@ -133,6 +135,12 @@ setup_has_header()      # HEADER
         -include setjmp.h -include stdint.h - > /dev/null 2>&1
 }
 
+# Sanitizers and libFuzzer are in a package of their own
+setup_has_clang_runtime()
+{
+    compgen -G "$(clang -print-resource-dir 2> /dev/null)/lib/*/libclang_rt.fuzzer*" > /dev/null
+}
+
 # Prints the Debian packages that are missing
 setup_missing_packages()    # LEVEL OPENFOAM_DIR ('' for Debian's)
 {
@@ -148,7 +156,14 @@ setup_missing_packages()    # LEVEL OPENFOAM_DIR ('' for Debian's)
     if [ "$1" != build ] && [ -z "$(setup_find_python)" ]; then
         echo python3-matplotlib python3-numpy python3-vtk9
     fi
-    if [ "$1" = test ]; then setup_has_header cmocka.h || echo libcmocka-dev; fi
+    case $1 in test | full) setup_has_header cmocka.h || echo libcmocka-dev ;; esac
+    if [ "$1" != full ]; then return; fi
+    command -v clang > /dev/null || echo clang
+    setup_has_clang_runtime || echo libclang-rt-dev
+    command -v valgrind > /dev/null || echo valgrind
+    command -v cppcheck > /dev/null || echo cppcheck
+    command -v shellcheck > /dev/null || echo shellcheck
+    setup_has_header sundials/sundials_config.h || echo libsundials-dev
 }
 
 # Turns what apt or tar wrote into a reason
@@ -336,7 +351,7 @@ setup_source_bashrc()   # DIR
     eval "$options"
 }
 
-setup_environment()     # build|run|test
+setup_environment()     # build|run|test|full
 {
     local level=$1 cache log dir start=$EPOCHREALTIME version
     local -a packages
@@ -363,7 +378,8 @@ setup_environment()     # build|run|test
         setup_fail "no OpenFOAM found, and this is $(setup_os_release PRETTY_NAME)" \
             "OpenFOAM is installed for you on Debian 12 only. Needed: $setup_needed" \
             "with its headers and wmake, and its etc/bashrc sourced; also gcc, g++, make, an MPI," \
-            "Random123; for pictures Python 3 with numpy, matplotlib and vtk; for tests cmocka."
+            "Random123; for pictures Python 3 with numpy, matplotlib and vtk; for tests cmocka;" \
+            "for all tests (--full) clang with compiler-rt, valgrind, cppcheck, shellcheck, SUNDIALS."
         return
     fi
 

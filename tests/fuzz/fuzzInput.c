@@ -1,0 +1,274 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    fuzzInput.c - bytes become numbers, options and states.
+*/
+#include "fuzzInput.h"
+
+#include <float.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void fuzz_fail(const char *condition, const char *file, int line)
+{
+    fprintf(stderr, "%s:%d: does not hold: %s\n", file, line, condition);
+    abort();
+}
+
+uint64_t fuzz_bits(fuzz_input *in, int bytes)
+{
+    uint64_t bits = 0;
+
+    for (int n = 0; n < bytes && in->size > 0; n++, in->size--)
+    {
+        bits |= (uint64_t)*in->data++ << 8 * n;
+    }
+    return bits;
+}
+
+int fuzz_choice(fuzz_input *in, int count)
+{
+    return (int)(fuzz_bits(in, 1) % (uint64_t)count);
+}
+
+double fuzz_between(fuzz_input *in, double low, double high)
+{
+    return low + (high - low) * (double)fuzz_bits(in, 2) / 65536;
+}
+
+double fuzz_scaled(fuzz_input *in, double low, double high)
+{
+    return low * pow(high / low, fuzz_between(in, 0, 1));
+}
+
+void fuzz_vector(fuzz_input *in, double size, int count, double *v)
+{
+    for (int n = 0; n < count; n++)
+    {
+        /* zeros mean 0: the upper half of what two bytes say comes first */
+        v[n] = size * (int16_t)fuzz_bits(in, 2) / 32768.0;
+    }
+}
+
+double fuzz_wild(fuzz_input *in)
+{
+    const double known[] = {
+        0,       -0.0,    NAN,      HUGE_VAL, -HUGE_VAL, DBL_MAX,
+        -DBL_MAX, DBL_MIN, -DBL_MIN, DBL_TRUE_MIN, DBL_EPSILON, 1e-162,
+        1e154,   1,       -1,       1 + DBL_EPSILON};
+    const int choice = fuzz_choice(in, 20);
+
+    if (choice < 16)
+    {
+        return known[choice];
+    }
+
+    const uint64_t bits = fuzz_bits(in, 8);
+    double value;
+
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* 2 + 3 n or 1, 32 for PAPER; the radius fits into the body */
+static void read_beads(fuzz_input *in, ellipsoid_options *o)
+{
+    const double *a = o->semi_axes;
+    const int layout = fuzz_choice(in, 3), rings = fuzz_choice(in, 85);
+    const int single = fuzz_choice(in, 8) == 7;
+
+    o->bead_layout = layout == 0   ? ELLIPSOID_BEADS_STAGGERED
+                     : layout == 1 ? ELLIPSOID_BEADS_PAPER
+                                   : ELLIPSOID_BEADS_SURFACE;
+    o->bead_count = single ? 1 : layout == 1 ? 32 : 2 + 3 * rings;
+    o->bead_radius =
+        fmin(a[0], fmin(a[1], a[2])) * fuzz_scaled(in, 0.05, 0.99);
+    o->contact_modulus = fuzz_scaled(in, 1e2, 1e9);
+}
+
+static void read_forces(fuzz_input *in, double size, ellipsoid_options *o)
+{
+    const double weight = 1e4 * size * size * size; /* [N] */
+    const int pressure = fuzz_choice(in, 3);
+
+    o->pressure_gradient = pressure == 0   ? ELLIPSOID_PRESSURE_DUDT
+                           : pressure == 1 ? ELLIPSOID_PRESSURE_NONE
+                                           : ELLIPSOID_PRESSURE_GRADP;
+    o->buoyancy = fuzz_choice(in, 2);
+    fuzz_vector(in, 100, 3, o->gravity);
+    fuzz_vector(in, 100 * weight, 3, o->external_force);
+    fuzz_vector(in, 100 * weight * size, 3, o->external_torque);
+    fuzz_vector(in, 1e3, 3, o->electric_field);
+    o->charge = fuzz_between(in, 0, weight);
+    fuzz_vector(in, weight * size, 3, o->dipole);
+}
+
+static void read_integrator(fuzz_input *in, ellipsoid_options *o)
+{
+    o->tolerance = fuzz_scaled(in, 1e-12, 1e-1);
+    o->minimum_step = fuzz_scaled(in, 1e-20, 1e-9);
+    o->maximum_step = o->minimum_step * fuzz_scaled(in, 1, 1e12);
+    o->initial_step = o->minimum_step
+                    * pow(o->maximum_step / o->minimum_step,
+                          fuzz_between(in, 0, 0.999));
+}
+
+ellipsoid_options fuzz_options(fuzz_input *in)
+{
+    static const int points[] = {26, 6, 14, 50};
+    ellipsoid_options o = ellipsoid_options_default();
+    const int parts = (int)fuzz_bits(in, 1);
+    double size = 2e-6;
+
+    o.contact = !(parts & 1) || fuzz_choice(in, 4) != 0;
+    if (parts & 2)
+    {
+        size = fuzz_scaled(in, 1e-8, 1e-2);
+        for (int i = 0; i < 3; i++)
+        {
+            o.semi_axes[i] = fuzz_choice(in, 3) == 0
+                                 ? size
+                                 : size * fuzz_scaled(in, 1e-2, 1);
+        }
+        o.bead_radius *= size / 2e-6;
+        for (int i = 0; i < 3; i++)
+        {
+            o.bead_radius = fmin(o.bead_radius, o.semi_axes[i] / 2);
+        }
+    }
+    if (parts & 4)
+    {
+        o.density = fuzz_scaled(in, 1, 1e5);
+        o.fluid_density = fuzz_scaled(in, 1e-1, 1e4);
+        o.kinematic_viscosity = fuzz_scaled(in, 1e-9, 1);
+    }
+    if (parts & 8)
+    {
+        read_beads(in, &o);
+    }
+    if (parts & 16)
+    {
+        read_forces(in, size, &o);
+    }
+    if (parts & 32)
+    {
+        read_integrator(in, &o);
+    }
+    if (parts & 64)
+    {
+        o.flow_at = ELLIPSOID_FLOW_BODY;
+        o.flow_points = points[fuzz_choice(in, 4)];
+    }
+    if (parts & 128)
+    {
+        o.drag = fuzz_choice(in, 4) != 3;
+        o.motion = o.drag && fuzz_choice(in, 4) != 3
+                       ? ELLIPSOID_MOTION_INERTIALESS
+                       : ELLIPSOID_MOTION_INERTIAL;
+        o.brownian = o.drag && fuzz_choice(in, 3) == 2;
+    }
+    if (o.brownian)
+    {
+        o.temperature = fuzz_between(in, 0, 1000);
+        o.noise_interval = fuzz_scaled(in, 1e-9, 1);
+    }
+    /* bounds the time that one input takes */
+    o.maximum_steps = 1 + fuzz_choice(in, 24);
+    return o;
+}
+
+void fuzz_wild_options(fuzz_input *in, ellipsoid_options *o)
+{
+    double *const numbers[] = {
+        &o->semi_axes[0],       &o->semi_axes[1],
+        &o->semi_axes[2],       &o->density,
+        &o->fluid_density,      &o->kinematic_viscosity,
+        &o->gravity[0],         &o->gravity[2],
+        &o->external_force[1],  &o->external_torque[2],
+        &o->charge,             &o->dipole[0],
+        &o->electric_field[1],  &o->temperature,
+        &o->noise_interval,     &o->bead_radius,
+        &o->contact_modulus,    &o->tolerance,
+        &o->initial_step,       &o->minimum_step,
+        &o->maximum_step};
+    int *const integers[] = {&o->drag,     &o->flow_points, &o->buoyancy,
+                             &o->brownian, &o->contact,     &o->bead_count};
+    static const int known[] = {0,   1,   2,   32,      50,      51,     256,
+                                257, -1,  -2,  INT_MAX, INT_MIN, 1 << 30};
+    const int changes = 1 + fuzz_choice(in, 4);
+
+    for (int n = 0; n < changes; n++)
+    {
+        const int which = fuzz_choice(in, 32);
+
+        if (which < 21)
+        {
+            /* within the ranges' ends, or anything */
+            *numbers[which] = fuzz_choice(in, 2) ? fuzz_wild(in)
+                                                 : fuzz_scaled(in, 1e-20, 1e20);
+        }
+        else if (which < 27)
+        {
+            *integers[which - 21] = known[fuzz_choice(in, 13)];
+        }
+        else if (which == 27)
+        {
+            o->maximum_steps = (long)fuzz_bits(in, 8) % 24;
+        }
+        else
+        {
+            /* what C lets an enumeration hold */
+            const int value = known[fuzz_choice(in, 13)];
+
+            switch (which % 4)
+            {
+                case 0: o->motion = (ellipsoid_motion)value; break;
+                case 1: o->flow_at = (ellipsoid_flow_at)value; break;
+                case 2: o->bead_layout = (ellipsoid_bead_layout)value; break;
+                default:
+                    o->pressure_gradient = (ellipsoid_pressure_gradient)value;
+            }
+        }
+    }
+}
+
+void fuzz_state(fuzz_input *in, double length, double speed,
+                ellipsoid_state *state)
+{
+    double uniform[3];
+
+    fuzz_vector(in, (fuzz_choice(in, 2) ? 3 : 1) * length, 3, state->x);
+    for (int i = 0; i < 3; i++)
+    {
+        uniform[i] = fuzz_between(in, 0, 1);
+    }
+    switch (fuzz_choice(in, 4))
+    {
+        case 0: /* along the axes of the lab */
+            memset(state->q, 0, sizeof state->q);
+            state->q[fuzz_choice(in, 4)] = fuzz_choice(in, 2) ? -1 : 1;
+            break;
+        default: ellipsoid_quaternion_from_uniform(uniform, state->q);
+    }
+    fuzz_vector(in, speed, 3, state->u);
+    fuzz_vector(in, speed / length, 3, state->omega);
+}
+
+void fuzz_wild_state(fuzz_input *in, ellipsoid_state *state)
+{
+    const int changes = 1 + fuzz_choice(in, 3);
+
+    for (int n = 0; n < changes; n++)
+    {
+        const int which = fuzz_choice(in, ELLIPSOID_STATE_SIZE);
+        const double value = fuzz_wild(in);
+
+        memcpy((char *)state + (size_t)which * sizeof value, &value,
+               sizeof value);
+    }
+}
