@@ -85,9 +85,10 @@ void ellipsoid_add_noise(const ellipsoid_noise *noise, double axis[3][3],
 }
 
 /*
-    Leading order of matched asymptotics: with u_b the balanced velocity, m
-   du/dt = mu R K^ R^T (u_b - u) leaves x displaced by R m (mu K^)^-1 R^T (u -
-   u_b) and u = u_b; and likewise the rotation.
+    Leading order of matched asymptotics. u_b being the balanced velocity,
+        m du/dt = mu R K^ R^T (u_b - u)
+    leaves x displaced by R m (mu K^)^-1 R^T (u - u_b), and u = u_b; and likewise
+    the rotation. A cell that touches is not displaced.
 */
 ellipsoid_status ellipsoid_cross_layer(const ellipsoid_problem *problem,
                                        double t, double until,
@@ -114,6 +115,12 @@ ellipsoid_status ellipsoid_cross_layer(const ellipsoid_problem *problem,
     if (status != ELLIPSOID_OK)
     {
         return status;
+    }
+    if (problem->walls && contact.touching_beads > 0)
+    {
+        /* a stiff wall does not let it drift on */
+        *state = after;
+        return ELLIPSOID_OK;
     }
     ellipsoid_rotation_inline(conjugate, axis);
     ellipsoid_difference(state->u, after.u, slip);

@@ -20,7 +20,8 @@
     The core keeps no state of its own: it does not allocate, print, exit or
     hold mutable static data, so any number of threads may call it. Every
     function that can fail returns an ellipsoid_status; on failure the state
-    it was given is as it was.
+    it was given is as it was; after ellipsoid_advance() that of the last
+    accepted step.
 
     Sources: Kim et al., Lab Chip 11, 1089 (2011), supplement ("paper");
     Oberbeck (1876), Jeffery (1922), Brenner (1964); Hairer & Wanner,
@@ -44,7 +45,7 @@ extern "C" {
     X(STOPPED, "stopped by the observer")                                      \
     X(BAD_OPTION, "an option is outside its range")                            \
     X(NON_FINITE, "the flow or the walls gave a value that is not finite")     \
-    X(FLOW_FAILED, "the flow or the field gave up at the cell's place")                  \
+    X(FLOW_FAILED, "the flow or the field gave up at the cell's place")        \
     X(WALLS_FAILED, "the walls gave up at the cell's position")                \
     X(STEP_UNDERFLOW, "the step fell below the smallest step")                 \
     X(TOO_MANY_STEPS, "the number of steps is exhausted")                      \
@@ -89,8 +90,8 @@ typedef enum ellipsoid_motion
 /* Where the body meets the undisturbed flow. */
 typedef enum ellipsoid_flow_at
 {
-    ELLIPSOID_FLOW_CENTRE, /* velocity and gradient there: the paper's model */
-    ELLIPSOID_FLOW_BODY    /* velocity over the surface: Faxen, Brenner (1964) */
+    ELLIPSOID_FLOW_CENTRE, /* velocity and gradient there, as in the paper */
+    ELLIPSOID_FLOW_BODY    /* velocity over the surface: Brenner (1964) */
 } ellipsoid_flow_at;
 
 #define ELLIPSOID_MAX_FLOW_POINTS 50
@@ -183,12 +184,12 @@ typedef struct ellipsoid_model
     double rotation_mobility[3]; /* [1/(J s)] 1/(mu C_i) */
     double relaxation_time;          /* [s] slowest translational m/(mu K^) */
     double rotation_relaxation_time; /* [s] slowest I/(mu C) */
-    double noise_force[3];  /* [N] body, standard deviation; of the torque: */
-    double noise_torque[3]; /* [N m] */
+    double noise_force[3];  /* [N] body, standard deviation of a component */
+    double noise_torque[3]; /* [N m] likewise */
     int electric, aligned;  /* does a field act? On a dipole? */
     double reach;           /* [m] farthest contact surface from the centre */
     int flow_points;        /* 0 unless FLOW_BODY */
-    double flow_point[ELLIPSOID_MAX_FLOW_POINTS][3]; /* [m] body, on the surface */
+    double flow_point[ELLIPSOID_MAX_FLOW_POINTS][3]; /* [m] body, on surface */
     double flow_weight[ELLIPSOID_MAX_FLOW_POINTS];   /* [-] they add up to 1 */
     int bead_count;
     double bead[ELLIPSOID_MAX_BEADS][3]; /* [m] body frame, bead centres */
@@ -323,8 +324,10 @@ typedef struct ellipsoid_surroundings
     ellipsoid_velocities_function velocities;
     ellipsoid_field_function field;
     void *field_context;
-    uint64_t seed; /* with the cell's id, the key of its Brownian motion; noise */
-    uint32_t id;   /* interval n begins at n noise_interval */
+    /* The key of the cell's Brownian motion. Noise interval n begins at the time
+       n noise_interval. */
+    uint64_t seed;
+    uint32_t id;
 } ellipsoid_surroundings;
 
 /* --------------------------------------------------------------- state */
@@ -493,7 +496,12 @@ ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
                                    ellipsoid_state *state,
                                    ellipsoid_contact_cache *cache);
 
-/* The derivatives of paper eqs. (1)-(4) by the thirteen unknowns, row-major. */
+/*
+    Derivatives by the thirteen unknowns, row-major: of INERTIAL motion those of
+    ellipsoid_rhs(), paper eqs. (1)-(4); of INERTIALESS those of the index-1
+    system that its Rosenbrock steps solve, the same without the gyroscopic
+    torque, for u and omega as given.
+*/
 ellipsoid_status
 ellipsoid_jacobian(const ellipsoid_model *model,
                    const ellipsoid_surroundings *surroundings,
@@ -532,7 +540,8 @@ typedef struct ellipsoid_step
     ellipsoid_contact contact;   /* at the end */
 } ellipsoid_step;
 
-/* The state at time start <= t <= end, third order. */
+/* The state at time start <= t <= end: of third order, or fourth in x and q
+   where the step was explicit; u and omega of INERTIALESS motion one less. */
 void ellipsoid_step_state(const ellipsoid_step *step, double t,
                           ellipsoid_state *state);
 

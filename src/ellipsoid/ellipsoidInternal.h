@@ -55,8 +55,8 @@ typedef struct ellipsoid_noise
 {
     double force[3];  /* [N] body */
     double torque[3]; /* [N m] body */
-    double start, end; /* [s] of the interval; */
-    double slack;      /* [s] a time so close to one is that */
+    double start, end; /* [s] of the interval */
+    double slack;      /* [s] a time so close to an end counts as that end */
 } ellipsoid_noise;
 
 /* Sets the model's standard deviations. */
@@ -194,12 +194,12 @@ ellipsoid_status ellipsoid_problem_evaluate(const ellipsoid_problem *problem,
                                             ellipsoid_blocks *blocks);
 
 /*
-    (g M - J) k = r with g = 1/(gamma h), M = I but for inertialess motion. As
-   dx/dt = u, k_x = (r_x + k_u)/g; as Q^2 = -|omega|^2 I, (g I - Q/2)^-1 = (g I
-   + Q/2)/(g^2 + |omega|^2/4) gives k_q from k_omega. A dense 6x6 system in
-   (k_u, k_omega) is left. The solution is wanted six times, hence explicit
-   matrices instead of substitutions, in which each number waits for the one
-   before.
+    (g M - J) k = r with g = 1/(gamma h), M = I but for inertialess motion.
+    As dx/dt = u, k_x = (r_x + k_u)/g. As Q^2 = -|omega|^2 I,
+        (g I - Q/2)^-1 = (g I + Q/2)/(g^2 + |omega|^2/4)
+    gives k_q from k_omega. A dense 6x6 system in (k_u, k_omega) is left. The
+    solution is wanted six times, hence explicit matrices instead of
+    substitutions, in which each number waits for the one before.
 */
 typedef struct ellipsoid_stage_system
 {

@@ -345,7 +345,10 @@ set_free(evaluation *e, const ellipsoid_surroundings *surroundings,
         status = ellipsoid_body_flow(e->model, surroundings, e->state->x,
                                      e->flow->velocity, axis,
                                      derivatives ? d : NULL, &motion);
-        e->free = motion;
+        if (status == ELLIPSOID_OK)
+        {
+            e->free = motion;
+        }
         return status;
     }
     set_free_motion(e);

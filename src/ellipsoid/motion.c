@@ -27,10 +27,12 @@ static const double far_too_large = 1e6;
 static ellipsoid_status add_blocks(const ellipsoid_problem *p,
                                    ellipsoid_point *at)
 {
-    at->has_blocks = 1;
-    return ellipsoid_problem_evaluate(p, &at->state, !p->inertial,
-                                      &at->derivative, &at->contact,
-                                      &at->blocks);
+    const ellipsoid_status status = ellipsoid_problem_evaluate(
+        p, &at->state, !p->inertial, &at->derivative, &at->contact,
+        &at->blocks);
+
+    at->has_blocks = status == ELLIPSOID_OK;
+    return status;
 }
 
 /*

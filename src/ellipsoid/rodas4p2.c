@@ -6,8 +6,8 @@
     rodas4p2.c - the coefficients of RODAS4P2.
 
     Steinebach, Improvement of Rosenbrock-Wanner method RODASP, in: Progress in
-    Differential-Algebraic Equations II (2020): six stages, order 4(3), L-stable,
-    stiffly accurate, of order 2 with a Jacobian that is not exact. Of four sets
+    Differential-Algebraic Equations II (2020): six stages, order 4(3),
+    L-stable, stiffly accurate, of order 2 with a Jacobian that is not exact. Of four sets
     it takes the fewest steps (tests/benchmarks).
 */
 #include "ellipsoidInternal.h"

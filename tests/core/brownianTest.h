@@ -1,12 +1,11 @@
 /*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow Copyright (C) 2026 the
+    ellipsoidTrapFoam authors SPDX-License-Identifier: GPL-3.0-or-later
 
     brownianTest.h - one Brownian cell, an interval at a time, and statistics.
 
     Seeds are fixed, so no test is flaky: a bound of n sigma says how unlikely
-   it is that a right program had failed when its seed was chosen. 5 sigma of a
+    it is that a right program had failed when its seed was chosen. 5 sigma of a
     normal estimator are 6e-7, both sides.
 */
 #ifndef BROWNIAN_TEST_H

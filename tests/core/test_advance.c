@@ -385,7 +385,7 @@ static void test_step_limits(void **unused)
     r.model.options.maximum_step = 1e-5;
     assert_ok(go(&r, 0.005, observe, &l));
     assert_true(l.longest <= 1e-5 * (1 + 1e-9));
-    /* chosen: a quarter of the shortest relaxation time */
+    /* chosen: a quarter of the shorter relaxation time */
     assert_relative(l.t[0], 0.25 * r.model.rotation_relaxation_time, 1e-15);
 
     r = new_run();

@@ -82,11 +82,11 @@ static void test_one_interval(void **unused)
         <v^2> (1 - exp(-2 s)) = <b^2> (1 - exp(-s))^2, <b^2> = 2 kT/(zeta dt),
         <v^2> = (2 kT/(zeta dt)) tanh(s/2) = (kT/m) (2 tau/dt) tanh(dt/(2 tau)),
     equipartition for dt -> 0. v is a Gaussian series of correlation exp(-s n):
-    that of v^2 is exp(-2 s n), so that N samples count for N tanh(s), and
-    the mean of their squares has the relative deviation sqrt(2/(N tanh(s))).
-    At 0.1 tau the formula is 0.08 % below equipartition, at tau 8 %, at 10 tau
-   a fifth of it. 3 dt times 6 directions within 5 sigma: a right program fails
-   by chance with 1e-5.
+    that of v^2 is exp(-2 s n), so that N samples count for N tanh(s), and the
+    mean of their squares has the relative deviation sqrt(2/(N tanh(s))). At 0.1
+    tau the formula is 0.08 % below equipartition, at tau 8 %, at 10 tau a fifth
+    of it. 3 dt times 6 directions within 5 sigma: a right program fails by
+    chance with 1e-5.
 */
 static void check_equilibrium(double per_tau, long count)
 {
@@ -141,11 +141,11 @@ static void test_equilibrium(void **unused)
 
 /*
     The displacement in N intervals is the sum of b dt less tau (v_N - v_0).
-   With D = kT/zeta, <b dt . v_N> summed is 2 D (1 - exp(-N s)), so <x^2> = 2 D
-   t - 2 tau (2 D - tau <v^2>) (1 - exp(-t/tau)), Ornstein & Fuerth's for dt ->
-   0; without inertia tau is 0. A block's x is Gaussian, and two blocks in a row
-   are correlated by less than tau/t: the relative deviation of <x^2> over n
-   blocks is sqrt(2/n).
+    With D = kT/zeta, <b dt . v_N> summed is 2 D (1 - exp(-N s)), so <x^2> = 2 D
+    t - 2 tau (2 D - tau <v^2>) (1 - exp(-t/tau)), Ornstein & Fuerth's for dt ->
+    0; without inertia tau is 0. A block's x is Gaussian, and two blocks in a
+    row are correlated by less than tau/t: the relative deviation of <x^2> over
+    n blocks is sqrt(2/n).
 */
 static double mean_square(const ellipsoid_model *m, int i, double dt, double t)
 {
@@ -242,14 +242,14 @@ static double across_loss(const ellipsoid_model *m)
 /*
     With D_ij = Dbar I + dD (O O - I/3), dD = D_along - D_across, and
     <O(t).O(0)> = exp(-2 Dr t), <(O(t).O(0))^2> = 1/3 + 2/3 exp(-6 Dr t) (Berne
-   & Pecora, Dynamic Light Scattering, 1976), d<x_i x_j>/dt = 2 <D_ij> gives
+    & Pecora, Dynamic Light Scattering, 1976), d<x_i x_j>/dt = 2 <D_ij> gives
         <(x.O(0))^2> = 2 [Dbar t + 2/3 dD (1 - exp(-6 Dr t))/(6 Dr)],
         <|x|^2> = 6 Dbar t.
     Cells are independent and each gives one mean over its windows of the lag:
-   the scatter of these is the estimator's deviation, known to 1/sqrt(2 cells).
+    the scatter of these is the estimator's deviation, known to 1/sqrt(2 cells).
     dt = 0.05 s: D is taken as test_interval_refinement has it for that
-   interval, less than 0.5 % below kT/zeta; O decays by 0.2 % more slowly, a
-   tenth of a deviation where that is known best.
+    interval, less than 0.5 % below kT/zeta; O decays by 0.2 % more slowly, a
+    tenth of a deviation where that is known best.
 */
 enum
 {

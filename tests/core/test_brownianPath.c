@@ -68,9 +68,10 @@ static void test_normal(void **unused)
 /*
     Each of the six against each of the six of the same interval, of the next
     interval, the next cell and the next seed; their squares, too, as Box &
-   Muller would be wrong there first. The mean of n products of independent
-   standard normal numbers has the deviation 1/sqrt(n), that of (a^2 - 1)(b^2 -
-   1) 2/sqrt(n). 246 numbers within 5 deviations: by chance one fails with 2e-4.
+    Muller would be wrong there first. The mean of n products of independent
+    standard normal numbers has the deviation 1/sqrt(n), that of (a^2 - 1)(b^2 -
+    1) 2/sqrt(n). 246 numbers within 5 deviations: by chance one fails with
+    2e-4.
 */
 static void test_uncorrelated(void **unused)
 {
@@ -230,8 +231,8 @@ static void check_cut(ellipsoid_motion motion)
 /*
     Calls that end anywhere, even within the layer after a jump, which is then
     followed instead of crossed: the same noise, so the paths differ by the
-   local errors, at most the tolerance for each step, and by what the crossing
-   leaves out: of tau v/a = 5e-7 what the body turns in the time tau, 4e-4.
+    local errors, at most the tolerance for each step, and by what the crossing
+    leaves out: of tau v/a = 5e-7 what the body turns in the time tau, 4e-4.
 */
 static void check_cut_anywhere(ellipsoid_motion motion)
 {
@@ -349,8 +350,8 @@ static void test_rounded_ends(void **unused)
 /*
     Nothing fast is to be followed where an interval is many relaxation times
     long: one step for each (and some for the first), and more only where the
-   body turns by a tenth (0.01 s) or a quarter (0.05 s), with few rejected: two
-   or four of the fourth order, one or two of the fifth without inertia.
+    body turns by a tenth (0.01 s) or a quarter (0.05 s), with few rejected: two
+    or four of the fourth order, one or two of the fifth without inertia.
 */
 static void test_steps(void **unused)
 {

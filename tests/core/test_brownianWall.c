@@ -89,11 +89,11 @@ static double interval_of(double way)
 /*
     A soft sphere: kT presses it in by 0.1 um, (2.5 kT/k)^(2/5). An interval
     moves it by 0.04 um, which by test_soft_wall_refinement makes the mean low
-   by 0.3 (0.04/L)^2 L = 2.4 nm at most, a hundredth of the deviation. Heights
+    by 0.3 (0.04/L)^2 L = 2.4 nm at most, a hundredth of the deviation. Heights
     relax with 4 L^2/D or faster (Risken, The Fokker-Planck Equation, 1989, of a
     constant force on a wall), from 3 L above the wall and for 9 of these times:
-    exp(-9) of exp(1.5) is left. 1e-4 of L/2 = 0.1 um is
-    the tolerance, less than a thousandth of the way of an interval.
+    exp(-9) of exp(1.5) is left. 1e-4 of L/2 = 0.1 um is the tolerance, less
+    than a thousandth of the way of an interval.
 
     Cells are independent. Kolmogorov & Smirnov at a significance of 1e-4, c =
     2.225; the mean within 5 sigma of its known deviation.
@@ -177,19 +177,19 @@ static double mean_push(const ellipsoid_state *a, const ellipsoid_state *b,
 
 /*
     On a hard wall (1 MPa: pressed in by 0.1 nm) a cell that is pushed against
-   it waits there for the interval to end. With the same noise, heights at
-   interval ends are those of Lindley's recursion h -> max(0, h + sigma n -
-   sigma^2/(2 L)), sigma = sqrt(2 D dt), whose stationary mean is (Chang &
-   Peres, Ann. Probab. 25, 787 (1997)) L + sigma zeta(1/2)/sqrt(2 pi) +
-   sigma^2/(8 L) + O(sigma^3/L^2), zeta(1/2)/sqrt(2 pi) = -0.5826. So the
-   profile converges with sqrt(dt).
+    it waits there for the interval to end. With the same noise, heights at
+    interval ends are those of Lindley's recursion h -> max(0, h + sigma n -
+    sigma^2/(2 L)), sigma = sqrt(2 D dt), whose stationary mean is (Chang &
+    Peres, Ann. Probab. 25, 787 (1997)) L + sigma zeta(1/2)/sqrt(2 pi) +
+    sigma^2/(8 L) + O(sigma^3/L^2), zeta(1/2)/sqrt(2 pi) = -0.5826. So the
+    profile converges with sqrt(dt).
 
     The mean of the cell's heights is compared with that of the recursion: they
     differ by the depth and by what Simpson's rule makes of the turn of the
-   force in an interval, phi^4/2880: 0.005 L is far more. The recursion's with
-   the theory: 5 sigma; the mean over N intervals has a deviation of L sqrt(8/N)
-   L/sigma, as a Brownian motion with drift above a wall stays correlated for 2
-   L^2/D (Abate & Whitt, Adv. Appl. Probab. 19, 560 (1987)).
+    force in an interval, phi^4/2880: 0.005 L is far more. The recursion's with
+    the theory: 5 sigma; the mean over N intervals has a deviation of L
+    sqrt(8/N) L/sigma, as a Brownian motion with drift above a wall stays
+    correlated for 2 L^2/D (Abate & Whitt, Adv. Appl. Probab. 19, 560 (1987)).
 */
 static void check_hard_wall(ellipsoid_motion motion, double part,
                             double tolerance, long count)
@@ -497,6 +497,38 @@ static void test_steps(void **unused)
     assert_true(most <= 30);
 }
 
+/*
+    However stiff the wall, the noise presses a sphere in by what its force
+    does: the force has 0.3 pN, pressed by 10 pN, so that in 1000 intervals the
+    overlap exceeds that at rest by (1 + 4 0.03)^(2/3) at most, 8 %. (At 1e12 Pa
+    it would be 5e-15 m, a hundredth of the tolerance.)
+*/
+static void test_stiff_wall(void **unused)
+{
+    (void)unused;
+    for (int k = 0; k < 3; k++)
+    {
+        const double modulus = pow(10, 6 + 2 * k), force = 1e-11;
+        ellipsoid_options o =
+            over_wall(ELLIPSOID_MOTION_INERTIAL, 1, modulus, scale, 1e-3);
+        const double radius = o.bead_radius;
+        const double rest = pow(0.75 * force / modulus / sqrt(radius), 2.0 / 3);
+        test_walk w;
+
+        o.buoyancy = 0;
+        o.density = 1040;
+        o.external_force[2] = -force;
+        w = walk_over_wall(&o, 37, 1, o.bead_radius - rest);
+        for (int n = 0; n < 1000; n++)
+        {
+            test_walk_on(&w);
+        }
+        print_message("# %.0e Pa: deepest overlap %.3f of that at rest\n",
+                      modulus, w.statistics.deepest / rest);
+        assert_true(w.statistics.deepest < 1.08 * rest);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -507,6 +539,7 @@ int main(void)
         cmocka_unit_test(test_soft_wall_refinement),
         cmocka_unit_test(test_cell_profile),
         cmocka_unit_test(test_steps),
+        cmocka_unit_test(test_stiff_wall),
     };
 
     return cmocka_run_group_tests_name("brownianWall", tests, build_wall,

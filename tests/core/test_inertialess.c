@@ -340,7 +340,7 @@ static settling settle(ellipsoid_motion motion, const wall_mesh *floor,
 /*
     With and without inertia the cell sinks, touches and slides the same way: in
     0.5 s the difference is that of the relaxation time, 1.4e-6 s, over which
-   the cell moves 2e-11 m, and what the shear of 10 1/s makes of it.
+    the cell moves 2e-11 m, and what the shear of 10 1/s makes of it.
 */
 static void test_on_a_floor(void **unused)
 {
@@ -414,6 +414,49 @@ static void test_interface(void **unused)
     assert_true(t[0] == 1e-3);
 }
 
+/* Shear that refuses its derivatives as often as it is told to. */
+typedef struct reluctant
+{
+    test_quadratic flow;
+    int refusals;
+} reluctant;
+
+static int reluctant_flow(void *context, const double x[3], int derivatives,
+                          ellipsoid_flow_sample *sample)
+{
+    reluctant *r = context;
+
+    if (derivatives && r->refusals > 0)
+    {
+        r->refusals--;
+        return 1;
+    }
+    return test_quadratic_flow(&r->flow, x, derivatives, sample);
+}
+
+/* Derivatives that could not be had are asked for again with the next, shorter
+   attempt. A dipole makes the steps Rosenbrock's. */
+static void test_refused_derivatives(void **unused)
+{
+    ellipsoid_options o = without_inertia();
+    reluctant r = {test_shear(rate), 1};
+    const ellipsoid_surroundings around = {.flow = reluctant_flow,
+                                           .flow_context = &r};
+    ellipsoid_state s = {.q = {0, 0, 0, 1}};
+    ellipsoid_controller controller = {0};
+    ellipsoid_statistics statistics = {0};
+    ellipsoid_model model;
+    double t = 0;
+
+    (void)unused;
+    o.dipole[0] = 1e-20;
+    o.electric_field[1] = 1;
+    model = test_model(&o);
+    assert_ok(ellipsoid_advance(&model, &around, &s, &t, 1e-3, &controller,
+                                NULL, NULL, NULL, &statistics));
+    assert_int_equal(statistics.rejected, 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -423,6 +466,7 @@ int main(void)
         cmocka_unit_test(test_explicit_order),
         cmocka_unit_test(test_on_a_floor),
         cmocka_unit_test(test_interface),
+        cmocka_unit_test(test_refused_derivatives),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

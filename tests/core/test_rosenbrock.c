@@ -289,8 +289,8 @@ static void test_order_not_stiff(void **unused)
 
 /*
     The paper's cell, steps hundreds of relaxation times (2e-7 s) long: x and q
-    keep the order while their test_errors exceed 1e-9 of the body and of one; u
-   and omega, slaved to them, are reported.
+    keep the order while their errors exceed 1e-9 of the body and of one; u
+    and omega, slaved to them, are reported.
 */
 static void test_order_stiff(void **unused)
 {
