@@ -20,6 +20,7 @@ Description
 #include "wholeFile.H"
 
 #include <algorithm>
+#include <cmath>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -207,7 +208,7 @@ void Foam::ellipsoidCloud::report()
 
     Info<< "t = " << mesh_.time().timeName() << " s, ";
     statistics_->report(Info);
-    Info<< ", about " << label(left + 0.5) << " s to go" << endl;
+    Info<< ", about " << std::round(left) << " s to go" << endl;
 
     reportTime_ = now;
 }
@@ -216,7 +217,7 @@ void Foam::ellipsoidCloud::report()
 void Foam::ellipsoidCloud::reportLoad() const
 {
     List<scalar> moving(Pstream::nProcs(), Zero);
-    List<scalar> steps(Pstream::nProcs(), Zero);
+    List<int64_t> steps(Pstream::nProcs(), int64_t(0));
 
     moving[Pstream::myProcNo()] = movingTime_;
     steps[Pstream::myProcNo()] = totals_.accepted + totals_.rejected;

@@ -10,6 +10,7 @@ License
 #include "ellipsoidParcel.H"
 #include "IOstreams.H"
 #include "IOField.H"
+#include "wholeFile.H"
 
 #include <algorithm>
 #include <cstddef>
@@ -113,7 +114,10 @@ namespace Foam
             values[i++] = get(s);
         }
 
-        values.write(c.size() > 0);
+        if (!values.write(c.size() > 0))
+        {
+            cannotWrite(values.objectPath());
+        }
     }
 
     //- Name of a component: the member's own where there is one only

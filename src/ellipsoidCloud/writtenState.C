@@ -6,7 +6,6 @@ License
     SPDX-License-Identifier: GPL-3.0-or-later
     See COPYING at the top of the source tree.
 
-Class
 \*---------------------------------------------------------------------------*/
 #include "writtenState.H"
 #include "wholeFile.H"
@@ -213,13 +212,10 @@ Foam::writtenState::writtenState(const Time& time)
 
     const bool copies = returnReduce(isCopy(mark_, path_), orOp<bool>());
 
-    // Where ranks share a file the folder is another
-    const bool cells = returnReduce
-    (
-        isDir(cellFolder(path_))
-     || isDir(fileHandler().filePath(cellFolder(path_))),
-        orOp<bool>()
-    );
+    // Where ranks share a file the folder is another, and asking is collective
+    const bool shared = isDir(fileHandler().filePath(cellFolder(path_)));
+    const bool cells =
+        returnReduce(shared || isDir(cellFolder(path_)), orOp<bool>());
 
     // The first complaint of any rank, said once
     List<string> complaints(Pstream::nProcs());

@@ -96,7 +96,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const int parts = (int)fuzz_bits(&in, 1);
     const int wild_options = (parts & 7) == 7, wild_state = (parts & 56) == 56;
     ellipsoid_options options = fuzz_options(&in);
-    ellipsoid_state elsewhere, way;
+    ellipsoid_state elsewhere, usual, way;
     fuzz_scene scene;
     fuzz_start start = {.t = 0};
     int tame;
@@ -116,6 +116,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fuzz_scene_read(&scene, &in, &options);
     fuzz_state(&in, scene.length, scene.speed, &start.state);
     elsewhere = read_elsewhere(&in, parts & 64, &scene, &options, &start.state);
+    usual = start.state;
     if (wild_state)
     {
         fuzz_wild_state(&in, &start.state);
@@ -128,7 +129,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     ellipsoid_contact_cache_clear(&warm);
     for (int n = 0; n <= 5; n++)
     {
-        way = n < 5 ? between(&elsewhere, &start.state, n / 5.0) : start.state;
+        way = n < 5 ? between(&elsewhere, &usual, n / 5.0) : start.state;
         fuzz_check_pose(&model, &scene, &way, &warm);
     }
     fuzz_check_equations(&model, &scene, &start.state, tame);

@@ -102,7 +102,14 @@ int main(int argc, char *argv[])
         while (runTime.loop())
         {
             cells.evolve();
-            runTime.write();
+
+            if (!runTime.write() && runTime.writeTime())
+            {
+                FatalErrorInFunction
+                    << "cannot write time " << runTime.timeName()
+                    << ": is the disk full, or not writable?"
+                    << exit(FatalError);
+            }
         }
 
         cells.finish();
