@@ -261,7 +261,7 @@ static ellipsoid_status begin(const ellipsoid_problem *p,
     {
         square += y[n] * y[n];
     }
-    if (!isfinite(sum) || !isfinite(square) || !(square > 0))
+    if (!isfinite(sum) || !isfinite(square) || !(square >= DBL_MIN))
     {
         return ELLIPSOID_NON_FINITE;
     }
