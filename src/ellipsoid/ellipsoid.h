@@ -49,7 +49,8 @@ extern "C" {
     X(WALLS_FAILED, "the walls gave up at the cell's position")                \
     X(STEP_UNDERFLOW, "the step fell below the smallest step")                 \
     X(TOO_MANY_STEPS, "the number of steps is exhausted")                      \
-    X(TOO_MANY_FACETS, "too many wall facets near one cell")
+    X(TOO_MANY_FACETS, "too many wall facets near one cell")                   \
+    X(TOO_MANY_CELLS, "too many cells overlap in one group")
 
 #define ELLIPSOID_STATUS_ENUM(name, text) ELLIPSOID_##name,
 typedef enum ellipsoid_status
@@ -385,11 +386,11 @@ typedef struct ellipsoid_contact_cache
 
 void ellipsoid_contact_cache_clear(ellipsoid_contact_cache *cache);
 
-/* The wall's action on a cell in one pose. */
+/* The action of the walls, and of the other cells of its group, on a cell. */
 typedef struct ellipsoid_contact
 {
-    double force[3];        /* [N] lab */
-    double torque[3];       /* [N m] body */
+    double force[3];        /* [N] lab, of the walls */
+    double torque[3];       /* [N m] body, of the walls */
     double deepest;         /* [m] deepest overlap of a bead, 0 if none */
     double gap;             /* [m] smallest gap between a bead and the walls,
                                -deepest where they overlap; at most the bead
@@ -398,6 +399,13 @@ typedef struct ellipsoid_contact
     int touching_beads;
     int touched_count;      /* distinct surfaces, at most MAX_TOUCHED listed */
     int touched[ELLIPSOID_MAX_TOUCHED]; /* labels, in order of first touch */
+
+    double cell_force[3];   /* [N] lab, of the other cells */
+    double cell_torque[3];  /* [N m] body */
+    double cell_deepest;    /* [m] deepest overlap with another cell */
+    int touched_cell_count; /* at most MAX_TOUCHED listed */
+    uint32_t touched_cell[ELLIPSOID_MAX_TOUCHED]; /* their ids, in the order of
+                                                     the group */
 } ellipsoid_contact;
 
 /* Derivatives of force (lab) and torque (body) by x (lab) and by the four
@@ -568,6 +576,54 @@ ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
                                    ellipsoid_observer observer,
                                    void *observer_context,
                                    ellipsoid_statistics *statistics);
+
+/* -------------------------------------------------------------- groups */
+
+/* A cell of a group; cells of any size and kind may form one. */
+typedef struct ellipsoid_member
+{
+    const ellipsoid_model *model;
+    const ellipsoid_surroundings *surroundings; /* its id names the cell */
+    ellipsoid_state *state;
+    ellipsoid_controller *controller;
+    ellipsoid_contact_cache *cache;
+    void *observer_context;
+    ellipsoid_statistics *statistics;
+} ellipsoid_member;
+
+/* Bytes of memory that a group of so many cells is advanced in. */
+size_t ellipsoid_group_size(int count);
+
+/*
+    Advances cells that may touch one another from *t to `end` [s], as one
+    system in common steps: F_S, paper eq. (1). The beads of two cells touch as
+    a bead and a wall do, with the radius r_1 r_2/(r_1 + r_2) and the modulus
+    E_1 E_2/(E_1 + E_2); what one cell feels the other does with the opposite
+    sign. As ellipsoid_advance() for the rest, for every member; members share
+    motion, noise interval, and the limits of steps of the first one.
+    `memory` is ellipsoid_group_size(count) bytes aligned as by malloc(); it
+    holds nothing between calls. *which is the member that stopped the group or
+    failed, -1 if it is none in particular; others have gone as far.
+    The members' order decides the rounding.
+    BAD_OPTION: the members do not go together. TOO_MANY_CELLS: more of them
+    overlap than there is memory for.
+*/
+ellipsoid_status ellipsoid_advance_group(int count,
+                                         const ellipsoid_member members[],
+                                         double *t,
+                                         double end,
+                                         ellipsoid_observer observer,
+                                         void *memory,
+                                         int *which);
+
+/*
+    The smallest gap [m] between the beads of two cells in given poses, negative
+    where they overlap; at most `horizon` [m], beyond which nobody looks.
+*/
+double ellipsoid_cell_gap(const ellipsoid_model *a, const double x_a[3],
+                          const double q_a[4], const ellipsoid_model *b,
+                          const double x_b[3], const double q_b[4],
+                          double horizon);
 
 #ifdef __cplusplus
 }
