@@ -3,7 +3,7 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    contact.c - the walls' force and torque on a cell in one pose.
+    contact.c - the walls' force and torque on a cell in one state.
 */
 #include "ellipsoidInternal.h"
 
@@ -13,16 +13,22 @@
 /* How far beyond a bead's surface a gap is measured, in bead radii. */
 static const double gap_horizon = 1;
 
-static void add_bead(const double arm[3], const double q[4], double r[3][3],
-                     const double force[3], double force_x[3][3],
-                     ellipsoid_contact *contact,
+static void add_bead(const ellipsoid_model *model, const ellipsoid_state *state,
+                     const double arm[3], double r[3][3], const double force[3],
+                     double force_x[3][3], ellipsoid_contact *contact,
                      ellipsoid_contact_jacobian *jacobian)
 {
-    ellipsoid_add_force_at(arm, r, force, contact->force, contact->torque);
     contact->touching_beads++;
+    if (model->dissipative)
+    {
+        ellipsoid_rub_wall(model, state, r, arm, force, force_x, contact,
+                           jacobian);
+        return;
+    }
+    ellipsoid_add_force_at(arm, r, force, contact->force, contact->torque);
     if (jacobian)
     {
-        ellipsoid_add_derivatives(arm, q, r, force, force_x, jacobian);
+        ellipsoid_add_derivatives(arm, state->q, r, force, force_x, jacobian);
     }
 }
 
@@ -48,8 +54,8 @@ static ellipsoid_bead placed(const ellipsoid_model *model, int b,
     finds the gap.
 */
 static void sum_beads(const ellipsoid_model *model,
-                      const ellipsoid_contact_cache *cache, const double x[3],
-                      const double q[4], double moved,
+                      const ellipsoid_contact_cache *cache,
+                      const ellipsoid_state *state, double moved,
                       ellipsoid_contact *contact,
                       ellipsoid_contact_jacobian *jacobian)
 {
@@ -57,7 +63,7 @@ static void sum_beads(const ellipsoid_model *model,
     const double away = moved + 1e-9 * model->options.bead_radius;
     double r[3][3], force[3], force_x[3][3];
 
-    ellipsoid_rotation_inline(q, r);
+    ellipsoid_rotation_inline(state->q, r);
     for (int round = 0; round < 2 && contact->gap > 0; round++)
     {
         for (int b = 0; b < model->bead_count; b++)
@@ -74,14 +80,14 @@ static void sum_beads(const ellipsoid_model *model,
                 continue;
             }
 
-            const ellipsoid_bead bead = placed(model, b, x, r);
+            const ellipsoid_bead bead = placed(model, b, state->x, r);
 
             if (ellipsoid_bead_touch(&bead, &from, &contact->gap, force,
                                      jacobian ? force_x : NULL, contact)
                 > 0)
             {
-                add_bead(model->bead[b], q, r, force, force_x, contact,
-                         jacobian);
+                add_bead(model, state, model->bead[b], r, force, force_x,
+                         contact, jacobian);
             }
         }
     }
@@ -91,8 +97,7 @@ static void sum_beads(const ellipsoid_model *model,
 ellipsoid_status ellipsoid_contact_evaluate(
     const ellipsoid_model *model,
     const ellipsoid_surroundings *surroundings,
-    const double x[3],
-    const double q[4],
+    const ellipsoid_state *state,
     ellipsoid_contact_cache *cache,
     ellipsoid_contact *contact,
     ellipsoid_contact_jacobian *jacobian)
@@ -112,11 +117,11 @@ ellipsoid_status ellipsoid_contact_evaluate(
 
     double moved;
     const ellipsoid_status status = ellipsoid_contact_collect(
-        cache, model, surroundings, x, q, contact->gap, &moved);
+        cache, model, surroundings, state->x, state->q, contact->gap, &moved);
 
     if (status == ELLIPSOID_OK && cache->clearance <= 0)
     {
-        sum_beads(model, cache, x, q, moved, contact, jacobian);
+        sum_beads(model, cache, state, moved, contact, jacobian);
     }
     return status;
 }

@@ -143,6 +143,10 @@ typedef struct ellipsoid_options
     int bead_count;           /* 32; 1 to ELLIPSOID_MAX_BEADS */
     double bead_radius;       /* [m] 0.285e-6; below the smallest semi-axis */
     double contact_modulus;   /* [Pa] effective modulus E*, 1e6 */
+    double friction;          /* [-] Coulomb's coefficient, 0 */
+    double slip_speed;        /* [m/s] below which friction yields, 1e-5 */
+    double contact_damping;   /* [s/m] Hunt and Crossley's factor, 0: restitution
+                                 is 1 less this times the speed of impact */
 
     /* integrator */
     double tolerance;    /* [-] local error: x against the largest semi-axis,
@@ -188,6 +192,7 @@ typedef struct ellipsoid_model
     double noise_force[3];  /* [N] body, standard deviation of a component */
     double noise_torque[3]; /* [N m] likewise */
     int electric, aligned;  /* does a field act? On a dipole? */
+    int dissipative;        /* do contacts depend on velocities? */
     double reach;           /* [m] farthest contact surface from the centre */
     int flow_points;        /* 0 unless FLOW_BODY */
     double flow_point[ELLIPSOID_MAX_FLOW_POINTS][3]; /* [m] body, on surface */
@@ -410,29 +415,33 @@ typedef struct ellipsoid_contact
                                                      the group */
 } ellipsoid_contact;
 
-/* Derivatives of force (lab) and torque (body) by x (lab) and by the four
-   components of q, R(q) taken as the polynomial above. */
+/* Derivatives of force (lab) and torque (body) by the state, R(q) taken as the
+   polynomial above; those by u and omega are of friction and damping. */
 typedef struct ellipsoid_contact_jacobian
 {
-    double force_x[3][3];  /* [N/m] */
-    double force_q[3][4];  /* [N] */
-    double torque_x[3][3]; /* [N] */
-    double torque_q[3][4]; /* [N m] */
+    double force_x[3][3];      /* [N/m] */
+    double force_q[3][4];      /* [N] */
+    double torque_x[3][3];     /* [N] */
+    double torque_q[3][4];     /* [N m] */
+    double force_u[3][3];      /* [N s/m] */
+    double force_omega[3][3];  /* [N s] */
+    double torque_u[3][3];     /* [N s] */
+    double torque_omega[3][3]; /* [N m s] */
 } ellipsoid_contact_jacobian;
 
 /*
     Beads against facets: Hertz, F = 4/3 E* sqrt(r_b) d^(3/2) along the normal
     of each contact; the contacts of one bead add up as sum w_i f_i n_i,
     w_i = f_i / sum_j f_j max(0, n_i.n_j) (see touch.c where they are nearly
-    parallel). jacobian may be NULL. The result is that of the pose alone, to
-    the last bit, whatever the cache has seen before. STEP_UNDERFLOW: the walls
-    ask for a shorter step.
+    parallel). Friction and damping come on top (contactLaw.c); without them u
+    and omega are not read. jacobian may be NULL. The result is that of the
+    state alone, to the last bit, whatever the cache has seen before.
+    STEP_UNDERFLOW: the walls ask for a shorter step.
 */
 ellipsoid_status ellipsoid_contact_evaluate(
     const ellipsoid_model *model,
     const ellipsoid_surroundings *surroundings,
-    const double x[3],
-    const double q[4],
+    const ellipsoid_state *state,
     ellipsoid_contact_cache *cache,
     ellipsoid_contact *contact,
     ellipsoid_contact_jacobian *jacobian);

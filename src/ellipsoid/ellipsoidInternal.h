@@ -220,6 +220,80 @@ void ellipsoid_add_to_blocks(const ellipsoid_contact_jacobian *jacobian,
                              double of_force, const double of_torque[3],
                              ellipsoid_blocks *blocks);
 
+/* ------------------------------------------------- friction and damping */
+
+typedef struct ellipsoid_contact_law
+{
+    double friction;   /* [-] mu */
+    double slip_speed; /* [m/s] v_s */
+    double damping;    /* [s/m] alpha */
+} ellipsoid_contact_law;
+
+ellipsoid_contact_law ellipsoid_law_of(const ellipsoid_model *model);
+ellipsoid_contact_law ellipsoid_law_between(const ellipsoid_model *a,
+                                            const ellipsoid_model *b);
+
+/* The force where surfaces touch, and its derivatives. */
+typedef struct ellipsoid_traction
+{
+    double normal[3];
+    double force[3];          /* [N] lab */
+    double by_push[3][3];     /* [-] by the elastic force, v being held */
+    double by_velocity[3][3]; /* [N s/m] */
+} ellipsoid_traction;
+
+/* From the elastic force [N] and the velocity of the material there [m/s], both
+   lab; 0 where there is no push (contactLaw.c). */
+int ellipsoid_contact_traction(const ellipsoid_contact_law *law,
+                               const double push[3], const double velocity[3],
+                               int derivatives, ellipsoid_traction *traction);
+
+/* Where a body is held by one of its beads. */
+typedef struct ellipsoid_grip
+{
+    const ellipsoid_state *state;
+    const double *arm;  /* [m] body, the bead's centre */
+    double (*r)[3];     /* R(q) */
+    double spin[3];     /* [rad/s] lab, R omega */
+    double point[3];    /* [m] lab, the contact point, from the body's centre */
+} ellipsoid_grip;
+
+/* Its point is the bead's centre. */
+ellipsoid_grip ellipsoid_grip_of(const ellipsoid_state *state, double r[3][3],
+                                 const double arm[3]);
+
+/* A body and a wall, or two bodies, that rub at one point. */
+typedef struct ellipsoid_rub
+{
+    int bodies;
+    ellipsoid_grip grip[2];
+    double push[3];         /* [N] elastic force on the first */
+    double push_c[2][3][3]; /* [N/m] derivative by the centre of each's bead */
+    double point_c[2][3][3]; /* [-] likewise, of the contact point */
+    ellipsoid_traction traction; /* on the first */
+} ellipsoid_rub;
+
+/* Sets the traction; 0 where there is none. */
+int ellipsoid_rub_traction(const ellipsoid_contact_law *law, ellipsoid_rub *rub,
+                           int derivatives);
+
+/* Adds what a body feels: force [N, lab] and torque [N m, body]. */
+void ellipsoid_add_rub(const ellipsoid_rub *rub, int body, double force[3],
+                       double torque[3]);
+
+/* Adds to jacobian[i][k] the derivatives of what body i feels by the state of
+   body k (lever.c). */
+void ellipsoid_add_rub_derivatives(
+    ellipsoid_rub *rub, ellipsoid_contact_jacobian *const jacobian[2][2]);
+
+/* A wall's push on a bead, as ellipsoid_bead_touch() gives it, becomes force and
+   torque with friction and damping; jacobian may be NULL. */
+void ellipsoid_rub_wall(const ellipsoid_model *model,
+                        const ellipsoid_state *state, double r[3][3],
+                        const double arm[3], const double push[3],
+                        double push_x[3][3], ellipsoid_contact *contact,
+                        ellipsoid_contact_jacobian *jacobian);
+
 /* Are walls felt at all? */
 static inline int ellipsoid_has_walls(const ellipsoid_model *model,
                                       const ellipsoid_surroundings *around)

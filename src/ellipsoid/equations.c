@@ -219,8 +219,7 @@ add_contact(evaluation *e, const ellipsoid_surroundings *surroundings,
 {
     ellipsoid_contact_jacobian jacobian;
     const ellipsoid_status status = ellipsoid_contact_evaluate(
-        e->model, surroundings, e->state->x, e->state->q, cache, contact,
-        b ? &jacobian : NULL);
+        e->model, surroundings, e->state, cache, contact, b ? &jacobian : NULL);
 
     if (status != ELLIPSOID_OK)
     {

@@ -122,6 +122,149 @@ void ellipsoid_add_other_derivatives(const double arm[3], double r[3][3],
     }
 }
 
+/* A change of one unknown of one body, in units of it. */
+typedef struct change
+{
+    double bead[3];     /* how its bead's centre moves */
+    double centre[3];   /* how its own centre does */
+    double velocity[3]; /* of its material, at the same point from its centre */
+} change;
+
+static change change_of(const ellipsoid_grip *grip, int n)
+{
+    change c = {{0}, {0}, {0}};
+    double spin[3] = {0};
+
+    if (n < 3) /* u */
+    {
+        c.velocity[n] = 1;
+        return c;
+    }
+    if (n < 6) /* x */
+    {
+        c.bead[n - 3] = c.centre[n - 3] = 1;
+        return c;
+    }
+    if (n < 9) /* omega */
+    {
+        ellipsoid_set(spin, grip->r[0][n - 6], grip->r[1][n - 6],
+                      grip->r[2][n - 6]);
+    }
+    else
+    {
+        turned_by(grip->state->q, n - 9, grip->arm, c.bead);
+        turned_by(grip->state->q, n - 9, grip->state->omega, spin);
+    }
+    ellipsoid_cross(spin, grip->point, c.velocity);
+    return c;
+}
+
+/* Column n, in the order of the state, of force and torque. */
+static void add_column(const double force[3], const double torque[3], int n,
+                       ellipsoid_contact_jacobian *to)
+{
+    for (int i = 0; i < 3; i++)
+    {
+        *(n < 3   ? &to->force_u[i][n]
+          : n < 6 ? &to->force_x[i][n - 3]
+          : n < 9 ? &to->force_omega[i][n - 6]
+                  : &to->force_q[i][n - 9]) += force[i];
+        *(n < 3   ? &to->torque_u[i][n]
+          : n < 6 ? &to->torque_x[i][n - 3]
+          : n < 9 ? &to->torque_omega[i][n - 6]
+                  : &to->torque_q[i][n - 9]) += torque[i];
+    }
+}
+
+/*
+    The torque R^T (p x F) of a body, p the contact point from its centre: n is
+    the changed unknown, of this body itself if `own`.
+*/
+static void add_felt(const ellipsoid_grip *grip, const double force[3],
+                     const double force_n[3], const double point_n[3], int own,
+                     int n, ellipsoid_contact_jacobian *to)
+{
+    const double *q = grip->state->q;
+    const double conjugate[4] = {-q[0], -q[1], -q[2], q[3]};
+    double torque_n[3], part[3], body[3];
+
+    ellipsoid_cross(grip->point, force_n, torque_n);
+    ellipsoid_cross(point_n, force, part);
+    ellipsoid_add(torque_n, part);
+    ellipsoid_to_body(grip->r, torque_n, body);
+    if (own && n >= 9)
+    {
+        double torque[3];
+
+        ellipsoid_cross(grip->point, force, torque);
+        turned_by(conjugate, n - 9, torque, part);
+        for (int i = 0; i < 3; i++)
+        {
+            body[i] += n == 12 ? part[i] : -part[i];
+        }
+    }
+    add_column(force_n, body, n, to);
+}
+
+/* How the contact point moves from each body's centre, and the traction. */
+static void changed_rub(ellipsoid_rub *rub, int body, const change *c,
+                        double point[2][3], double force[3])
+{
+    double velocity[3], push[3], part[3];
+
+    for (int i = 0; i < 3; i++)
+    {
+        velocity[i] = body == 0 ? c->velocity[i] : -c->velocity[i];
+    }
+    for (int k = 0; k < rub->bodies; k++)
+    {
+        ellipsoid_product(rub->point_c[body], c->bead, point[k]);
+        if (k == body)
+        {
+            ellipsoid_difference(point[k], c->centre, point[k]);
+        }
+        if (k == 0)
+        {
+            ellipsoid_cross(rub->grip[k].spin, point[k], part);
+        }
+        else
+        {
+            ellipsoid_cross(point[k], rub->grip[k].spin, part);
+        }
+        ellipsoid_add(velocity, part);
+    }
+    ellipsoid_product(rub->push_c[body], c->bead, push);
+    ellipsoid_product(rub->traction.by_push, push, force);
+    ellipsoid_product(rub->traction.by_velocity, velocity, part);
+    ellipsoid_add(force, part);
+}
+
+void ellipsoid_add_rub_derivatives(
+    ellipsoid_rub *rub, ellipsoid_contact_jacobian *const jacobian[2][2])
+{
+    const double *f = rub->traction.force;
+    const double back[3] = {-f[0], -f[1], -f[2]};
+
+    for (int body = 0; body < rub->bodies; body++)
+    {
+        for (int n = 0; n < ELLIPSOID_STATE_SIZE; n++)
+        {
+            const change c = change_of(&rub->grip[body], n);
+            double point[2][3], force_n[3];
+
+            changed_rub(rub, body, &c, point, force_n);
+            add_felt(&rub->grip[0], f, force_n, point[0], body == 0, n,
+                     jacobian[0][body]);
+            if (rub->bodies == 2)
+            {
+                ellipsoid_set(force_n, -force_n[0], -force_n[1], -force_n[2]);
+                add_felt(&rub->grip[1], back, force_n, point[1], body == 1, n,
+                         jacobian[1][body]);
+            }
+        }
+    }
+}
+
 void ellipsoid_add_to_blocks(const ellipsoid_contact_jacobian *jacobian,
                              double of_force, const double of_torque[3],
                              ellipsoid_blocks *b)
@@ -130,8 +273,12 @@ void ellipsoid_add_to_blocks(const ellipsoid_contact_jacobian *jacobian,
     {
         for (int l = 0; l < 3; l++)
         {
+            b->uu[i][l] += of_force * jacobian->force_u[i][l];
             b->ux[i][l] += of_force * jacobian->force_x[i][l];
+            b->uw[i][l] += of_force * jacobian->force_omega[i][l];
+            b->wu[i][l] += of_torque[i] * jacobian->torque_u[i][l];
             b->wx[i][l] += of_torque[i] * jacobian->torque_x[i][l];
+            b->ww[i][l] += of_torque[i] * jacobian->torque_omega[i][l];
         }
         for (int n = 0; n < 4; n++)
         {

@@ -36,6 +36,9 @@ ellipsoid_options ellipsoid_options_default(void)
         .bead_count = 32,
         .bead_radius = 0.285e-6,
         .contact_modulus = 1e6,
+        .friction = 0,
+        .slip_speed = 1e-5,
+        .contact_damping = 0,
         .tolerance = 1e-6,
         .initial_step = 0,
         .minimum_step = 1e-18,
@@ -152,6 +155,17 @@ static void check_contact(verdict *v, const ellipsoid_options *o)
             "above 0, below the smallest semi-axis");
     require(v, within(o->contact_modulus, 1e-12, 1e15), "contact_modulus",
             "1e-12 to 1e15 Pa");
+    require(v, within(o->friction, 0, 100), "friction", "0 to 100");
+    require(v, within(o->slip_speed, 1e-15, 1e3), "slip_speed",
+            "1e-15 to 1e3 m/s");
+    require(v, within(o->contact_damping, 0, 1e12), "contact_damping",
+            "0 to 1e12 s/m");
+    if (o->motion == ELLIPSOID_MOTION_INERTIALESS)
+    {
+        require(v, o->friction == 0, "friction", "0 with motion INERTIALESS");
+        require(v, o->contact_damping == 0, "contact_damping",
+                "0 with motion INERTIALESS");
+    }
     if (!v->field)
     {
         double bead[ELLIPSOID_MAX_BEADS][3];

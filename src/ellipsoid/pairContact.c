@@ -21,6 +21,7 @@ static const double gap_horizon = 1;
 typedef struct body
 {
     const ellipsoid_model *model;
+    const ellipsoid_state *state; /* NULL where nobody asks for forces */
     const double *x, *q;
     double r[3][3];
     double (*bead)[3]; /* [m] lab, from the centre */
@@ -77,6 +78,7 @@ typedef struct meeting
 {
     body a, b;
     double stiffness; /* [N/m^1.5] 4/3 E* sqrt(R) */
+    ellipsoid_contact_law law;
     double gap;       /* [m] the smallest found */
     int touching;     /* beads */
     int derivatives;
@@ -117,6 +119,46 @@ static void push_apart(const meeting *m, const double line[3], double distance,
     }
 }
 
+/* The beads' contact point divides the line of centres as the radii do. */
+static void add_rub(meeting *m, int bead_a, int bead_b, const double line[3],
+                    const double force[3], double force_x[3][3])
+{
+    const double r_a = m->a.model->options.bead_radius;
+    const double r_b = m->b.model->options.bead_radius;
+    const double part[2] = {r_b / (r_a + r_b), r_a / (r_a + r_b)};
+    ellipsoid_contact_jacobian *const jacobian[2][2] = {
+        {&m->of_a.own, &m->of_a.other}, {&m->of_b.other, &m->of_b.own}};
+    ellipsoid_rub rub = {.bodies = 2};
+
+    rub.grip[0] =
+        ellipsoid_grip_of(m->a.state, m->a.r, m->a.model->bead[bead_a]);
+    rub.grip[1] =
+        ellipsoid_grip_of(m->b.state, m->b.r, m->b.model->bead[bead_b]);
+    ellipsoid_copy(force, rub.push);
+    for (int i = 0; i < 3; i++)
+    {
+        rub.grip[0].point[i] -= part[1] * line[i];
+        rub.grip[1].point[i] += part[0] * line[i];
+        for (int j = 0; j < 3; j++)
+        {
+            rub.push_c[0][i][j] = force_x[i][j];
+            rub.push_c[1][i][j] = -force_x[i][j];
+            rub.point_c[0][i][j] = i == j ? part[0] : 0;
+            rub.point_c[1][i][j] = i == j ? part[1] : 0;
+        }
+    }
+    if (!ellipsoid_rub_traction(&m->law, &rub, m->derivatives))
+    {
+        return;
+    }
+    ellipsoid_add_rub(&rub, 0, m->of_a.force, m->of_a.torque);
+    ellipsoid_add_rub(&rub, 1, m->of_b.force, m->of_b.torque);
+    if (m->derivatives)
+    {
+        ellipsoid_add_rub_derivatives(&rub, jacobian);
+    }
+}
+
 static void add_touch(meeting *m, int bead_a, int bead_b, double force[3],
                       double force_x[3][3])
 {
@@ -127,7 +169,6 @@ static void add_touch(meeting *m, int bead_a, int bead_b, double force[3],
 
     ellipsoid_add_force_at(arm_a, m->a.r, force, m->of_a.force, m->of_a.torque);
     ellipsoid_add_force_at(arm_b, m->b.r, back, m->of_b.force, m->of_b.torque);
-    m->touching++;
     if (!m->derivatives)
     {
         return;
@@ -168,7 +209,15 @@ static void meet_bead(meeting *m, int bead_a, const double from[3])
         if (distance < both && distance > 0)
         {
             push_apart(m, line, distance, both - distance, force, force_x);
-            add_touch(m, bead_a, n, force, force_x);
+            m->touching++;
+            if (m->law.friction > 0 || m->law.damping > 0)
+            {
+                add_rub(m, bead_a, n, line, force, force_x);
+            }
+            else
+            {
+                add_touch(m, bead_a, n, force, force_x);
+            }
         }
     }
 }
@@ -279,8 +328,11 @@ static body place_cell(ellipsoid_group *g, const ellipsoid_point *points,
     const int anew = !g->pairs->placed[cell];
 
     g->pairs->placed[cell] = 1;
-    return place(g->cell[cell].model, points[cell].state.x,
-                 points[cell].state.q, g->pairs->bead[cell], anew);
+    body b = place(g->cell[cell].model, points[cell].state.x,
+                   points[cell].state.q, g->pairs->bead[cell], anew);
+
+    b.state = &points[cell].state;
+    return b;
 }
 
 static double horizon_between(const ellipsoid_model *a,
@@ -309,6 +361,7 @@ static ellipsoid_status add_pair(ellipsoid_group *g, ellipsoid_point *points,
     m.a = place_cell(g, points, a);
     m.b = place_cell(g, points, b);
     m.stiffness = stiffness_between(&of_a->options, &of_b->options);
+    m.law = ellipsoid_law_between(of_a, of_b);
     m.gap = horizon;
     m.touching = 0;
     m.derivatives = with_blocks;

@@ -79,6 +79,7 @@ ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
     m.reach = fmax(a[0], fmax(a[1], a[2]));
     if (options->contact)
     {
+        m.dissipative = options->friction > 0 || options->contact_damping > 0;
         m.bead_count = ellipsoid_beads(options, m.bead);
         m.reach = contact_reach(&m);
     }

@@ -91,6 +91,10 @@ bool Foam::cellInjection::overlaps(const newCell& cell) const
     }
 
     // Beads may stand out of the ellipsoid
+    ellipsoid_state state = {};
+    std::copy_n(cell.x, 3, state.x);
+    std::copy_n(cell.q, 4, state.q);
+
     ellipsoid_contact_cache cache;
     ellipsoid_contact contact;
     ellipsoid_contact_cache_clear(&cache);
@@ -98,7 +102,7 @@ bool Foam::cellInjection::overlaps(const newCell& cell) const
     return
         ellipsoid_contact_evaluate
         (
-            &model_, &around, cell.x, cell.q, &cache, &contact, nullptr
+            &model_, &around, &state, &cache, &contact, nullptr
         )
      || contact.touching_beads;
 }

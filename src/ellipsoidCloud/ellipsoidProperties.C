@@ -103,6 +103,9 @@ namespace Foam
         { "bead_count", "contact", "beads" },
         { "bead_radius", "contact", "beadRadius" },
         { "contact_modulus", "contact", "modulus" },
+        { "friction", "contact", "friction" },
+        { "slip_speed", "contact", "slipSpeed" },
+        { "contact_damping", "contact", "damping" },
         { "tolerance", "integration", "tolerance" },
         { "initial_step", "integration", "initialStep" },
         { "minimum_step", "integration", "minimumStep" },
@@ -170,7 +173,11 @@ void Foam::ellipsoidProperties::readOptions()
     const dictionary& contact = section("contact");
     checkKeywords
     (
-        contact, {"active", "beadLayout", "beads", "beadRadius", "modulus"}
+        contact,
+        {
+            "active", "beadLayout", "beads", "beadRadius", "modulus",
+            "friction", "slipSpeed", "damping"
+        }
     );
     options_.contact = contact.getOrDefault("active", Switch(options_.contact));
     options_.bead_layout =
@@ -180,6 +187,11 @@ void Foam::ellipsoidProperties::readOptions()
         contact.getOrDefault("beadRadius", options_.bead_radius);
     options_.contact_modulus =
         contact.getOrDefault("modulus", options_.contact_modulus);
+    options_.friction = contact.getOrDefault("friction", options_.friction);
+    options_.slip_speed =
+        contact.getOrDefault("slipSpeed", options_.slip_speed);
+    options_.contact_damping =
+        contact.getOrDefault("damping", options_.contact_damping);
 
     const dictionary& integration = section("integration");
     checkKeywords

@@ -60,6 +60,22 @@ static void lay(double q[4], double angle)
     ellipsoid_quaternion_from_axis(axis, 0, q);
 }
 
+/* The contact of a cell at rest. */
+static ellipsoid_status evaluate_pose(const ellipsoid_model *model,
+                                      const ellipsoid_surroundings *around_it,
+                                      const double x[3], const double q[4],
+                                      ellipsoid_contact_cache *cache,
+                                      ellipsoid_contact *contact,
+                                      ellipsoid_contact_jacobian *jacobian)
+{
+    ellipsoid_state state = {.u = {0}};
+
+    memcpy(state.x, x, sizeof(state.x));
+    memcpy(state.q, q, sizeof(state.q));
+    return ellipsoid_contact_evaluate(model, around_it, &state, cache, contact,
+                                      jacobian);
+}
+
 /*
     A sphere on a plane under its weight: Hertz, F = 4/3 E* sqrt(R) d^1.5
     (Johnson, Contact Mechanics (1985), eq. 4.23).
@@ -86,7 +102,7 @@ static void test_sphere_on_a_plane(void **unused)
     const double x[3] = {-2 * um, 1 * um, 0.45 * um - depth};
 
     ellipsoid_contact_cache_clear(&cache);
-    assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q, &cache,
+    assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
                                          &contact, NULL));
     /* depth is 4e-7 of the radius, so it is known to 1e-9 of itself */
     assert_relative(contact.force[2], weight, 1e-8);
@@ -117,7 +133,7 @@ static void test_standing_and_lying(void **unused)
     (void)unused;
     ellipsoid_contact_cache_clear(&cache);
     ellipsoid_quaternion_from_axis(up, 0.3, q);
-    assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q, &cache,
+    assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
                                          &contact, NULL));
     assert_int_equal(contact.touching_beads, 1);
     assert_relative(contact.force[2], k * pow(1e-9, 1.5), 1e-6);
@@ -125,7 +141,7 @@ static void test_standing_and_lying(void **unused)
 
     lay(q, 0.7);
     x[2] = 0.5 * um;
-    assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q, &cache,
+    assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
                                          &contact, NULL));
     assert_true(contact.gap > -0.03 * um && contact.gap < 0.06 * um);
     wall_mesh_free(&mesh);
@@ -197,7 +213,7 @@ static void test_sum_over_beads(void **unused)
         double x[3], q[4];
 
         random_pose(&seed, x, q);
-        assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+        assert_ok(evaluate_pose(&model, &surroundings, x, q,
                                              &cache, &contact, NULL));
         assert_sum(&model, &mesh, x, q, &contact);
         touched += contact.touching_beads > 0;
@@ -249,9 +265,9 @@ static void test_cache_changes_nothing(void **unused)
                     q[i] += 0.005 * test_signed(&seed);
                 }
                 ellipsoid_contact_cache_clear(&fresh);
-                assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x,
+                assert_ok(evaluate_pose(&model, &surroundings, x,
                                                      q, &kept, &a, &ja));
-                assert_ok(ellipsoid_contact_evaluate(&model, &emptied, x, q,
+                assert_ok(evaluate_pose(&model, &emptied, x, q,
                                                      &fresh, &b, &jb));
                 assert_memory_equal(&a, &b, sizeof a);
                 assert_memory_equal(&ja, &jb, sizeof ja);
@@ -290,7 +306,7 @@ static void test_jacobian_is_exact(void **unused)
         {
             y[i] *= 1.01;
         }
-        assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, y, y + 3,
+        assert_ok(evaluate_pose(&model, &surroundings, y, y + 3,
                                              &cache, &contact, &exact));
 
         /* beads that begin to touch within the difference have no slope yet */
@@ -303,7 +319,7 @@ static void test_jacobian_is_exact(void **unused)
             for (int side = -1; side <= 1; side += 2)
             {
                 y[k] = middle + side * h;
-                assert_ok(ellipsoid_contact_evaluate(
+                assert_ok(evaluate_pose(
                     &model, &surroundings, y, y + 3, &cache, &moved, NULL));
                 smooth = smooth
                       && moved.touching_beads == contact.touching_beads;
@@ -367,7 +383,7 @@ static void test_far_from_walls(void **unused)
     {
         ellipsoid_contact contact;
 
-        assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+        assert_ok(evaluate_pose(&model, &surroundings, x, q,
                                              &cache, &contact, NULL));
         assert_true(contact.gap == options.bead_radius);
         assert_int_equal(contact.touching_beads, 0);
@@ -382,7 +398,7 @@ static void test_far_from_walls(void **unused)
     {
         ellipsoid_contact contact;
 
-        assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+        assert_ok(evaluate_pose(&model, &surroundings, x, q,
                                              &cache, &contact, NULL));
     }
     assert_true(walls.calls < 8);
@@ -404,7 +420,7 @@ static void test_no_walls(void **unused)
     {
         const ellipsoid_model model = test_model(&options);
 
-        assert_ok(ellipsoid_contact_evaluate(
+        assert_ok(evaluate_pose(
             &model, options.contact ? &without : &with, x, q, NULL, &contact,
             &jacobian));
         assert_true(contact.gap == HUGE_VAL);
@@ -432,22 +448,22 @@ static void test_failures_have_names(void **unused)
     (void)unused;
     ellipsoid_contact_cache_clear(&cache);
     walls.answer = 1;
-    assert_int_equal(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+    assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
                                                 &cache, &contact, NULL),
                      ELLIPSOID_STEP_UNDERFLOW);
     walls.answer = -1;
-    assert_int_equal(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+    assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
                                                 &cache, &contact, NULL),
                      ELLIPSOID_WALLS_FAILED);
     walls.answer = 0;
     x[1] = NAN;
-    assert_int_equal(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+    assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
                                                 &cache, &contact, NULL),
                      ELLIPSOID_NON_FINITE);
     x[1] = 0;
     mesh.facets[0].middle[2] = INFINITY;
     walls.farther = 100 * um;
-    assert_int_equal(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+    assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
                                                 &cache, &contact, NULL),
                      ELLIPSOID_NON_FINITE);
     wall_mesh_free(&mesh);
@@ -458,14 +474,14 @@ static void test_failures_have_names(void **unused)
     wall_mesh_finish(&mesh);
     walls.farther = 0;
     lay(q, 0.1);
-    assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q, &cache,
+    assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
                                          &contact, NULL));
     wall_mesh_free(&mesh);
     wall_mesh_init(&mesh);
     wall_mesh_plane(&mesh, corner, u, v, 4, 40000, 0, 0);
     wall_mesh_finish(&mesh);
     ellipsoid_contact_cache_clear(&cache);
-    assert_int_equal(ellipsoid_contact_evaluate(&model, &surroundings, x, q,
+    assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
                                                 &cache, &contact, NULL),
                      ELLIPSOID_TOO_MANY_FACETS);
     wall_mesh_free(&mesh);
@@ -490,7 +506,7 @@ static void test_touched_surfaces(void **unused)
     (void)unused;
     ellipsoid_contact_cache_clear(&cache);
     ellipsoid_quaternion_from_axis(across, 0, q);
-    assert_ok(ellipsoid_contact_evaluate(&model, &surroundings, x, q, &cache,
+    assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
                                          &contact, NULL));
     assert_int_equal(contact.touched_count, 2);
     assert_int_equal(contact.touched[0] + contact.touched[1], 3);

@@ -39,8 +39,8 @@ void fuzz_check_pose(const ellipsoid_model *model, fuzz_scene *scene,
     int overlaps = 2, all_overlaps = 2;
 
     ellipsoid_contact_cache_clear(&cold);
-    status = ellipsoid_contact_evaluate(model, &scene->around, state->x,
-                                        state->q, &cold, &contact, NULL);
+    status = ellipsoid_contact_evaluate(model, &scene->around, state,
+                                        &cold, &contact, NULL);
     if (status == ELLIPSOID_OK)
     {
         check_contact(model, has_walls, &contact);
@@ -55,8 +55,8 @@ void fuzz_check_pose(const ellipsoid_model *model, fuzz_scene *scene,
     }
 
     require(status
-            == ellipsoid_contact_evaluate(model, &scene->around, state->x,
-                                          state->q, warm, &again, &jacobian));
+            == ellipsoid_contact_evaluate(model, &scene->around, state,
+                                          warm, &again, &jacobian));
     if (status == ELLIPSOID_OK)
     {
         require_same(contact, again);
@@ -68,8 +68,8 @@ void fuzz_check_pose(const ellipsoid_model *model, fuzz_scene *scene,
     scene->generous = 1;
     ellipsoid_contact_cache_clear(&cold);
     require(status
-            == ellipsoid_contact_evaluate(model, &scene->around, state->x,
-                                          state->q, &cold, &again, NULL));
+            == ellipsoid_contact_evaluate(model, &scene->around, state,
+                                          &cold, &again, NULL));
     if (status == ELLIPSOID_OK)
     {
         require_same(contact, again);

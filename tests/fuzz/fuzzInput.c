@@ -91,6 +91,15 @@ static void read_beads(fuzz_input *in, ellipsoid_options *o)
     o->contact_modulus = fuzz_scaled(in, 1e2, 1e9);
 }
 
+static void read_contact_law(fuzz_input *in, ellipsoid_options *o)
+{
+    const int which = fuzz_choice(in, 4);
+
+    o->friction = which & 1 ? fuzz_scaled(in, 1e-3, 10) : 0;
+    o->contact_damping = which & 2 ? fuzz_scaled(in, 1e-3, 1e6) : 0;
+    o->slip_speed = fuzz_scaled(in, 1e-9, 1);
+}
+
 static void read_forces(fuzz_input *in, double size, ellipsoid_options *o)
 {
     const double weight = 1e4 * size * size * size; /* [N] */
@@ -177,6 +186,10 @@ ellipsoid_options fuzz_options(fuzz_input *in)
         o.temperature = fuzz_between(in, 0, 1000);
         o.noise_interval = fuzz_scaled(in, 1e-9, 1);
     }
+    if (o.motion == ELLIPSOID_MOTION_INERTIAL)
+    {
+        read_contact_law(in, &o);
+    }
     /* bounds the time that one input takes */
     o.maximum_steps = 1 + fuzz_choice(in, 24);
     return o;
@@ -195,7 +208,8 @@ void fuzz_wild_options(fuzz_input *in, ellipsoid_options *o)
         &o->noise_interval,     &o->bead_radius,
         &o->contact_modulus,    &o->tolerance,
         &o->initial_step,       &o->minimum_step,
-        &o->maximum_step};
+        &o->maximum_step,       &o->friction,
+        &o->slip_speed,         &o->contact_damping};
     int *const integers[] = {&o->drag,     &o->flow_points, &o->buoyancy,
                              &o->brownian, &o->contact,     &o->bead_count};
     static const int known[] = {0,   1,   2,   32,      50,      51,     256,
@@ -204,19 +218,19 @@ void fuzz_wild_options(fuzz_input *in, ellipsoid_options *o)
 
     for (int n = 0; n < changes; n++)
     {
-        const int which = fuzz_choice(in, 32);
+        const int which = fuzz_choice(in, 35);
 
-        if (which < 21)
+        if (which < 24)
         {
             /* within the ranges' ends, or anything */
             *numbers[which] = fuzz_choice(in, 2) ? fuzz_wild(in)
                                                  : fuzz_scaled(in, 1e-20, 1e20);
         }
-        else if (which < 27)
+        else if (which < 30)
         {
-            *integers[which - 21] = known[fuzz_choice(in, 13)];
+            *integers[which - 24] = known[fuzz_choice(in, 13)];
         }
-        else if (which == 27)
+        else if (which == 30)
         {
             o->maximum_steps = (long)fuzz_bits(in, 8) % 24;
         }

@@ -258,8 +258,8 @@ static void check_last_pose(const run *r)
     ellipsoid_state balanced = r->now.state;
 
     require(ellipsoid_contact_evaluate(r->model, &r->scene->around,
-                                       r->now.state.x, r->now.state.q,
-                                       fresh(r->scene), &contact, NULL)
+                                       &r->now.state, fresh(r->scene),
+                                       &contact, NULL)
             == ELLIPSOID_OK);
     require_same(contact, r->contact);
     if (o->motion == ELLIPSOID_MOTION_INERTIALESS && !o->brownian)

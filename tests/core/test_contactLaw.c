@@ -1,0 +1,311 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    test_contactLaw.c - friction and damping: the law itself, and the Jacobian
+    of a group of cells that touch walls and one another.
+
+    Lengths, times and masses are of the order of one here, so that differences
+    are good to 1e-9.
+*/
+#include "coreTest.h"
+#include "wallMesh.h"
+
+enum
+{
+    CELLS = 3,
+    SIZE = ELLIPSOID_STATE_SIZE
+};
+
+/* ----------------------------------------------------------------- the law */
+
+/* Coulomb: at slips far above the slip speed the friction is mu N, against the
+   slip; far below it is mu N v/v_s. Hunt & Crossley (1975), eq. 8. */
+static void test_limits_of_the_law(void **unused)
+{
+    const ellipsoid_contact_law law = {0.3, 1e-5, 20};
+    const double push[3] = {0, 0, 2}, down[3] = {0, 0, -1e-3};
+    const double fast[3] = {3e-3, 4e-3, 0}, slow[3] = {0, 1e-9, 0};
+    const double away[3] = {1e-3, 0, 0.1};
+    ellipsoid_traction t;
+
+    (void)unused;
+    assert_true(ellipsoid_contact_traction(&law, push, fast, 0, &t));
+    /* 1 - (v_s/v)^2/2 = 1 - 2e-6 */
+    assert_relative(t.force[0], -0.6 * 2 * 0.3, 3e-6);
+    assert_relative(t.force[1], -0.8 * 2 * 0.3, 3e-6);
+    assert_true(t.force[2] == 2);
+    assert_true(ellipsoid_contact_traction(&law, push, slow, 0, &t));
+    assert_relative(t.force[1], -2 * 0.3 * 1e-4, 1e-8);
+    assert_true(ellipsoid_contact_traction(&law, push, down, 0, &t));
+    assert_relative(t.force[2], 2 * (1 + 1.5 * 20 * 1e-3), 1e-15);
+    /* a wall does not pull */
+    assert_true(ellipsoid_contact_traction(&law, push, away, 0, &t));
+    assert_true(ellipsoid_length(t.force) == 0);
+}
+
+/* Friction and damping take power, whatever the velocity. */
+static void test_the_law_takes_power(void **unused)
+{
+    uint64_t seed = 11;
+
+    (void)unused;
+    for (int n = 0; n < 10000; n++)
+    {
+        const ellipsoid_contact_law law = {2 * test_uniform(&seed), 0.1,
+                                           2 * test_uniform(&seed)};
+        double push[3], velocity[3];
+        ellipsoid_traction t;
+
+        for (int i = 0; i < 3; i++)
+        {
+            push[i] = test_signed(&seed);
+            velocity[i] = test_signed(&seed);
+        }
+        assert_true(ellipsoid_contact_traction(&law, push, velocity, 0, &t));
+        assert_true(ellipsoid_dot(t.force, velocity)
+                    <= ellipsoid_dot(push, velocity) + 1e-15);
+    }
+}
+
+/* --------------------------------------------------------- the whole group */
+
+typedef struct scene
+{
+    ellipsoid_model model[CELLS];
+    ellipsoid_surroundings around;
+    ellipsoid_contact_cache cache[CELLS];
+    ellipsoid_statistics statistics;
+    ellipsoid_problem cell[CELLS];
+    ellipsoid_point point[CELLS];
+    ellipsoid_coupling coupling[16 * CELLS];
+    double bead[CELLS][ELLIPSOID_MAX_BEADS][3];
+    int placed[CELLS];
+    ellipsoid_pairs pairs;
+    ellipsoid_group group;
+} scene;
+
+static void set_scene(scene *s, const ellipsoid_options options[CELLS],
+                      test_quadratic *flow, wall_mesh *mesh)
+{
+    s->around = (ellipsoid_surroundings){
+        .flow = test_quadratic_flow, .flow_context = flow,
+        .walls = wall_mesh_list, .walls_context = mesh};
+    for (int c = 0; c < CELLS; c++)
+    {
+        s->model[c] = test_model(&options[c]);
+        ellipsoid_contact_cache_clear(&s->cache[c]);
+        s->cell[c] = (ellipsoid_problem){.model = &s->model[c],
+                                         .surroundings = &s->around,
+                                         .cache = &s->cache[c],
+                                         .statistics = &s->statistics,
+                                         .inertial = 1,
+                                         .walls = 1};
+    }
+    s->pairs = (ellipsoid_pairs){.capacity = 16 * CELLS,
+                                 .coupling = s->coupling,
+                                 .bead = s->bead,
+                                 .placed = s->placed};
+    s->group = (ellipsoid_group){.count = CELLS,
+                                 .inertial = 1,
+                                 .cell = s->cell,
+                                 .start = s->point,
+                                 .pairs = &s->pairs};
+}
+
+/* The accelerations of all cells. */
+static void accelerations(scene *s, double all[6 * CELLS], int touching[CELLS])
+{
+    assert_ok(ellipsoid_group_evaluate(&s->group, s->point, 0, 0));
+    for (int c = 0; c < CELLS; c++)
+    {
+        memcpy(all + 6 * c, s->point[c].derivative.u, 3 * sizeof(*all));
+        memcpy(all + 6 * c + 3, s->point[c].derivative.omega,
+               3 * sizeof(*all));
+        touching[c] = s->point[c].contact.touching_beads;
+    }
+}
+
+/* Six rows of a cell by the thirteen unknowns of one. */
+static void add_rows(const ellipsoid_blocks *b, double rows[6][SIZE])
+{
+    for (int i = 0; i < 3; i++)
+    {
+        for (int l = 0; l < 3; l++)
+        {
+            rows[i][AT_U + l] += b->uu[i][l];
+            rows[i][AT_X + l] += b->ux[i][l];
+            rows[i][AT_OMEGA + l] += b->uw[i][l];
+            rows[i + 3][AT_U + l] += b->wu[i][l];
+            rows[i + 3][AT_X + l] += b->wx[i][l];
+            rows[i + 3][AT_OMEGA + l] += b->ww[i][l];
+        }
+        for (int l = 0; l < 4; l++)
+        {
+            rows[i][AT_Q + l] += b->uq[i][l];
+            rows[i + 3][AT_Q + l] += b->wq[i][l];
+        }
+    }
+}
+
+static void analytic(scene *s, double rows[CELLS][CELLS][6][SIZE])
+{
+    assert_ok(ellipsoid_group_evaluate(&s->group, s->point, 0, 1));
+    memset(rows, 0, sizeof(double[CELLS][CELLS][6][SIZE]));
+    for (int c = 0; c < CELLS; c++)
+    {
+        add_rows(&s->point[c].blocks, rows[c][c]);
+    }
+    for (int n = 0; n < s->pairs.count; n++)
+    {
+        add_rows(&s->coupling[n].blocks,
+                 rows[s->coupling[n].row][s->coupling[n].column]);
+    }
+}
+
+/* Cells that overlap one another and the walls of a corner, in motion. */
+static void throw_cells(uint64_t *seed, scene *s)
+{
+    for (int c = 0; c < CELLS; c++)
+    {
+        ellipsoid_state *at = &s->point[c].state;
+
+        test_orientation(seed, at->q);
+        for (int i = 0; i < 3; i++)
+        {
+            at->u[i] = test_signed(seed);
+            at->omega[i] = test_signed(seed);
+            at->x[i] = 0.6 + 0.5 * test_uniform(seed);
+        }
+        at->x[2] = 0.6 + 0.85 * c + 0.1 * test_signed(seed);
+        for (int i = 0; i < 4; i++)
+        {
+            at->q[i] *= 1.01; /* as inside a step */
+        }
+    }
+}
+
+/* Is something near a kink: a bead about to touch, or one that the damping
+   lets go? The forces of two differences tell. */
+static int differ(const double a[6 * CELLS], const double b[6 * CELLS],
+                  double by)
+{
+    for (int i = 0; i < 6 * CELLS; i++)
+    {
+        if (!(fabs(a[i] - b[i]) <= by))
+        {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Central differences of two widths, where they agree. */
+static int difference(scene *s, double *value, double step[6 * CELLS])
+{
+    const double middle = *value;
+    double slope[2][6 * CELLS], low[6 * CELLS], high[6 * CELLS];
+    int before[CELLS], after[CELLS];
+
+    for (int n = 0; n < 2; n++)
+    {
+        const double h = n == 0 ? 2e-5 : 1e-5;
+
+        *value = middle - h;
+        accelerations(s, low, before);
+        *value = middle + h;
+        accelerations(s, high, after);
+        *value = middle;
+        for (int i = 0; i < 6 * CELLS; i++)
+        {
+            slope[n][i] = (high[i] - low[i]) / (2 * h);
+        }
+        if (memcmp(before, after, sizeof(before)) != 0)
+        {
+            return 0;
+        }
+    }
+    memcpy(step, slope[1], sizeof(slope[1]));
+    return !differ(slope[0], slope[1], 1e-5);
+}
+
+static const double law_of_cell[CELLS][3] = {
+    {0.5, 0.2, 0.1}, {0.8, 0.3, 0.2}, {0.3, 0.25, 0}};
+
+/*
+    All blocks, uw, wu and those between cells included, against central
+    differences. Rounding: 1e-16 of forces of 10 over 1e-5; truncation where the
+    differences of two widths agree to 1e-5: a third of that.
+*/
+static void test_jacobian_of_a_group(void **unused)
+{
+    static scene s;
+    static double rows[CELLS][CELLS][6][SIZE];
+    ellipsoid_options options[CELLS];
+    const double low[3] = {0, 0, 0}, high[3] = {9, 9, 9};
+    test_quadratic flow = test_shear(0.3);
+    wall_mesh mesh;
+    uint64_t seed = 5;
+    int checked = 0, mixed = 0;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    wall_mesh_box(&mesh, low, high, 1, 0, 0);
+    wall_mesh_finish(&mesh);
+    for (int c = 0; c < CELLS; c++)
+    {
+        options[c] = ellipsoid_options_default();
+        ellipsoid_set(options[c].semi_axes, 0.6, 1 - 0.1 * c, 0.5);
+        options[c].bead_radius = 0.3 + 0.05 * c;
+        options[c].density = options[c].fluid_density = 1;
+        options[c].kinematic_viscosity = 0.1;
+        options[c].contact_modulus = 3;
+        options[c].friction = law_of_cell[c][0];
+        options[c].slip_speed = law_of_cell[c][1];
+        options[c].contact_damping = law_of_cell[c][2];
+    }
+    set_scene(&s, options, &flow, &mesh);
+    for (int n = 0; n < 60; n++)
+    {
+        throw_cells(&seed, &s);
+        analytic(&s, rows);
+        mixed += s.pairs.count > 0 && s.point[0].contact.touching_beads > 0;
+        for (int c = 0; c < CELLS; c++)
+        {
+            double y[SIZE];
+
+            for (int l = 0; l < SIZE; l++)
+            {
+                double slope[6 * CELLS];
+                const ellipsoid_state kept = s.point[c].state;
+
+                memcpy(y, &kept, sizeof(y));
+                if (!difference(&s, (double *)&s.point[c].state + l, slope))
+                {
+                    continue;
+                }
+                s.point[c].state = kept;
+                checked++;
+                for (int i = 0; i < 6 * CELLS; i++)
+                {
+                    assert_near(rows[i / 6][c][i % 6][l], slope[i], 2e-5);
+                }
+            }
+        }
+    }
+    assert_true(checked > 1000);
+    assert_true(mixed > 20);
+    wall_mesh_free(&mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_limits_of_the_law),
+        cmocka_unit_test(test_the_law_takes_power),
+        cmocka_unit_test(test_jacobian_of_a_group),
+    };
+
+    return cmocka_run_group_tests_name("contactLaw", tests, NULL, NULL);
+}
