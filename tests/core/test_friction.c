@@ -22,7 +22,9 @@ static void on_incline(contact_run *r, double angle, double friction)
     o.contact_modulus = 1e8;
     o.friction = friction;
     o.slip_speed = 1e-6;
-    o.tolerance = 1e-9; /* of x: u is good to that times 1 cm over a step */
+    /* in vacuum the errors of u in the first steps, which are of 1e-6 s and may
+       be of 1e-11 times 1 cm over that, last */
+    o.tolerance = 1e-11;
     ellipsoid_set(o.gravity, g * sin(angle), 0, -g * cos(angle));
     contact_start(r, &o, 1);
     weight = r->model.mass * g * cos(angle);
@@ -32,7 +34,7 @@ static void on_incline(contact_run *r, double angle, double friction)
 /*
     Rolling, with I = 2/5 m r^2: 5/7 g sin, as long as tan <= 7/2 mu; sliding
     above: g (sin - mu cos), and 5/2 mu g cos/r for the spin. Friction yields by
-    some slip speeds (1e-6 m/s) of velocities of 0.3 m/s.
+    about a slip speed, 1e-6 m/s, of velocities of 0.07 m/s and more.
 */
 static void test_ball_on_an_incline(void **unused)
 {
@@ -54,8 +56,8 @@ static void test_ball_on_an_incline(void **unused)
         assert_int_equal(rolls, n < 3);
         on_incline(&r, angle[n], friction[n]);
         assert_ok(contact_go(&r, 0.1));
-        assert_relative(r.state.u[0], 0.1 * faster, 3e-5);
-        assert_relative(r.state.omega[1], 0.1 * turning, 3e-5);
+        assert_relative(r.state.u[0], 0.1 * faster, 2e-5);
+        assert_relative(r.state.omega[1], 0.1 * turning, 2e-5);
     }
     wall_mesh_free(&r.mesh);
 }
