@@ -114,6 +114,8 @@ static ellipsoid_status try_rosenbrock(ellipsoid_group *g,
     g->next_has_blocks = !planned->last;
     status = ellipsoid_group_evaluate(g, g->next, !g->inertial,
                                       g->next_has_blocks);
+    /* there is room for the couplings of one time only */
+    g->has_blocks = !(g->pairs && g->next_has_blocks);
     if (status == ELLIPSOID_OK && is_one_held_back(g, planned->h))
     {
         *error = far_too_large;
