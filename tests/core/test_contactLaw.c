@@ -12,6 +12,8 @@
 #include "coreTest.h"
 #include "wallMesh.h"
 
+#include <stdlib.h>
+
 enum
 {
     CELLS = 3,
@@ -77,13 +79,10 @@ typedef struct scene
     ellipsoid_surroundings around;
     ellipsoid_contact_cache cache[CELLS];
     ellipsoid_statistics statistics;
-    ellipsoid_problem cell[CELLS];
-    ellipsoid_point point[CELLS];
-    ellipsoid_coupling coupling[16 * CELLS];
-    double bead[CELLS][ELLIPSOID_MAX_BEADS][3];
-    int placed[CELLS];
+    ellipsoid_point *point;
     ellipsoid_pairs pairs;
     ellipsoid_group group;
+    void *memory;
 } scene;
 
 static void set_scene(scene *s, const ellipsoid_options options[CELLS],
@@ -92,26 +91,21 @@ static void set_scene(scene *s, const ellipsoid_options options[CELLS],
     s->around = (ellipsoid_surroundings){
         .flow = test_quadratic_flow, .flow_context = flow,
         .walls = wall_mesh_list, .walls_context = mesh};
+    s->memory = malloc(ellipsoid_group_size(CELLS));
+    ellipsoid_group_lay_out(CELLS, s->memory, &s->group, &s->pairs);
+    s->group.inertial = 1;
+    s->point = s->group.start;
     for (int c = 0; c < CELLS; c++)
     {
         s->model[c] = test_model(&options[c]);
         ellipsoid_contact_cache_clear(&s->cache[c]);
-        s->cell[c] = (ellipsoid_problem){.model = &s->model[c],
-                                         .surroundings = &s->around,
-                                         .cache = &s->cache[c],
-                                         .statistics = &s->statistics,
-                                         .inertial = 1,
-                                         .walls = 1};
+        s->group.cell[c] = (ellipsoid_problem){.model = &s->model[c],
+                                               .surroundings = &s->around,
+                                               .cache = &s->cache[c],
+                                               .statistics = &s->statistics,
+                                               .inertial = 1,
+                                               .walls = 1};
     }
-    s->pairs = (ellipsoid_pairs){.capacity = 16 * CELLS,
-                                 .coupling = s->coupling,
-                                 .bead = s->bead,
-                                 .placed = s->placed};
-    s->group = (ellipsoid_group){.count = CELLS,
-                                 .inertial = 1,
-                                 .cell = s->cell,
-                                 .start = s->point,
-                                 .pairs = &s->pairs};
 }
 
 /* The accelerations of all cells. */
@@ -159,8 +153,9 @@ static void analytic(scene *s, double rows[CELLS][CELLS][6][SIZE])
     }
     for (int n = 0; n < s->pairs.count; n++)
     {
-        add_rows(&s->coupling[n].blocks,
-                 rows[s->coupling[n].row][s->coupling[n].column]);
+        const ellipsoid_coupling *between = &s->pairs.coupling[n];
+
+        add_rows(&between->blocks, rows[between->row][between->column]);
     }
 }
 
@@ -296,6 +291,7 @@ static void test_jacobian_of_a_group(void **unused)
     }
     assert_true(checked > 1000);
     assert_true(mixed > 20);
+    free(s.memory);
     wall_mesh_free(&mesh);
 }
 

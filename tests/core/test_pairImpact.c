@@ -240,23 +240,18 @@ static void test_duration(void **unused)
    their moments: to rounding. */
 static void test_forces_balance(void **unused)
 {
-    static double bead[2][ELLIPSOID_MAX_BEADS][3];
-    static ellipsoid_coupling coupling[32];
+    void *memory = malloc(ellipsoid_group_size(2));
     ellipsoid_options options[2] = {partner(0, 1), partner(0, 0.8)};
-    ellipsoid_problem cell[2];
-    ellipsoid_point point[2];
     ellipsoid_statistics statistics = {0};
-    int placed[2], touched = 0;
-    ellipsoid_pairs pairs = {.capacity = 32,
-                             .coupling = coupling,
-                             .bead = bead,
-                             .placed = placed};
-    ellipsoid_group group = {
-        .count = 2, .inertial = 1, .cell = cell, .pairs = &pairs};
+    ellipsoid_pairs pairs;
+    ellipsoid_group group;
+    int touched = 0;
     encounter e;
     uint64_t seed = 33;
 
     (void)unused;
+    ellipsoid_group_lay_out(2, memory, &group, &pairs);
+    group.inertial = 1;
     for (int k = 0; k < 2; k++)
     {
         options[k].friction = 0.4;
@@ -268,20 +263,20 @@ static void test_forces_balance(void **unused)
         double force[3] = {0}, moment[3] = {0}, size = 0;
 
         meet(&e, options, 0, &seed);
-        memset(point, 0, sizeof(point));
+        pairs.is_listed = 0;
         for (int k = 0; k < 2; k++)
         {
             e.state[k].x[0] *= 0.3;
-            cell[k] = (ellipsoid_problem){.model = &e.model[k],
-                                          .surroundings = &e.around[k],
-                                          .statistics = &statistics,
-                                          .inertial = 1};
-            point[k].state = e.state[k];
+            group.cell[k] = (ellipsoid_problem){.model = &e.model[k],
+                                                .surroundings = &e.around[k],
+                                                .statistics = &statistics,
+                                                .inertial = 1};
+            group.start[k].state = e.state[k];
         }
-        assert_ok(ellipsoid_group_evaluate(&group, point, 0, 0));
+        assert_ok(ellipsoid_group_evaluate(&group, group.start, 0, 0));
         for (int k = 0; k < 2; k++)
         {
-            const ellipsoid_contact *c = &point[k].contact;
+            const ellipsoid_contact *c = &group.start[k].contact;
             double r[3][3], turned[3], part[3];
 
             ellipsoid_rotation(e.state[k].q, r);
@@ -298,6 +293,7 @@ static void test_forces_balance(void **unused)
         assert_near(ellipsoid_length(moment), 0, 1e-13 * size);
     }
     assert_true(touched > 200);
+    free(memory);
 }
 
 int main(void)
