@@ -148,6 +148,10 @@ ellipsoid_status ellipsoid_cross_layer(ellipsoid_group *g, double t,
         return ELLIPSOID_OK;
     }
     status = ellipsoid_group_evaluate(g, g->next, 1, 0);
+    if (g->rubs && ellipsoid_may_recover(status))
+    {
+        return ELLIPSOID_OK; /* followed instead */
+    }
     for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
         ellipsoid_state *before = &g->start[cell].state;

@@ -24,7 +24,11 @@ ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
     {
         return ELLIPSOID_BAD_OPTION;
     }
-    return ellipsoid_evaluate(model, surroundings, NULL, &at, balanced, cache,
+    if (balanced)
+    {
+        return ellipsoid_balanced(model, surroundings, &at, cache, derivative);
+    }
+    return ellipsoid_evaluate(model, surroundings, NULL, &at, 0, cache,
                               derivative, &contact, NULL);
 }
 
@@ -34,15 +38,13 @@ ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
                                    ellipsoid_contact_cache *cache)
 {
     ellipsoid_state at = *state, derivative;
-    ellipsoid_contact contact;
     ellipsoid_status status;
 
     if (!surroundings->flow || !model->options.drag)
     {
         return ELLIPSOID_BAD_OPTION;
     }
-    status = ellipsoid_evaluate(model, surroundings, NULL, &at, 1, cache,
-                                &derivative, &contact, NULL);
+    status = ellipsoid_balanced(model, surroundings, &at, cache, &derivative);
     if (status == ELLIPSOID_OK)
     {
         *state = at;

@@ -121,12 +121,13 @@ static ellipsoid_status advance(ellipsoid_group *g,
         return ELLIPSOID_OK;
     }
     g->culprit = -1;
-    g->aligned = 0;
+    g->aligned = g->rubs = 0;
     g->observed = observer != NULL;
     for (int cell = 0; cell < g->count; cell++)
     {
         g->cell[cell] = problem_of(&members[cell], &noise[cell]);
         g->aligned = g->aligned || members[cell].model->aligned;
+        g->rubs = g->rubs || members[cell].model->dissipative;
         g->start[cell].contact = g->next[cell].contact = nothing;
     }
     g->inertial = g->cell[0].inertial;

@@ -202,6 +202,7 @@ typedef struct ellipsoid_group
     int count;
     int inertial; /* all or none */
     int aligned;  /* is one by a dipole? */
+    int rubs;     /* do contacts of one depend on velocities? */
     int observed; /* is the whole of ellipsoid_step asked for? */
     ellipsoid_problem *cell;
     ellipsoid_point *start, *next; /* next serves the stages, too */
@@ -259,6 +260,19 @@ ellipsoid_status ellipsoid_several_evaluate(ellipsoid_group *group,
                                             ellipsoid_point *points,
                                             int balanced, int with_blocks);
 
+/* For one cell with drag, its velocities set to those that balance. */
+ellipsoid_status ellipsoid_balanced(const ellipsoid_model *model,
+                                    const ellipsoid_surroundings *surroundings,
+                                    ellipsoid_state *state,
+                                    ellipsoid_contact_cache *cache,
+                                    ellipsoid_state *derivative);
+
+/* Likewise, for one cell or several whose contacts depend on the velocities
+   that are to be balanced (balance.c). */
+ellipsoid_status ellipsoid_rubbing_evaluate(ellipsoid_group *group,
+                                            ellipsoid_point *points,
+                                            int with_blocks);
+
 /*
     Evaluates the equations in the states of all points. balanced says whether u
     and omega are set first. with_blocks: and the Jacobian, with couplings.
@@ -268,6 +282,10 @@ static inline ellipsoid_status ellipsoid_group_evaluate(ellipsoid_group *g,
                                                         int balanced,
                                                         int with_blocks)
 {
+    if (balanced && g->rubs)
+    {
+        return ellipsoid_rubbing_evaluate(g, points, with_blocks);
+    }
     if (g->pairs)
     {
         return ellipsoid_several_evaluate(g, points, balanced, with_blocks);

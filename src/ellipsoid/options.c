@@ -160,12 +160,6 @@ static void check_contact(verdict *v, const ellipsoid_options *o)
             "1e-15 to 1e3 m/s");
     require(v, within(o->contact_damping, 0, 1e12), "contact_damping",
             "0 to 1e12 s/m");
-    if (o->motion == ELLIPSOID_MOTION_INERTIALESS)
-    {
-        require(v, o->friction == 0, "friction", "0 with motion INERTIALESS");
-        require(v, o->contact_damping == 0, "contact_damping",
-                "0 with motion INERTIALESS");
-    }
     if (!v->field)
     {
         double bead[ELLIPSOID_MAX_BEADS][3];

@@ -87,28 +87,6 @@ static void test_faults_are_named(void **unused)
     assert_refused(maximum_steps, 0, "maximum_steps");
 }
 
-/* Without inertia the velocities follow from forces that do not depend on them. */
-static void test_friction_needs_inertia(void **unused)
-{
-    ellipsoid_options options = ellipsoid_options_default();
-    const char *field = NULL, *range = NULL;
-
-    (void)unused;
-    options.motion = ELLIPSOID_MOTION_INERTIALESS;
-    options.friction = 0.1;
-    assert_int_equal(ellipsoid_options_check(&options, &field, &range),
-                     ELLIPSOID_BAD_OPTION);
-    assert_string_equal(field, "friction");
-    assert_string_equal(range, "0 with motion INERTIALESS");
-    options.friction = 0;
-    options.contact_damping = 1;
-    assert_int_equal(ellipsoid_options_check(&options, &field, &range),
-                     ELLIPSOID_BAD_OPTION);
-    assert_string_equal(field, "contact_damping");
-    options.contact = 0;
-    assert_ok(ellipsoid_options_check(&options, NULL, NULL));
-}
-
 /* Contact members do not matter where there is no contact. */
 static void test_contact_off(void **unused)
 {
@@ -198,7 +176,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_default_is_accepted),
         cmocka_unit_test(test_faults_are_named),
-        cmocka_unit_test(test_friction_needs_inertia),
         cmocka_unit_test(test_contact_off),
         cmocka_unit_test(test_bad_options_leave_the_model),
         cmocka_unit_test(test_model_of_the_paper),

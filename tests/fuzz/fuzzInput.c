@@ -186,10 +186,7 @@ ellipsoid_options fuzz_options(fuzz_input *in)
         o.temperature = fuzz_between(in, 0, 1000);
         o.noise_interval = fuzz_scaled(in, 1e-9, 1);
     }
-    if (o.motion == ELLIPSOID_MOTION_INERTIAL)
-    {
-        read_contact_law(in, &o);
-    }
+    read_contact_law(in, &o);
     /* bounds the time that one input takes */
     o.maximum_steps = 1 + fuzz_choice(in, 24);
     return o;

@@ -1,0 +1,237 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    balance.c - velocities that balance forces which depend on them.
+
+    Drag alone is linear in u and omega, and equations.c inverts it. Friction and
+    damping are not, and they couple the cells of a group: Newton's method, with
+    the linear system of a step whose length vanishes. Each begins at rest, so
+    that the result is that of the poses alone. From there, where friction
+    holds, towards sliding, the tangents of friction fall short; where one goes
+    too far it is shortened.
+*/
+#include "integrator.h"
+
+#include <math.h>
+
+enum
+{
+    MOST_ITERATIONS = 60,
+    MOST_HALVINGS = 40,
+    CHANGE = ELLIPSOID_MAX_STAGES - 1 /* a stage that no implicit step has */
+};
+
+/* Newton has converged when it changes velocities by so much of themselves. */
+static const double converged = 1e-12;
+
+/* What is left of the power of the unbalanced forces along the change of
+   velocities, if its sign has turned: then the step went too far. */
+static const double too_far = 0.5;
+
+static ellipsoid_status evaluate(ellipsoid_group *g, ellipsoid_point *points,
+                                 int balanced, int with_blocks)
+{
+    if (g->pairs)
+    {
+        return ellipsoid_several_evaluate(g, points, balanced, with_blocks);
+    }
+    g->culprit = 0;
+    return ellipsoid_problem_evaluate(g->cell, points, balanced, with_blocks);
+}
+
+/* Power of the unbalanced forces, [W]. */
+static double power_along(const ellipsoid_group *g,
+                          const ellipsoid_point *points)
+{
+    double power = 0;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_model *m = g->cell[cell].model;
+        const ellipsoid_state *slope = &points[cell].derivative;
+        const double *change = g->stages[cell].k[CHANGE];
+
+        for (int i = 0; i < 3; i++)
+        {
+            power += m->mass * slope->u[i] * change[AT_U + i]
+                   + m->inertia[i] * slope->omega[i] * change[AT_OMEGA + i];
+        }
+    }
+    return power;
+}
+
+static void move(const ellipsoid_group *g, double part, ellipsoid_point *points)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const double *change = g->stages[cell].k[CHANGE];
+
+        for (int i = 0; i < 3; i++)
+        {
+            points[cell].state.u[i] += part * change[AT_U + i];
+            points[cell].state.omega[i] += part * change[AT_OMEGA + i];
+        }
+    }
+}
+
+/* Are the changes small against the velocities and the slip speed? */
+static int are_small(const ellipsoid_group *g, const ellipsoid_point *points)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_problem *p = &g->cell[cell];
+        const ellipsoid_state *state = &points[cell].state;
+        const double *change = g->stages[cell].k[CHANGE];
+        const double speed = ellipsoid_length(state->u)
+                           + p->length * ellipsoid_length(state->omega)
+                           + 1e-3 * p->model->options.slip_speed;
+
+        if (!(ellipsoid_length(change + AT_U)
+                  + p->length * ellipsoid_length(change + AT_OMEGA)
+              <= converged * speed))
+        {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Newton's change of velocities, from points that have their blocks. */
+static int set_changes(ellipsoid_group *g, ellipsoid_point *points)
+{
+    ellipsoid_point *const start = g->start;
+    const int inertial = g->inertial;
+    double shortest = HUGE_VAL;
+    int regular;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_problem *p = &g->cell[cell];
+        double *k = g->stages[cell].k[CHANGE];
+
+        memset(k, 0, sizeof(g->stages[cell].k[CHANGE]));
+        ellipsoid_copy(points[cell].derivative.u, k + AT_U);
+        ellipsoid_copy(points[cell].derivative.omega, k + AT_OMEGA);
+        shortest = fmin(shortest, 1 / fmax(p->rate, p->rotation_rate));
+    }
+    g->start = points;
+    g->inertial = 0;
+    regular = ellipsoid_group_prepare(g, 1e-20 * shortest);
+    if (regular)
+    {
+        ellipsoid_group_solve(g, CHANGE);
+    }
+    g->start = start;
+    g->inertial = inertial;
+    return regular;
+}
+
+static ellipsoid_status iterate(ellipsoid_group *g, ellipsoid_point *points)
+{
+    ellipsoid_status status = evaluate(g, points, 0, 1);
+
+    for (int n = 0; status == ELLIPSOID_OK && n < MOST_ITERATIONS; n++)
+    {
+        double before, part = 1;
+
+        if (!set_changes(g, points))
+        {
+            return ELLIPSOID_NON_FINITE;
+        }
+        before = power_along(g, points);
+        move(g, part, points);
+        if (are_small(g, points))
+        {
+            return ELLIPSOID_OK;
+        }
+        status = evaluate(g, points, 0, 1);
+        for (int l = 0; status == ELLIPSOID_OK && l < MOST_HALVINGS
+                        && power_along(g, points) < -too_far * before;
+             l++)
+        {
+            part *= 0.5;
+            move(g, -part, points);
+            status = evaluate(g, points, 0, 1);
+        }
+    }
+    return status == ELLIPSOID_OK ? ELLIPSOID_NON_FINITE : status;
+}
+
+ellipsoid_status ellipsoid_rubbing_evaluate(ellipsoid_group *g,
+                                            ellipsoid_point *points,
+                                            int with_blocks)
+{
+    ellipsoid_status status;
+    int touches = 0;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        ellipsoid_set(points[cell].state.u, 0, 0, 0);
+        ellipsoid_set(points[cell].state.omega, 0, 0, 0);
+    }
+    status = evaluate(g, points, 1, with_blocks);
+    for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
+    {
+        touches = touches || ellipsoid_touches(&points[cell].contact);
+    }
+    if (!touches)
+    {
+        return status;
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        ellipsoid_set(points[cell].state.u, 0, 0, 0);
+        ellipsoid_set(points[cell].state.omega, 0, 0, 0);
+    }
+    g->has_blocks = 0; /* the couplings are no longer those of the start */
+    status = iterate(g, points);
+    if (status == ELLIPSOID_OK)
+    {
+        status = evaluate(g, points, 0, with_blocks);
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        ellipsoid_state *slope = &points[cell].derivative;
+
+        ellipsoid_set(slope->u, 0, 0, 0);
+        ellipsoid_set(slope->omega, 0, 0, 0);
+    }
+    return status;
+}
+
+ellipsoid_status ellipsoid_balanced(const ellipsoid_model *model,
+                                    const ellipsoid_surroundings *surroundings,
+                                    ellipsoid_state *state,
+                                    ellipsoid_contact_cache *cache,
+                                    ellipsoid_state *derivative)
+{
+    const double *a = model->options.semi_axes;
+    ellipsoid_statistics statistics = {0};
+    ellipsoid_point point;
+    ellipsoid_stages stages;
+    ellipsoid_stage_system system;
+    ellipsoid_problem cell = {
+        .model = model,
+        .surroundings = surroundings,
+        .cache = cache,
+        .statistics = &statistics,
+        .length = fmax(a[0], fmax(a[1], a[2])),
+        .rate = 1 / model->relaxation_time,
+        .rotation_rate = 1 / model->rotation_relaxation_time};
+    ellipsoid_group g = {.count = 1,
+                         .rubs = model->dissipative,
+                         .cell = &cell,
+                         .start = &point,
+                         .stages = &stages,
+                         .system = &system};
+    ellipsoid_status status;
+
+    point.state = *state;
+    point.contact = (ellipsoid_contact){.gap = HUGE_VAL, .cell_gap = HUGE_VAL};
+    status = ellipsoid_group_evaluate(&g, &point, 1, 0);
+    *state = point.state;
+    *derivative = point.derivative;
+    return status;
+}
