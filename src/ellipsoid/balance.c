@@ -5,12 +5,12 @@
 
     balance.c - velocities that balance forces which depend on them.
 
-    Drag alone is linear in u and omega, and equations.c inverts it. Friction and
-    damping are not, and they couple the cells of a group: Newton's method, with
-    the linear system of a step whose length vanishes. Each begins at rest, so
-    that the result is that of the poses alone. From there, where friction
-    holds, towards sliding, the tangents of friction fall short; where one goes
-    too far it is shortened.
+    Drag alone is linear in u and omega, and equations.c inverts it. Friction
+    and damping are not, and they couple the cells of a group: Newton's method,
+    with the linear system of a step whose length vanishes. It begins at rest,
+    so that the result is that of the poses alone. From there, where friction
+    holds, towards sliding, its tangents fall short; where one goes too far the
+    change is shortened.
 */
 #include "integrator.h"
 

@@ -609,8 +609,9 @@ size_t ellipsoid_group_size(int count);
     Advances cells that may touch one another from *t to `end` [s], as one
     system in common steps: F_S, paper eq. (1). The beads of two cells touch as
     a bead and a wall do, with the radius r_1 r_2/(r_1 + r_2) and the modulus
-    E_1 E_2/(E_1 + E_2); what one cell feels the other does with the opposite
-    sign. As ellipsoid_advance() for the rest, for every member; members share
+    E_1 E_2/(E_1 + E_2), the geometric mean of both frictions, the larger slip
+    speed and the mean damping; what one cell feels the other does with the
+    opposite sign. As ellipsoid_advance() for the rest, for every member; members share
     motion, noise interval, and the limits of steps of the first one.
     `memory` is ellipsoid_group_size(count) bytes aligned as by malloc(); it
     holds nothing between calls. *which is the member that stopped the group or

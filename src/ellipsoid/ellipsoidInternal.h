@@ -286,8 +286,8 @@ void ellipsoid_add_rub(const ellipsoid_rub *rub, int body, double force[3],
 void ellipsoid_add_rub_derivatives(
     ellipsoid_rub *rub, ellipsoid_contact_jacobian *const jacobian[2][2]);
 
-/* A wall's push on a bead, as ellipsoid_bead_touch() gives it, becomes force and
-   torque with friction and damping; jacobian may be NULL. */
+/* A wall's push on a bead, as ellipsoid_bead_touch() gives it, becomes force
+   and torque with friction and damping; jacobian may be NULL. */
 void ellipsoid_rub_wall(const ellipsoid_model *model,
                         const ellipsoid_state *state, double r[3][3],
                         const double arm[3], const double push[3],

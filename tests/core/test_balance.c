@@ -174,8 +174,8 @@ static void test_two_cells(void **unused)
 }
 
 /*
-    Brownian motion of a cell that is pressed to a wall: with inertia the jump of
-    the noise is crossed in no time, to velocities that balance friction, too.
+    Brownian motion of a cell that is pressed to a wall: with inertia the jump
+    of the noise is crossed in no time, to velocities that balance friction, too.
     Without inertia there is no layer. The same noise leads to the same places.
 */
 static void test_brownian_layer(void **unused)

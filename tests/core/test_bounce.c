@@ -157,8 +157,8 @@ static void test_restitution(void **unused)
     wall_mesh_free(&r.mesh);
 }
 
-/* Johnson, Contact Mechanics (1985), eq. 11.24: a ball of mass m and radius R on
-   a wall touches for 2.87 (m^2/(R E*^2 v))^(1/5), 2.943 d/v to more digits. */
+/* Johnson, Contact Mechanics (1985), eq. 11.24: a ball of mass m and radius R
+   on a wall touches for 2.87 (m^2/(R E*^2 v))^(1/5), 2.943 d/v to more digits. */
 static void test_duration(void **unused)
 {
     static const double modulus[] = {1e3, 1e5, 1e7};

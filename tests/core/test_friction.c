@@ -73,7 +73,7 @@ static void lay_cell(contact_run *r, double x, double y)
 }
 
 /*
-    A cell along the flow, pressed to the floor with a force whose friction could
+    A cell along the flow, pressed to the floor with a force whose friction can
     hold twice the drag D: mu N v/sqrt(v^2 + v_s^2) = D at v_s/sqrt(3), less the
     1e-3 of the drag that this creep saves. With the default v_s that is below a
     hundredth of the flow's 4 mm/s.
@@ -145,7 +145,7 @@ static void test_rest_costs_nothing(void **unused)
 }
 
 /*
-    A cell that rolls along a wall in shear comes down on a bead of the next ring
+    A cell that rolls along a wall in shear comes down on the next ring's bead
     about every 0.5 ms; friction may cost a third more steps than sliding does.
     A ball rolls smoothly: at the speed of its surface.
 */

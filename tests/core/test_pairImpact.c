@@ -218,7 +218,8 @@ static void test_duration(void **unused)
 
     const double m = e.model[0].mass * e.model[1].mass
                    / (e.model[0].mass + e.model[1].mass);
-    const double radius = 1 * 0.5 / (1 + 0.5), modulus = 1e4 * 3e4 / (1e4 + 3e4);
+    const double radius = 1 * 0.5 / (1 + 0.5);
+    const double modulus = 1e4 * 3e4 / (1e4 + 3e4);
     const double before = e.state[1].x[0] - e.state[0].x[0] - 1.5;
 
     part(&e);
@@ -234,7 +235,7 @@ static void test_duration(void **unused)
     assert_relative(speed, 1, 1e-5);
 }
 
-/* -------------------------------------------------------- forces at one time */
+/* ------------------------------------------------------- forces at one time */
 
 /* The forces on two cells that overlap and rub add up to nothing, and so do
    their moments: to rounding. */

@@ -3,8 +3,8 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    test_poleVault.c - cells that tumble beside a wall in shear. Nearer than half
-    their length they come down on it with one end and lift themselves over it
+    test_poleVault.c - cells that tumble beside a wall in shear. Nearer than
+    half their length they come down on it with one end and lift themselves over it
     (Stover & Cohen, Rheol. Acta 29, 192 (1990)).
 
     The wall acts by contact alone here: the drag knows nothing of it.

@@ -173,8 +173,7 @@ static void test_lying_swings_and_rocks(void **unused)
 }
 
 /*
-    Standing on one bead of radius r_b at a distance l below the middle it falls:
-    the lean grows as exp(s t), s^2 = m g l/J, with J = I about the middle where
+    Standing on one bead of radius r_b, l below the middle, it falls: the lean grows as exp(s t), s^2 = m g l/J, with J = I about the middle where
     the floor is smooth, and I + m (l + r_b)^2 where the bead rolls on it.
 */
 static void test_standing_falls(void **unused)
