@@ -10,7 +10,8 @@
     with the linear system of a step whose length vanishes. It begins at rest,
     so that the result is that of the poses alone. From there, where friction
     holds, towards sliding, its tangents fall short; where one goes too far the
-    change is shortened.
+    change is shortened. Where that does not do, as many beads slide at speeds
+    far above the slip speed, this comes down to its value by and by.
 */
 #include "integrator.h"
 
@@ -18,13 +19,18 @@
 
 enum
 {
-    MOST_ITERATIONS = 60,
+    MOST_ITERATIONS = 30,
     MOST_HALVINGS = 40,
     CHANGE = ELLIPSOID_MAX_STAGES - 1 /* a stage that no implicit step has */
 };
 
-/* Newton has converged when it changes velocities by so much of themselves. */
-static const double converged = 1e-12;
+/* The slip speeds begin at so much of their value, and fall by a factor. */
+static const double smoothest = 1e12, less_smooth = 0.1;
+
+/* Newton has converged when it changes velocities by so much of themselves; or
+   by this little more, and goes no further: rounding, where speeds are very
+   many slip speeds. */
+static const double converged = 1e-12, nearly = 1e-8;
 
 /* What is left of the power of the unbalanced forces along the change of
    velocities, if its sign has turned: then the step went too far. */
@@ -76,8 +82,9 @@ static void move(const ellipsoid_group *g, double part, ellipsoid_point *points)
     }
 }
 
-/* Are the changes small against the velocities and the slip speed? */
-static int are_small(const ellipsoid_group *g, const ellipsoid_point *points)
+/* Are the changes a small part of the velocities and the slip speed? */
+static int are_small(const ellipsoid_group *g, const ellipsoid_point *points,
+                     double part)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
@@ -90,7 +97,7 @@ static int are_small(const ellipsoid_group *g, const ellipsoid_point *points)
 
         if (!(ellipsoid_length(change + AT_U)
                   + p->length * ellipsoid_length(change + AT_OMEGA)
-              <= converged * speed))
+              <= part * speed))
         {
             return 0;
         }
@@ -131,6 +138,7 @@ static int set_changes(ellipsoid_group *g, ellipsoid_point *points)
 static ellipsoid_status iterate(ellipsoid_group *g, ellipsoid_point *points)
 {
     ellipsoid_status status = evaluate(g, points, 0, 1);
+    double previous = HUGE_VAL;
 
     for (int n = 0; status == ELLIPSOID_OK && n < MOST_ITERATIONS; n++)
     {
@@ -142,13 +150,15 @@ static ellipsoid_status iterate(ellipsoid_group *g, ellipsoid_point *points)
         }
         before = power_along(g, points);
         move(g, part, points);
-        if (are_small(g, points))
+        if (are_small(g, points, converged)
+            || (before > 0.25 * previous && are_small(g, points, nearly)))
         {
             return ELLIPSOID_OK;
         }
+        previous = before;
         status = evaluate(g, points, 0, 1);
         for (int l = 0; status == ELLIPSOID_OK && l < MOST_HALVINGS
-                        && power_along(g, points) < -too_far * before;
+                        && power_along(g, points) / before < -too_far;
              l++)
         {
             part *= 0.5;
@@ -159,6 +169,55 @@ static ellipsoid_status iterate(ellipsoid_group *g, ellipsoid_point *points)
     return status == ELLIPSOID_OK ? ELLIPSOID_NON_FINITE : status;
 }
 
+static void be_at_rest(const ellipsoid_group *g, ellipsoid_point *points)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        ellipsoid_set(points[cell].state.u, 0, 0, 0);
+        ellipsoid_set(points[cell].state.omega, 0, 0, 0);
+    }
+}
+
+/* With slip speeds that fall to their values. */
+static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
+                                         ellipsoid_point *points,
+                                         ellipsoid_stand_in *stand_in)
+{
+    ellipsoid_status status = ELLIPSOID_OK;
+
+    be_at_rest(g, points);
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        stand_in[cell].own = g->cell[cell].model;
+        stand_in[cell].model = *g->cell[cell].model;
+        g->cell[cell].model = &stand_in[cell].model;
+    }
+    for (double smooth = smoothest; status == ELLIPSOID_OK && smooth > 2;
+         smooth *= less_smooth)
+    {
+        for (int cell = 0; cell < g->count; cell++)
+        {
+            stand_in[cell].model.options.slip_speed =
+                smooth * stand_in[cell].own->options.slip_speed;
+        }
+        status = iterate(g, points);
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        g->cell[cell].model = stand_in[cell].own;
+    }
+    return status == ELLIPSOID_OK ? iterate(g, points) : status;
+}
+
+/* One cell has no memory of its own for a stand-in. */
+static ellipsoid_status iterate_alone(ellipsoid_group *g,
+                                      ellipsoid_point *points)
+{
+    ellipsoid_stand_in stand_in;
+
+    return iterate_smoothly(g, points, &stand_in);
+}
+
 ellipsoid_status ellipsoid_rubbing_evaluate(ellipsoid_group *g,
                                             ellipsoid_point *points,
                                             int with_blocks)
@@ -166,11 +225,7 @@ ellipsoid_status ellipsoid_rubbing_evaluate(ellipsoid_group *g,
     ellipsoid_status status;
     int touches = 0;
 
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        ellipsoid_set(points[cell].state.u, 0, 0, 0);
-        ellipsoid_set(points[cell].state.omega, 0, 0, 0);
-    }
+    be_at_rest(g, points);
     status = evaluate(g, points, 1, with_blocks);
     for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
@@ -180,13 +235,15 @@ ellipsoid_status ellipsoid_rubbing_evaluate(ellipsoid_group *g,
     {
         return status;
     }
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        ellipsoid_set(points[cell].state.u, 0, 0, 0);
-        ellipsoid_set(points[cell].state.omega, 0, 0, 0);
-    }
+    be_at_rest(g, points);
     g->has_blocks = 0; /* the couplings are no longer those of the start */
     status = iterate(g, points);
+    if (status == ELLIPSOID_NON_FINITE)
+    {
+        status = g->pairs
+                   ? iterate_smoothly(g, points, g->pairs->stand_in)
+                   : iterate_alone(g, points);
+    }
     if (status == ELLIPSOID_OK)
     {
         status = evaluate(g, points, 0, with_blocks);

@@ -181,6 +181,13 @@ typedef struct ellipsoid_near_pair
     unsigned char bead[ELLIPSOID_NEAR_BEADS][2];
 } ellipsoid_near_pair;
 
+/* A model that differs, for a time, from that of a cell (balance.c). */
+typedef struct ellipsoid_stand_in
+{
+    const ellipsoid_model *own;
+    ellipsoid_model model;
+} ellipsoid_stand_in;
+
 /* What a group of several needs; arrays in the caller's memory. */
 typedef struct ellipsoid_pairs
 {
@@ -191,6 +198,7 @@ typedef struct ellipsoid_pairs
     int is_listed;
     ellipsoid_state *listed_at; /* where the near pairs were listed */
     ellipsoid_body *body;       /* in the poses of an evaluation */
+    ellipsoid_stand_in *stand_in; /* for each cell */
     int *block;             /* [count][count]: number of a 6x6 block, or -1 */
     double (*blocks)[6][6]; /* of the factorised matrix */
     double (*rates)[6];     /* right-hand sides, solutions */
