@@ -120,9 +120,8 @@ void Foam::wallFacets::setFacets()
 
 void Foam::wallFacets::setEdges()
 {
-    // Where the wall ends at an open patch the edge stays a free rim.
-    // A turn smaller than this [rad] is the mesh's rounding
-    const scalar flat = 1e-6;
+    // Where the wall ends at an open patch the edge stays a free rim
+    const labelListList& edgeFaces = surface_.edgeFaces();
 
     forAll(surface_, faceti)
     {
@@ -140,35 +139,13 @@ void Foam::wallFacets::setEdges()
                     continue;
                 }
 
-                for (const label otheri : surface_.edgeFaces()[edgei])
+                // More than one other where baffles meet
+                for (const label otheri : edgeFaces[edgei])
                 {
-                    if (otheri == faceti)
+                    if (otheri != faceti)
                     {
-                        continue;
+                        ellipsoid_facet_join(&f, k, &facets_[otheri]);
                     }
-
-                    const vector n(pointOf(f.normal));
-                    const vector otherN(pointOf(facets_[otheri].normal));
-                    const vector t
-                    (
-                        normalised
-                        (
-                            pointOf(f.vertex[(k + 1) % 3])
-                          - pointOf(f.vertex[k])
-                        )
-                    );
-
-                    // How much the neighbour faces this one
-                    const scalar turn = (n ^ t) & otherN;
-
-                    f.edge[k] =
-                        mag(turn) < flat && (n & otherN) > 0
-                      ? ELLIPSOID_EDGE_FLAT
-                      : turn > 0 ? ELLIPSOID_EDGE_CONCAVE
-                      : ELLIPSOID_EDGE_CONVEX;
-
-                    copyTo(f.edge_inward[k], t ^ otherN);
-                    copyTo(f.neighbour_normal[k], otherN);
                 }
             }
         }
