@@ -212,12 +212,26 @@ int ellipsoid_facet_concerns(const ellipsoid_facet *facet,
 
 int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3])
 {
-    double sides[2][3], squared = 0;
+    double sides[3][3], longest = 0, squared = 0;
+    int opposite = 0;
 
     memcpy(facet->vertex, vertex, sizeof facet->vertex);
-    ellipsoid_difference(vertex[1], vertex[0], sides[0]);
-    ellipsoid_difference(vertex[2], vertex[0], sides[1]);
-    ellipsoid_cross(sides[0], sides[1], facet->normal);
+    for (int k = 0; k < 3; k++)
+    {
+        ellipsoid_difference(vertex[(k + 2) % 3], vertex[(k + 1) % 3],
+                             sides[k]);
+
+        const double size = ellipsoid_dot(sides[k], sides[k]);
+
+        if (size > longest)
+        {
+            longest = size;
+            opposite = k;
+        }
+    }
+    /* of the two shorter sides: those of slivers differ most in direction */
+    ellipsoid_cross(sides[(opposite + 1) % 3], sides[(opposite + 2) % 3],
+                    facet->normal);
 
     const double area = ellipsoid_length(facet->normal);
 
