@@ -260,8 +260,10 @@ Foam::frozenFlow::frozenFlow
     {
         const undecomposedFlow::serialScope serial;
 
-        makeTets(whole.mesh());
-        makeVertices(whole, rho);
+        const baffleSides baffles(whole.mesh());
+
+        makeTets(whole.mesh(), baffles);
+        makeVertices(whole, rho, baffles);
 
         checkOpenPatches(whole);
 

@@ -20,7 +20,11 @@ Description
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::frozenFlow::makeTets(const polyMesh& mesh)
+void Foam::frozenFlow::makeTets
+(
+    const polyMesh& mesh,
+    const baffleSides& baffles
+)
 {
     const faceList& faces = mesh.faces();
     const labelList& owner = mesh.faceOwner();
@@ -78,9 +82,9 @@ void Foam::frozenFlow::makeTets(const polyMesh& mesh)
                 }
 
                 tet.vertices[0] = celli;
-                tet.vertices[1] = nCells + f[base];
-                tet.vertices[2] = nCells + a;
-                tet.vertices[3] = nCells + b;
+                tet.vertices[1] = nCells + baffles.vertex(f[base], celli);
+                tet.vertices[2] = nCells + baffles.vertex(a, celli);
+                tet.vertices[3] = nCells + baffles.vertex(b, celli);
 
                 if (mesh.isInternalFace(facei))
                 {
@@ -132,7 +136,8 @@ void Foam::frozenFlow::makeTets(const polyMesh& mesh)
 void Foam::frozenFlow::makeVertices
 (
     const undecomposedFlow& whole,
-    const scalar rho
+    const scalar rho,
+    const baffleSides& baffles
 )
 {
     const fvMesh& mesh = whole.mesh();
@@ -168,7 +173,9 @@ void Foam::frozenFlow::makeVertices
         }
     }
 
-    vertices_.setSize((nCells + mesh.nPoints())*scalarsPerVertex);
+    const label nSides = baffles.sides().size();
+
+    vertices_.setSize((nCells + mesh.nPoints() + nSides)*scalarsPerVertex);
 
     const auto setVertex =
         [&]
@@ -219,6 +226,50 @@ void Foam::frozenFlow::makeVertices
           : pointU[pointi],
             pointGradU[pointi],
             pointGradp[pointi]
+        );
+    }
+
+    // Either side of a baffle by itself: of the faces around the point, as at
+    // all points of the boundary
+    for (label sidei = 0; sidei < nSides; ++sidei)
+    {
+        const baffleSides::side& side = baffles.sides()[sidei];
+        const point& x = mesh.points()[side.point];
+
+        vector u(Zero);
+        tensor gradu(Zero);
+        vector gradientp(Zero);
+        scalar sum = 0;
+        label nWalls = 0;
+
+        for (const label facei : side.faces)
+        {
+            const label patchi = mesh.boundaryMesh().whichPatch(facei);
+            const polyPatch& pp = mesh.boundaryMesh()[patchi];
+            const label i = facei - pp.start();
+
+            if (isA<wallPolyPatch>(pp))
+            {
+                u += whole.U().boundaryField()[patchi][i];
+                ++nWalls;
+            }
+            if (!pp.coupled() && gradU.boundaryField()[patchi].size())
+            {
+                const scalar weight = 1/mag(x - mesh.faceCentres()[facei]);
+
+                gradu += weight*gradU.boundaryField()[patchi][i];
+                gradientp += weight*gradp.boundaryField()[patchi][i];
+                sum += weight;
+            }
+        }
+
+        setVertex
+        (
+            nCells + mesh.nPoints() + sidei,
+            x,
+            nWalls ? u/scalar(nWalls) : pointU[side.point],
+            gradu/sum,
+            gradientp/sum
         );
     }
 

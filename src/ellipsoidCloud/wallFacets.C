@@ -34,6 +34,49 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+Foam::label Foam::wallFacets::fanBase
+(
+    const face& f,
+    const pointField& points,
+    const label preferred
+)
+{
+    // Of the face's area; less is a point in line with its neighbours
+    const scalar noArea = 1e-10;
+
+    const vector normal(f.areaNormal(points)/(f.mag(points) + VSMALL));
+    scalar largest = 0;
+    label best = -1;
+
+    for (label i = 0; i < f.size(); ++i)
+    {
+        const label base = (preferred + i) % f.size();
+        scalar smallest = GREAT;
+
+        for (label trii = 1; trii < f.size() - 1; ++trii)
+        {
+            const point& a = points[f[base]];
+            const point& b = points[f[(base + trii) % f.size()]];
+            const point& c = points[f[(base + trii + 1) % f.size()]];
+
+            smallest = min(smallest, 0.5*(((b - a) ^ (c - a)) & normal));
+        }
+
+        if (smallest > max(largest, noArea*f.mag(points)))
+        {
+            largest = smallest;
+            best = base;
+        }
+        if (i == 0 && best >= 0)
+        {
+            break;
+        }
+    }
+
+    return best;
+}
+
+
 Foam::triSurface Foam::wallFacets::triangulate(const polyMesh& mesh)
 {
     const labelList& basePoints = mesh.tetBasePtIs();
@@ -51,7 +94,21 @@ Foam::triSurface Foam::wallFacets::triangulate(const polyMesh& mesh)
         forAll(pp, i)
         {
             const face& f = pp[i];
-            const label base = max(basePoints[pp.start() + i], label(0));
+            const label base = fanBase
+            (
+                f,
+                mesh.points(),
+                max(basePoints[pp.start() + i], label(0))
+            );
+
+            if (base < 0)
+            {
+                FatalErrorInFunction
+                    << "a face of wall " << pp.name() << " at "
+                    << f.centre(mesh.points()) << " cannot be cut into "
+                    << "triangles from any of its points: checkMesh says more"
+                    << exit(FatalError);
+            }
 
             for (label trii = 1; trii < f.size() - 1; ++trii)
             {
