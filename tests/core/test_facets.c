@@ -207,8 +207,9 @@ static void turned(double rotation[3][3], const double v[3], double result[3])
 }
 
 /*
-    The planes x_i = 0 of the first `faces` axes, from each other on: a plane, an
-    edge or a corner; turned. fluid: 1, it is where x_i > 0, concave; -1, convex.
+    The planes x_i = 0 of the first `faces` axes, from each other on: a plane,
+    an edge or a corner; turned. fluid: 1, it is where x_i > 0, concave; -1,
+    convex.
 */
 static wall_mesh wall_of(int faces, int fluid, const cuts list[3], int diagonal,
                          double rotation[3][3])
@@ -287,7 +288,7 @@ static void wall_force(int faces, int fluid, const double x[3], double force[3])
     }
 }
 
-/* Where a bead overlaps the wall by `deep` at most, over seams every so often */
+/* Where a bead overlaps the wall by `deep` at most, over seams now and then */
 static void place(int faces, int fluid, uint64_t *seed, double x[3])
 {
     const int facing = (int)(faces * test_uniform(seed));
@@ -318,8 +319,8 @@ static void place(int faces, int fluid, uint64_t *seed, double x[3])
     A plane, convex and concave edges and corners, of facets of 0.01 bead radii,
     of slivers a thousand times longer than wide, of two facets a face, of one
     metre about a bead of 0.285 um, and of some of all, by three diagonals: the
-    same force, to 1e-12. The walls are turned anyhow but for those of one metre,
-    whose corners are known to 1e-16 m: 4e-10 bead radii.
+    same force, to 1e-12. The walls are turned anyhow but for those of one
+    metre, whose corners are known to 1e-16 m: 4e-10 bead radii.
 */
 static void test_however_cut(void **unused)
 {
@@ -351,7 +352,7 @@ static void test_however_cut(void **unused)
 
                 for (int i = 0; i < 3; i++)
                 {
-                    /* an edge's faces go on along the edge, a plane all round */
+                    /* edges go on both ways, a plane all round */
                     list[i] = cuts_of(i >= faces, ways[way].size,
                                       ways[way].step[i]);
                 }

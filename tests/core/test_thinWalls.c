@@ -101,9 +101,10 @@ static wall_mesh slit_of(double width, int cells, int diagonal)
 
 /*
     A cell before the slit, nose first, along it and across, is pushed with 1 pN
-    to 10 nN: it stays out. One bead that bears it all is the deepest that can be
-    at rest; a nose that arrives under 10 nN, with 0.5 m/s and hence an energy
-    m u^2/2 of 2.8e-16 J against 2.3e-16 J of that bead's, swings beyond by half.
+    to 10 nN: it stays out. One bead that bears it all is the deepest that can
+    be at rest; a nose that arrives under 10 nN, with 0.5 m/s and hence an
+    energy m u^2/2 of 2.8e-16 J against 2.3e-16 J of that bead's, swings beyond
+    by half.
 */
 static void test_slit_keeps_out(void **unused)
 {
