@@ -296,6 +296,16 @@ typedef struct ellipsoid_facet
 */
 int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3]);
 
+/*
+    Makes `other` the facet across edge k if it has that edge the other way round
+    and none that was joined there before is met sooner on turning about the edge
+    through the fluid. So baffles may be joined with all that meets at an edge,
+    in any order. Vertices are one if they are equal to the last bit. Returns 1
+    if it is the one across now.
+*/
+int ellipsoid_facet_join(ellipsoid_facet *facet, int k,
+                         const ellipsoid_facet *other);
+
 /* Facets are named by their index in one array that outlives the cells. */
 typedef struct ellipsoid_facet_list
 {

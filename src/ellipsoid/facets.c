@@ -21,6 +21,9 @@
 /* Relative slack of 'not nearer': closes the gaps that rounding would leave. */
 static const double slack = 1e-9;
 
+/* A turn smaller than this [rad] is the mesh's rounding. */
+static const double flat = 1e-6;
+
 /*
     A vertex is answered for by the facets that have a convex edge there and,
     for the sake of rounding, by those that the point is right above.
@@ -74,6 +77,14 @@ static int nearest_on_edge(const ellipsoid_facet *facet, int k, double foot,
     {
         r[i] = from_vertex[i] - foot * along[i];
         nearest->edge[i] = along[i] / size;
+    }
+
+    /* once more: of a long edge the foot is rounded to more than r is */
+    const double left = ellipsoid_dot(r, nearest->edge);
+
+    for (int i = 0; i < 3; i++)
+    {
+        r[i] -= left * nearest->edge[i];
     }
     length = sqrt(ellipsoid_dot(r, r));
 
@@ -201,12 +212,26 @@ int ellipsoid_facet_concerns(const ellipsoid_facet *facet,
 
 int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3])
 {
-    double sides[2][3], squared = 0;
+    double sides[3][3], longest = 0, squared = 0;
+    int opposite = 0;
 
     memcpy(facet->vertex, vertex, sizeof facet->vertex);
-    ellipsoid_difference(vertex[1], vertex[0], sides[0]);
-    ellipsoid_difference(vertex[2], vertex[0], sides[1]);
-    ellipsoid_cross(sides[0], sides[1], facet->normal);
+    for (int k = 0; k < 3; k++)
+    {
+        ellipsoid_difference(vertex[(k + 2) % 3], vertex[(k + 1) % 3],
+                             sides[k]);
+
+        const double size = ellipsoid_dot(sides[k], sides[k]);
+
+        if (size > longest)
+        {
+            longest = size;
+            opposite = k;
+        }
+    }
+    /* of the two shorter sides: those of slivers differ most in direction */
+    ellipsoid_cross(sides[(opposite + 1) % 3], sides[(opposite + 2) % 3],
+                    facet->normal);
 
     const double area = ellipsoid_length(facet->normal);
 
@@ -229,4 +254,75 @@ int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3])
     }
     facet->radius = sqrt(squared);
     return area > 0;
+}
+
+static int is_point(const double a[3], const double b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+/* Does the facet run along the edge from a to b? */
+static int runs_along(const ellipsoid_facet *facet, const double a[3],
+                      const double b[3])
+{
+    for (int k = 0; k < 3; k++)
+    {
+        if (is_point(facet->vertex[k], a)
+            && is_point(facet->vertex[(k + 1) % 3], b))
+        {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* The turn of the wall [rad] from a facet to one of normal n across an edge of
+   direction t: positive where they face each other. */
+static double turn_to(const ellipsoid_facet *facet, const double t[3],
+                      const double n[3])
+{
+    double inward[3];
+
+    ellipsoid_cross(facet->normal, t, inward);
+
+    const double along = ellipsoid_dot(facet->normal, n);
+    const double facing = ellipsoid_dot(inward, n);
+
+    /* the facet's own back, all the way round */
+    return along < 0 && fabs(facing) < flat ? -4 : atan2(facing, along);
+}
+
+int ellipsoid_facet_join(ellipsoid_facet *facet, int k,
+                         const ellipsoid_facet *other)
+{
+    const double *from = facet->vertex[k], *to = facet->vertex[(k + 1) % 3];
+    double t[3];
+
+    if (!runs_along(other, to, from))
+    {
+        return 0;
+    }
+    ellipsoid_difference(to, from, t);
+
+    const double length = ellipsoid_length(t);
+
+    for (int i = 0; i < 3; i++)
+    {
+        t[i] /= length;
+    }
+
+    const double turn = turn_to(facet, t, other->normal);
+    const double *inward = facet->edge_inward[k];
+
+    if (ellipsoid_dot(inward, inward) > 0
+        && turn <= turn_to(facet, t, facet->neighbour_normal[k]))
+    {
+        return 0;
+    }
+    ellipsoid_cross(t, other->normal, facet->edge_inward[k]);
+    ellipsoid_copy(other->normal, facet->neighbour_normal[k]);
+    facet->edge[k] = fabs(turn) < flat ? ELLIPSOID_EDGE_FLAT
+                     : turn > 0        ? ELLIPSOID_EDGE_CONCAVE
+                                       : ELLIPSOID_EDGE_CONVEX;
+    return 1;
 }

@@ -16,6 +16,8 @@ License
 #include "cellInjection.H"
 #include "dimensionedScalar.H"
 #include "emptyPolyPatch.H"
+#include "processorPolyPatch.H"
+#include "stringListOps.H"
 #include "wedgePolyPatch.H"
 #include "Time.H"
 #include "Switch.H"
@@ -258,6 +260,54 @@ void Foam::ellipsoidProperties::checkOptions() const
 }
 
 
+void Foam::ellipsoidProperties::checkUnreached
+(
+    const polyBoundaryMesh& patches
+) const
+{
+    const wordRes unreached(getOrDefault("unreached", wordRes()));
+    DynamicList<word> impassable;
+
+    for (const polyPatch& pp : patches)
+    {
+        if
+        (
+            !polyPatch::constraintType(pp.type())
+         || isA<processorPolyPatch>(pp)
+        )
+        {
+            continue;
+        }
+
+        impassable.append(pp.name());
+
+        if (!unreached.match(pp.name()))
+        {
+            FatalIOErrorInFunction(*this)
+                << "patch " << pp.name() << " of "
+                << patches.mesh().meshDir()/"boundary"
+                << " is of type " << pp.type() << nl
+                << "    A cell that came to it could not go on. Make it a "
+                << "wall (type wall) or an open end (type patch); or, if no "
+                << "cell comes there, say so: unreached (" << pp.name()
+                << ");" << exit(FatalIOError);
+        }
+    }
+
+    for (const wordRe& name : unreached)
+    {
+        if (findStrings(name, impassable).empty())
+        {
+            FatalIOErrorInFunction(*this)
+                << "unreached " << name << " matches no patch that cells "
+                << "cannot pass" << nl
+                << "    patches of such types: " << flatOutput(impassable)
+                << exit(FatalIOError);
+        }
+    }
+}
+
+
 void Foam::ellipsoidProperties::checkPatches
 (
     const polyBoundaryMesh& patches
@@ -272,11 +322,12 @@ void Foam::ellipsoidProperties::checkPatches
                 << patches.mesh().meshDir()/"boundary"
                 << " is of type " << pp.type() << nl
                 << "    A cell is a body in three dimensions: its mesh has "
-                << "walls (type wall), open ends (type patch), and patches it "
-                << "must not reach (cyclic, symmetry)"
+                << "walls (type wall) and open ends (type patch)"
                 << exit(FatalError);
         }
     }
+
+    checkUnreached(patches);
 
     const dictionary& injections = subDict("injection");
 
@@ -336,8 +387,8 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
         *this,
         {
             "interpolation", "seed", "motion", "cell", "fluid", "forces",
-            "brownian", "contact",
-            "integration", "injection", "capture", "tracks"
+            "brownian", "contact", "integration", "injection", "capture",
+            "tracks", "unreached"
         }
     );
 

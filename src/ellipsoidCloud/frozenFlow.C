@@ -8,8 +8,8 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "frozenFlow.H"
+#include "throughFlow.H"
 #include "wallPolyPatch.H"
-#include "processorPolyPatch.H"
 #include "treeBoundBox.H"
 
 #include <algorithm>
@@ -219,6 +219,32 @@ void Foam::frozenFlow::interpolateVelocity
 }
 
 
+void Foam::frozenFlow::checkOpenPatches(const undecomposedFlow& whole) const
+{
+    const fvMesh& mesh = whole.mesh();
+    const scalar crossFlux = throughFlow::crossFlux
+    (
+        throughFlow(whole.U(), whole.phi()).speed(), gSum(mesh.V())
+    );
+
+    for (const label patchi : throughFlow::openPatches(mesh.boundaryMesh()))
+    {
+        const polyPatch& pp = mesh.boundaryMesh()[patchi];
+        const scalar flux = gSum(mag(whole.phi().boundaryField()[patchi]));
+
+        if (pp.size() && throughFlow::isRounding(flux, crossFlux))
+        {
+            FatalErrorInFunction
+                << "nothing flows through patch " << pp.name() << " of type "
+                << pp.type() << nl
+                << "    Cells would leave there. If it is a wall, make it one: "
+                << "type wall in " << mesh.meshDir()/"boundary"
+                << exit(FatalError);
+        }
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::frozenFlow::frozenFlow
@@ -234,8 +260,12 @@ Foam::frozenFlow::frozenFlow
     {
         const undecomposedFlow::serialScope serial;
 
-        makeTets(whole.mesh());
-        makeVertices(whole, rho);
+        const baffleSides baffles(whole.mesh());
+
+        makeTets(whole.mesh(), baffles);
+        makeVertices(whole, rho, baffles);
+
+        checkOpenPatches(whole);
 
         const polyBoundaryMesh& patches = whole.mesh().boundaryMesh();
         patchPlace_.setSize(patches.size());
@@ -246,8 +276,8 @@ Foam::frozenFlow::frozenFlow
 
             patchPlace_[patchi] =
                 isA<wallPolyPatch>(pp) ? pBeyondWall
-              : isType<polyPatch>(pp) ? pBeyondOpen
-              : pBeyondCoupled;
+              : polyPatch::constraintType(pp.type()) ? pBeyondCoupled
+              : pBeyondOpen;
         }
     }
 

@@ -20,7 +20,11 @@ Description
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::frozenFlow::makeTets(const polyMesh& mesh)
+void Foam::frozenFlow::makeTets
+(
+    const polyMesh& mesh,
+    const baffleSides& baffles
+)
 {
     const faceList& faces = mesh.faces();
     const labelList& owner = mesh.faceOwner();
@@ -78,9 +82,9 @@ void Foam::frozenFlow::makeTets(const polyMesh& mesh)
                 }
 
                 tet.vertices[0] = celli;
-                tet.vertices[1] = nCells + f[base];
-                tet.vertices[2] = nCells + a;
-                tet.vertices[3] = nCells + b;
+                tet.vertices[1] = nCells + baffles.vertex(f[base], celli);
+                tet.vertices[2] = nCells + baffles.vertex(a, celli);
+                tet.vertices[3] = nCells + baffles.vertex(b, celli);
 
                 if (mesh.isInternalFace(facei))
                 {
@@ -129,10 +133,54 @@ void Foam::frozenFlow::makeTets(const polyMesh& mesh)
 }
 
 
+Foam::vectorField Foam::frozenFlow::pointVelocities
+(
+    const volVectorField& U,
+    const volTensorField& gradU,
+    const pointTensorField& pointGradU
+)
+{
+    const fvMesh& mesh = U.mesh();
+    const volPointInterpolation& toPoints = volPointInterpolation::New(mesh);
+    const dimensionedVector middle
+    (
+        "middle", dimLength, boundBox(mesh.points(), false).centre()
+    );
+
+    // The mean of cells about a point is not at the point where they are of
+    // different size. What is left without the linear part does not mind.
+    const volVectorField rest(U - ((mesh.C() - middle) & gradU));
+    vectorField pointU(toPoints.interpolate(rest)().primitiveField());
+
+    forAll(pointU, pointi)
+    {
+        pointU[pointi] +=
+            (mesh.points()[pointi] - middle.value()) & pointGradU[pointi];
+    }
+
+    // At cyclic and symmetry patches not what is left, but the velocity goes on
+    const pointVectorField plain(toPoints.interpolate(U));
+
+    for (const polyPatch& pp : mesh.boundaryMesh())
+    {
+        if (polyPatch::constraintType(pp.type()))
+        {
+            for (const label pointi : pp.meshPoints())
+            {
+                pointU[pointi] = plain[pointi];
+            }
+        }
+    }
+
+    return pointU;
+}
+
+
 void Foam::frozenFlow::makeVertices
 (
     const undecomposedFlow& whole,
-    const scalar rho
+    const scalar rho,
+    const baffleSides& baffles
 )
 {
     const fvMesh& mesh = whole.mesh();
@@ -143,9 +191,9 @@ void Foam::frozenFlow::makeVertices
 
     const volPointInterpolation& toPoints = volPointInterpolation::New(mesh);
 
-    const pointVectorField pointU(toPoints.interpolate(whole.U()));
     const pointTensorField pointGradU(toPoints.interpolate(gradU));
     const pointVectorField pointGradp(toPoints.interpolate(gradp));
+    const vectorField pointU(pointVelocities(whole.U(), gradU, pointGradU));
 
     // A point that a wall shares with an open patch moves with the wall
     vectorField wallU(mesh.nPoints(), Zero);
@@ -168,7 +216,9 @@ void Foam::frozenFlow::makeVertices
         }
     }
 
-    vertices_.setSize((nCells + mesh.nPoints())*scalarsPerVertex);
+    const label nSides = baffles.sides().size();
+
+    vertices_.setSize((nCells + mesh.nPoints() + nSides)*scalarsPerVertex);
 
     const auto setVertex =
         [&]
@@ -219,6 +269,50 @@ void Foam::frozenFlow::makeVertices
           : pointU[pointi],
             pointGradU[pointi],
             pointGradp[pointi]
+        );
+    }
+
+    // Either side of a baffle by itself: of the faces around the point, as at
+    // all points of the boundary
+    for (label sidei = 0; sidei < nSides; ++sidei)
+    {
+        const baffleSides::side& side = baffles.sides()[sidei];
+        const point& x = mesh.points()[side.point];
+
+        vector u(Zero);
+        tensor gradu(Zero);
+        vector gradientp(Zero);
+        scalar sum = 0;
+        label nWalls = 0;
+
+        for (const label facei : side.faces)
+        {
+            const label patchi = mesh.boundaryMesh().whichPatch(facei);
+            const polyPatch& pp = mesh.boundaryMesh()[patchi];
+            const label i = facei - pp.start();
+
+            if (isA<wallPolyPatch>(pp))
+            {
+                u += whole.U().boundaryField()[patchi][i];
+                ++nWalls;
+            }
+            if (!pp.coupled() && gradU.boundaryField()[patchi].size())
+            {
+                const scalar weight = 1/mag(x - mesh.faceCentres()[facei]);
+
+                gradu += weight*gradU.boundaryField()[patchi][i];
+                gradientp += weight*gradp.boundaryField()[patchi][i];
+                sum += weight;
+            }
+        }
+
+        setVertex
+        (
+            nCells + mesh.nPoints() + sidei,
+            x,
+            nWalls ? u/scalar(nWalls) : pointU[side.point],
+            gradu/sum,
+            gradientp/sum
         );
     }
 

@@ -34,6 +34,49 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+Foam::label Foam::wallFacets::fanBase
+(
+    const face& f,
+    const pointField& points,
+    const label preferred
+)
+{
+    // Of the face's area; less is a point in line with its neighbours
+    const scalar noArea = 1e-10;
+
+    const vector normal(f.areaNormal(points)/(f.mag(points) + VSMALL));
+    scalar largest = 0;
+    label best = -1;
+
+    for (label i = 0; i < f.size(); ++i)
+    {
+        const label base = (preferred + i) % f.size();
+        scalar smallest = GREAT;
+
+        for (label trii = 1; trii < f.size() - 1; ++trii)
+        {
+            const point& a = points[f[base]];
+            const point& b = points[f[(base + trii) % f.size()]];
+            const point& c = points[f[(base + trii + 1) % f.size()]];
+
+            smallest = min(smallest, 0.5*(((b - a) ^ (c - a)) & normal));
+        }
+
+        if (smallest > max(largest, noArea*f.mag(points)))
+        {
+            largest = smallest;
+            best = base;
+        }
+        if (i == 0 && best >= 0)
+        {
+            break;
+        }
+    }
+
+    return best;
+}
+
+
 Foam::triSurface Foam::wallFacets::triangulate(const polyMesh& mesh)
 {
     const labelList& basePoints = mesh.tetBasePtIs();
@@ -51,7 +94,21 @@ Foam::triSurface Foam::wallFacets::triangulate(const polyMesh& mesh)
         forAll(pp, i)
         {
             const face& f = pp[i];
-            const label base = max(basePoints[pp.start() + i], label(0));
+            const label base = fanBase
+            (
+                f,
+                mesh.points(),
+                max(basePoints[pp.start() + i], label(0))
+            );
+
+            if (base < 0)
+            {
+                FatalErrorInFunction
+                    << "a face of wall " << pp.name() << " at "
+                    << f.centre(mesh.points()) << " cannot be cut into "
+                    << "triangles from any of its points: checkMesh says more"
+                    << exit(FatalError);
+            }
 
             for (label trii = 1; trii < f.size() - 1; ++trii)
             {
@@ -120,9 +177,8 @@ void Foam::wallFacets::setFacets()
 
 void Foam::wallFacets::setEdges()
 {
-    // Where the wall ends at an open patch the edge stays a free rim.
-    // A turn smaller than this [rad] is the mesh's rounding
-    const scalar flat = 1e-6;
+    // Where the wall ends at an open patch the edge stays a free rim
+    const labelListList& edgeFaces = surface_.edgeFaces();
 
     forAll(surface_, faceti)
     {
@@ -140,35 +196,13 @@ void Foam::wallFacets::setEdges()
                     continue;
                 }
 
-                for (const label otheri : surface_.edgeFaces()[edgei])
+                // More than one other where baffles meet
+                for (const label otheri : edgeFaces[edgei])
                 {
-                    if (otheri == faceti)
+                    if (otheri != faceti)
                     {
-                        continue;
+                        ellipsoid_facet_join(&f, k, &facets_[otheri]);
                     }
-
-                    const vector n(pointOf(f.normal));
-                    const vector otherN(pointOf(facets_[otheri].normal));
-                    const vector t
-                    (
-                        normalised
-                        (
-                            pointOf(f.vertex[(k + 1) % 3])
-                          - pointOf(f.vertex[k])
-                        )
-                    );
-
-                    // How much the neighbour faces this one
-                    const scalar turn = (n ^ t) & otherN;
-
-                    f.edge[k] =
-                        mag(turn) < flat && (n & otherN) > 0
-                      ? ELLIPSOID_EDGE_FLAT
-                      : turn > 0 ? ELLIPSOID_EDGE_CONCAVE
-                      : ELLIPSOID_EDGE_CONVEX;
-
-                    copyTo(f.edge_inward[k], t ^ otherN);
-                    copyTo(f.neighbour_normal[k], otherN);
                 }
             }
         }

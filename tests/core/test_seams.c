@@ -148,6 +148,7 @@ static void test_round_wall(void **unused)
         {
             wall_mesh wall;
             double worst = 0, before[3] = {0, 0, 0};
+            double strongest = 0, steepest_tilt = 0;
             const int samples = 20000;
 
             wall_mesh_init(&wall);
@@ -172,6 +173,8 @@ static void test_round_wall(void **unused)
                 const double tilt =
                     atan2(-force[0], force[2]) - angle;
 
+                strongest = fmax(strongest, fabs(size / f0 - 1));
+                steepest_tilt = fmax(steepest_tilt, fabs(tilt));
                 assert_relative(size, f0, 0.01);
                 assert_true(fabs(tilt) < 0.51 * turn);
                 assert_near(force[1], 0, 1e-10 * f0);
@@ -184,6 +187,11 @@ static void test_round_wall(void **unused)
             /* the turn at a seam takes a way of the order of turn radii: over
                one sample the force changes by no more than 0.5 % of itself */
             assert_true(worst < 0.005 * pow(depths[d] * um, 1.5));
+            print_message("# faces of %g um, %g nm deep: force within %.2g of "
+                          "Hertz, along the wall at most %.2g of it, %.3f of "
+                          "half the turn\n",
+                          faces[f], 1000 * depths[d], strongest,
+                          sin(steepest_tilt), 2 * steepest_tilt / turn);
             wall_mesh_free(&wall);
         }
     }

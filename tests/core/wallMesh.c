@@ -11,9 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A turn smaller than this [rad] is rounding. */
-static const double flat = 1e-7;
-
 static void *grown(void *memory, size_t size)
 {
     void *result = realloc(memory, size > 0 ? size : 1);
@@ -28,13 +25,6 @@ static void *grown(void *memory, size_t size)
 static double dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double r[3])
-{
-    r[0] = a[1] * b[2] - a[2] * b[1];
-    r[1] = a[2] * b[0] - a[0] * b[2];
-    r[2] = a[0] * b[1] - a[1] * b[0];
 }
 
 /* The unit vector from a to b */
@@ -241,34 +231,6 @@ static int number_vertices(const wall_mesh *mesh, int *vertex)
     return count;
 }
 
-/*
-    Edge k of facet a is an edge of facet b too. Where more than two meet, as on
-    a baffle, the neighbour is the first met on turning through the fluid.
-*/
-static void join(ellipsoid_facet *a, int k, const ellipsoid_facet *b,
-                 double turned[3])
-{
-    double t[3], own_inward[3];
-
-    direction(a->vertex[k], a->vertex[(k + 1) % 3], t);
-    cross(a->normal, t, own_inward);
-
-    const double along = dot(a->normal, b->normal);
-    const double facing = dot(own_inward, b->normal);
-    const double turn =
-        along < 0 && fabs(facing) < flat ? -4 : atan2(facing, along);
-
-    if (turn > turned[k])
-    {
-        turned[k] = turn;
-        cross(t, b->normal, a->edge_inward[k]);
-        memcpy(a->neighbour_normal[k], b->normal, sizeof b->normal);
-        a->edge[k] = fabs(turn) < flat ? ELLIPSOID_EDGE_FLAT
-                     : turn > 0        ? ELLIPSOID_EDGE_CONCAVE
-                                       : ELLIPSOID_EDGE_CONVEX;
-    }
-}
-
 static void set_stars(wall_mesh *mesh, const half_edge *edges, int edge_count,
                       const int *vertex, int vertex_count)
 {
@@ -332,7 +294,6 @@ void wall_mesh_finish(wall_mesh *mesh)
     const int n = 3 * mesh->count;
     int *vertex = grown(NULL, n * sizeof *vertex);
     half_edge *edges = grown(NULL, n * sizeof *edges);
-    double *turned = grown(NULL, n * sizeof *turned);
     const int vertices = number_vertices(mesh, vertex);
 
     mesh->index = grown(NULL, mesh->count * sizeof *mesh->index);
@@ -352,7 +313,6 @@ void wall_mesh_finish(wall_mesh *mesh)
                                 c / 3, c % 3};
 
         edges[c] = edge;
-        turned[c] = -HUGE_VAL;
     }
     qsort(edges, n, sizeof *edges, compare_edges);
     for (int e = 0; e < n; e++)
@@ -363,14 +323,13 @@ void wall_mesh_finish(wall_mesh *mesh)
             ellipsoid_facet *a = &mesh->facets[edges[e].facet];
             ellipsoid_facet *b = &mesh->facets[edges[o].facet];
 
-            join(a, edges[e].k, b, turned + 3 * edges[e].facet);
-            join(b, edges[o].k, a, turned + 3 * edges[o].facet);
+            ellipsoid_facet_join(a, edges[e].k, b);
+            ellipsoid_facet_join(b, edges[o].k, a);
         }
     }
     set_stars(mesh, edges, n, vertex, vertices);
     free(vertex);
     free(edges);
-    free(turned);
 }
 
 int wall_mesh_list(void *context, const double centre[3], double reach,
