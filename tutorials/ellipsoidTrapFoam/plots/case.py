@@ -7,6 +7,7 @@ Lengths are in micrometres and speeds in mm/s from here on, times in seconds. Th
 of the device is the x-y plane, its depth lies along z.
 """
 
+import csv
 import gzip
 import os
 import re
@@ -22,6 +23,8 @@ from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPlane
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkCleanPolyData, vtkCutter
 from vtkmodules.vtkIOParallel import vtkPOpenFOAMReader
 from vtkmodules.vtkParallelCore import vtkDummyController
+
+import poses
 
 MICRO = 1e6   # m to micrometres
 MILLI = 1e3   # m/s to mm/s, s to ms
@@ -57,24 +60,47 @@ class Track(namedtuple("Track", "t x u q omega axis")):
 
     __slots__ = ()
 
-    def path(self):
-        """Points of a smooth curve in the plan, through all rows along their velocity."""
-        x, dt = self.x[:, :2], np.diff(self.t)[:, None]
-        chord = np.diff(x, axis=0)
-        length = np.linalg.norm(chord, axis=1, keepdims=True)
+    def at(self, times):
+        """The track at other times, on cubics that have the velocity and spin of its rows."""
+        if len(self.t) < 2:
+            return Track(*(np.repeat(part[:1], len(times), axis=0) for part in self))
+        first = np.searchsorted(self.t, times, side="right") - 1
+        first = np.clip(first, 0, len(self.t) - 2)
+        last = first + 1
+        dt = np.maximum(self.t[last] - self.t[first], 1e-30)[:, None]
+        s = np.clip((np.asarray(times)[:, None] - self.t[first][:, None]) / dt, 0, 1)
 
-        def tangent(u):
-            # At most the chord's length: rows of a cell at rest may lie far apart in time
-            reach = u[:, :2] * dt * MICRO / MILLI
-            size = np.linalg.norm(reach, axis=1, keepdims=True)
-            return reach * np.minimum(1, length / np.maximum(size, 1e-30))
+        chord = self.x[last] - self.x[first]
+        x = poses.hermite(
+            self.x[first], self.x[last], *(
+                poses.at_most(self.u[row] * dt * MICRO / MILLI, chord, 1)
+                for row in (first, last)
+            ), s,
+        )
+        # q and -q are the same pose
+        start, end = self.q[first], self.q[last]
+        near = np.where((start * end).sum(axis=1, keepdims=True) < 0, -1, 1)
+        chord = near * end - start
+        q = poses.hermite(
+            start, near * end,
+            poses.at_most(poses.quaternion_rate(start, self.omega[first]) * dt, chord, 3),
+            poses.at_most(near * poses.quaternion_rate(end, self.omega[last]) * dt, chord, 3),
+            s,
+        )
+        q /= np.linalg.norm(q, axis=1, keepdims=True)
+        u, omega = (
+            part[first] + s * (part[last] - part[first]) for part in (self.u, self.omega)
+        )
+        return Track(np.asarray(times), x, u, q, omega, poses.long_axis(q))
 
-        a, b = tangent(self.u[:-1]), tangent(self.u[1:])
-        s = np.linspace(0, 1, 6, endpoint=False)[None, :, None]
-        start, chord, a, b = x[:-1, None], chord[:, None], a[:, None], b[:, None]
-        # Hermite's cubic
-        curve = start + s * (a + s * (3 * chord - 2 * a - b + s * (a + b - 2 * chord)))
-        return np.concatenate((curve.reshape(-1, 2), x[-1:]))
+    def finer(self, parts=6):
+        """The track with every interval between rows divided."""
+        steps = np.diff(self.t)[:, None] * np.arange(parts) / parts
+        return self.at(np.append((self.t[:-1, None] + steps).ravel(), self.t[-1]))
+
+    def until(self, t):
+        """The rows up to a time."""
+        return Track(*(part[self.t <= t] for part in self))
 
 
 class Plane:
@@ -194,6 +220,36 @@ class Case:
             file = self.path("constant", "ellipsoidCloudProperties")
             raise CaseError(f"{file}: cell/semiAxes are not three positive numbers")
         return axes * MICRO
+
+    @cached_property
+    def design(self):
+        """Name of the trap's design, of those in constant/trapGeometry; "" without one."""
+        file = self.path("constant", "generated", "chosen")
+        return read_dictionary(file).get("design", "") if os.path.isfile(file) else ""
+
+    @cached_property
+    def chamber(self):
+        """(radius, y at which the channels begin) of a circular trap, or None."""
+        file = self.path("constant", "trapGeometry")
+        if not os.path.isfile(file):
+            return None
+        chamber = read_dictionary(file)["chamber"]
+        radius, width = float(chamber["radius"]), float(chamber["channelWidth"])
+        return radius, float(np.sqrt(radius**2 - width**2 / 4))
+
+    @cached_property
+    def loading(self):
+        """How long cells enter [s]: the last duration of the injections, or as it was."""
+        durations = [
+            float(one["duration"]) for one in self.properties.get("injection", {}).values()
+            if isinstance(one, dict) and "duration" in one
+        ]
+        return max(durations, default=self.last_injection)
+
+    @property
+    def last_injection(self):
+        """When the last cell so far entered [s]."""
+        return self.events["t"][self.events["event"] == "injected"].max(initial=0)
 
     @cached_property
     def patches(self):
@@ -370,6 +426,10 @@ class Case:
             )
         return meshes, pieces
 
+    def patch_surfaces(self, name):
+        """The pieces of a patch, VTK's polygons in metres."""
+        return self._vtk[1].get(name, [])
+
     @property
     def mesh_size(self):
         """Number of mesh cells."""
@@ -513,6 +573,32 @@ def read_csv(file, types):
             line = 2 + int(np.argmin(np.isfinite(rows[name])))
             raise CaseError(f"{file}: line {line}: {name} is not a number")
     return rows
+
+
+def read_measured(file, names, words=()):
+    """A user's CSV file: the named columns it has, to arrays; NaN where there is no number."""
+    try:
+        with open(file, newline="", encoding="utf-8-sig") as f:
+            rows = list(csv.DictReader(f))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise CaseError(f"{file}: {getattr(error, 'strerror', None) or error}") from None
+    if not rows:
+        raise CaseError(f"{file}: no rows below a header")
+    columns = {}
+    for name in names:
+        if name not in rows[0]:
+            continue
+        if name in words:
+            columns[name] = [(row[name] or "").strip() for row in rows]
+            continue
+        columns[name] = np.full(len(rows), np.nan)
+        for i, row in enumerate(rows):
+            word = (row[name] or "").strip()
+            try:
+                columns[name][i] = float(word) if word else np.nan
+            except ValueError:
+                raise CaseError(f"{file}: line {i + 2}: {name} is no number: {word}") from None
+    return columns
 
 
 def number_folders(root):

@@ -25,7 +25,7 @@ def draw(case):
     keys = []
     for fate, line in style.FATE_LINES.items():
         tracks = [
-            case.tracks[cell].path()
+            case.tracks[cell].finer().x[:, :2]
             for cell, one in case.fates.items() if one.name == fate and cell in case.tracks
         ]
         if not tracks:

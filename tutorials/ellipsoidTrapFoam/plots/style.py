@@ -4,6 +4,7 @@
 """The look that the pictures share, and the frame of their commands."""
 
 import argparse
+import json
 import os
 import sys
 import time
@@ -45,6 +46,18 @@ FATE_LINES = {
 # Where a cell is that has not left
 LAST_POINT = {
     "marker": "o", "markersize": 3, "markeredgecolor": "black", "markeredgewidth": 0.5
+}
+
+# Colour and dashes of the components along x1, x2, x3
+COMPONENTS = (
+    {"color": VERMILLION, "linestyle": (0, (5, 1.5))},
+    {"color": "black", "linestyle": "-"},
+    {"color": SKY, "linestyle": (0, (1, 0.8)), "linewidth": 1.6},
+)
+
+# What an experiment showed, over what was computed
+MEASURED = {
+    "marker": "D", "markersize": 5, "markeredgecolor": "white", "markeredgewidth": 0.6
 }
 
 plt.rcParams.update({
@@ -141,17 +154,34 @@ def fate_key(fate, number):
     return Line2D([], [], label=f"{fate} ({number})", **line)
 
 
+def describe(figure, caption, table=()):
+    """What goes beside the picture: a caption, and a table with its headings first."""
+    figure.note = {"caption": " ".join(caption.split()), "table": list(table)}
+
+
+def print_table(table):
+    """Rows of words in columns, the first to the left."""
+    words = [[str(word) for word in row] for row in table]
+    widths = [max(map(len, column)) for column in zip(*words)]
+    for row in words:
+        print("    " + "  ".join(
+            [row[0].ljust(widths[0])] + [w.rjust(n) for w, n in zip(row[1:], widths[1:])]
+        ).rstrip())
+
+
 def save(figure, case, name):
-    """Write a figure to the case's pictures; the path."""
+    """Write a picture and what describe() said of it to the case's pictures; the path."""
     folder = case.path("pictures")
-    file = os.path.join(folder, name + ".png")
+    file = os.path.join(folder, name + getattr(figure, "suffix", ".png"))
     try:
         os.makedirs(folder, exist_ok=True)
         figure.savefig(file)
+        with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as f:
+            json.dump(figure.note, f, ensure_ascii=False, indent=1)
     except OSError as error:
         raise CaseError(f"{file}: {error.strerror or error}") from None
     finally:
-        plt.close(figure)
+        plt.close("all")
     return file
 
 
@@ -159,7 +189,8 @@ def make(draw, name, case, **options):
     """Draw one picture of a case and say what came of it; whether it went well."""
     start = time.monotonic()
     try:
-        file = save(draw(case, **options), case, name)
+        figure = draw(case, **options)
+        file = save(figure, case, name)
     except NotApplicable as reason:
         print(f"{name}: left out: {reason}")
         return True
@@ -171,13 +202,17 @@ def make(draw, name, case, **options):
         traceback.print_exc()
         return False
     print(f"{name}: {file} ({time.monotonic() - start:.1f} s)")
+    if figure.note["table"]:
+        print_table(figure.note["table"])
     return True
 
 
 def command(draw, description, **options):
     """Run a picture's script; options are those of its draw(), name to argparse's."""
     name = os.path.splitext(os.path.basename(sys.argv[0]))[0]
-    parser = argparse.ArgumentParser(prog=name, description=description)
+    parser = argparse.ArgumentParser(
+        prog=name, description=description, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("case", metavar="CASE", help="folder of the case")
     for option, settings in options.items():
         parser.add_argument("--" + option, **settings)

@@ -14,17 +14,11 @@ from matplotlib.ticker import MaxNLocator
 
 import style
 from case import NotApplicable
+from poses import rotation
 
 MARGIN = 2.0     # about a sieve, in micrometres
 COLUMNS = 4
 CELL_COLOURS = {"caught": style.ORANGE, "stalled": style.SKY}
-
-
-def rotation(q):
-    """Matrix that turns the body's frame to that of the case; q scalar last."""
-    e, eta = q[:3], q[3]
-    cross = np.array([[0, -e[2], e[1]], [e[2], 0, -e[0]], [-e[1], e[0], 0]])
-    return (eta**2 - e @ e) * np.eye(3) + 2 * np.outer(e, e) + 2 * eta * cross
 
 
 def shadow(x, q, semi_axes):
