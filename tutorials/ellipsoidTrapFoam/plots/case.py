@@ -430,6 +430,21 @@ class Case:
         """The pieces of a patch, VTK's polygons in metres."""
         return self._vtk[1].get(name, [])
 
+    @cached_property
+    def depth(self):
+        """(lowest, highest) z of the mesh."""
+        bounds = np.array([mesh.GetBounds() for mesh in self._vtk[0]]) * MICRO
+        return bounds[:, 4].min(), bounds[:, 5].max()
+
+    @cached_property
+    def inlet_speed(self):
+        """Mean speed of the flow that comes in, as the solver logged it."""
+        file = self.path("log.ellipsoidTrapFoam")
+        found = re.findall(r"flow: mean inlet speed (\S+) m/s", read_text(file))
+        if not found:
+            raise CaseError(f"{file}: no mean inlet speed")
+        return float(found[-1]) * MILLI
+
     @property
     def mesh_size(self):
         """Number of mesh cells."""
