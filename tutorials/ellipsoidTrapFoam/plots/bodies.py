@@ -42,19 +42,26 @@ def picture(bodies, view, xlim, ylim, scale):
     pixels a micrometre."""
     width, height = (int(round(scale * (high - low))) for low, high in (xlim, ylim))
     fine = scale * FINER
-    colour = np.zeros((height * FINER, width * FINER, 4))
-    depth = np.full(colour.shape[:2], -np.inf)
-    for body in bodies:
-        _draw(body, view, (xlim[0], ylim[0]), fine, colour, depth)
-    shape = (height, FINER, width, FINER)
-    alpha = colour[..., 3].reshape(shape).mean(axis=(1, 3))
-    rgb = colour[..., :3].reshape(shape + (3,)).sum(axis=(1, 3)) / FINER**2
-    rgb /= np.maximum(alpha, 1e-9)[..., None]
-    return np.dstack((rgb, alpha))[::-1].clip(0, 1)
+    colour = np.zeros((height * FINER, width * FINER, 4), dtype=np.float32)
+    depth = np.full(colour.shape[:2], -np.inf, dtype=np.float32)
+    image = np.zeros((height, width, 4), dtype=np.float32)
+    boxes = [_draw(body, view, (xlim[0], ylim[0]), fine, colour, depth) for body in bodies]
+    # Most of the window is empty: only where bodies are are rays brought together
+    for rows, columns in boxes:
+        parts = [
+            colour[FINER * rows.start + i:FINER * rows.stop:FINER,
+                   FINER * columns.start + j:FINER * columns.stop:FINER]
+            for i in range(FINER) for j in range(FINER)
+        ]
+        mean = sum(parts[1:], parts[0]) / len(parts)
+        mean[..., :3] /= np.maximum(mean[..., 3:], 1e-6)
+        image[rows, columns] = mean.clip(0, 1)
+    return image[::-1]
 
 
 def _draw(body, view, corner, fine, colour, depth):
-    """One body into colour, alpha-multiplied, and depth, first row at the bottom."""
+    """One body into colour and depth, first row at the bottom; the image's rows and columns
+    that it may touch."""
     x, y, z = view @ body.x
     shape = view @ rotation(np.asarray(body.q)) * body.semi_axes
     reach = np.linalg.norm(shape[:2], axis=1)
@@ -63,8 +70,12 @@ def _draw(body, view, corner, fine, colour, depth):
     low, high = ((y - corner[1] + reach[1] * np.array([-1, 1])) * fine).round().astype(int)
     left, low = max(left, 0), max(low, 0)
     right, high = min(right + 1, columns), min(high + 1, rows)
+    box = tuple(
+        slice(start // FINER, -(-stop // FINER))
+        for start, stop in ((low, high), (left, right))
+    )
     if left >= right or low >= high:
-        return
+        return slice(0, 0), slice(0, 0)
 
     # On the surface | M (du, dv, dw) | = 1: a quadratic for dw, nearer root
     du = (np.arange(left, right) + 0.5) / fine + corner[0] - x
@@ -91,6 +102,7 @@ def _draw(body, view, corner, fine, colour, depth):
     colour[window][hit, :3] = np.moveaxis(paint, 0, -1)[hit]
     colour[window][hit, 3] = 1
     depth[window][hit] = (z + dw)[hit]
+    return box
 
 
 def show(ax, bodies, view, scale, **options):

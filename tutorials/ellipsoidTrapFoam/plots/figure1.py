@@ -11,7 +11,8 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 import style
-from case import FATES, CaseError, NotApplicable, read_measured
+from case import FATES, NotApplicable
+from files import CaseError, read_measured
 
 
 def holdings(case):

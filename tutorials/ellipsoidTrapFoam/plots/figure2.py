@@ -17,7 +17,8 @@ import numpy as np
 import account
 import style
 from account import flips, path_length, turning
-from case import MILLI, CaseError, NotApplicable, read_measured
+from case import MILLI, NotApplicable
+from files import CaseError, read_measured
 
 RESTING = 1e-3   # speed in mm/s below which only rounding would be seen
 SLOW = 0.01   # part of a cell's highest speed below which it is taken to rest

@@ -12,8 +12,9 @@ import account
 import bodies
 import poses
 import style
-from case import MICRO, CaseError
+from case import MICRO
 from figure2 import cell_or_best, choose
+from files import CaseError
 
 # A view and a pose in which no two axes fall together
 VIEW = bodies.camera(70, 30)

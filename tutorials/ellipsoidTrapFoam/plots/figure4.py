@@ -15,7 +15,8 @@ import numpy as np
 
 import style
 import walls
-from case import Case, CaseError, NotApplicable
+from case import Case, NotApplicable
+from files import CaseError
 
 NORMAL_95 = 1.959963984540054   # two-sided quantile of the normal distribution
 

@@ -15,7 +15,8 @@ from matplotlib.patches import Patch, Rectangle
 from matplotlib.ticker import MaxNLocator
 
 import style
-from case import Case, CaseError
+from case import Case
+from files import CaseError
 
 
 HEIGHT = 6.6      # of the plan, in inches
@@ -122,6 +123,8 @@ def draw(case, sieve=None, designs=()):
                          fontsize=8)
     keys.append(Patch(facecolor=style.SOLID, label="no fluid"))
     style.legend_below(whole, keys)
+    if designs:
+        figure.name = "figure5Designs"
     what = "apertures of the designs" if designs else "apertures of the sieves"
     style.describe(figure, f"""The finite volume mesh at half depth,
         {len(plane.velocity):,} of {case.mesh_size:,} mesh cells, and close-ups of the finest

@@ -53,6 +53,9 @@ def draw(case):
         )
     keys.append(Patch(facecolor=style.SOLID, edgecolor="black", label="no fluid"))
     style.legend_below(ax, keys)
+    style.describe(figure, """Speed of the flow at half depth, and the paths of the cells' centres
+        by fate; points mark where cells are that have not left. Numbers beside the sieves are
+        the cells that they hold.""")
     return figure
 
 

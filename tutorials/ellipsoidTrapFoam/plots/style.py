@@ -21,7 +21,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 
-from case import Case, CaseError, NotApplicable
+from case import Case, NotApplicable
+from files import CaseError
 
 # Viridis, paled so that tracks stand out on all of it
 PALE = 0.3
@@ -172,6 +173,7 @@ def print_table(table):
 def save(figure, case, name):
     """Write a picture and what describe() said of it to the case's pictures; the path."""
     folder = case.path("pictures")
+    name = getattr(figure, "name", name)
     file = os.path.join(folder, name + getattr(figure, "suffix", ".png"))
     try:
         os.makedirs(folder, exist_ok=True)
@@ -185,7 +187,15 @@ def save(figure, case, name):
     return file
 
 
-def make(draw, name, case, **options):
+def remove(case, name):
+    """Take away a picture made before."""
+    for suffix in (".png", ".webp", ".json"):
+        file = case.path("pictures", name + suffix)
+        if os.path.isfile(file):
+            os.remove(file)
+
+
+def make(draw, name, case, tables=True, **options):
     """Draw one picture of a case and say what came of it; whether it went well."""
     start = time.monotonic()
     try:
@@ -202,7 +212,7 @@ def make(draw, name, case, **options):
         traceback.print_exc()
         return False
     print(f"{name}: {file} ({time.monotonic() - start:.1f} s)")
-    if figure.note["table"]:
+    if tables and figure.note["table"]:
         print_table(figure.note["table"])
     return True
 
