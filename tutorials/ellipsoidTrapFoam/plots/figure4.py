@@ -42,6 +42,13 @@ def wilson(successes, trials):
     return max(0.0, min(share, middle - half)), min(1.0, max(share, middle + half))
 
 
+def in_words(held, trials):
+    """A share with its interval."""
+    low, high = wilson(held, trials)
+    share = f"{held / trials:.1%}" if trials else "-"
+    return f"{held}/{trials} = {share} ({100 * low:.1f}-{100 * high:.1f})"
+
+
 def reached(case):
     """Sieve to the cells that reached it."""
     paths = {cell: track.finer().x for cell, track in case.tracks.items()}
@@ -70,23 +77,21 @@ def draw(case, designs=()):
         raise NotApplicable("no cell has been injected")
 
     figure, axes = plt.subplots(2, 1, figsize=(7, 6), sharex=True, layout="constrained")
-    table = [["design", "sieve", "reached", "held", "of those reached", "95 %",
-              "of those injected", "95 %"]]
-    for k, (one, look) in enumerate(zip(cases, LOOKS)):
-        label = one.design or one.folder.rsplit("/", 1)[-1]
+    labels = [one.design or one.folder.rsplit("/", 1)[-1] for one in cases]
+    table = [["held of reached"] + labels] + [[name] for name in [*names, "all, of injected"]]
+    for k, (one, label, look) in enumerate(zip(cases, labels, LOOKS)):
         near = reached(one)
         at = np.arange(len(names)) + 0.22 * (k - (len(cases) - 1) / 2)
         shares, bounds = [], []
-        for name in names:
+        for name, row in zip(names, table[1:]):
             held, came = one.count("caught", name), len(near.get(name, ()))
-            row = [label, name, came, held]
+            row.append(in_words(held, came))
             for trials in (came, len(one.fates)):
-                share = held / trials if trials else np.nan
                 low, high = wilson(held, trials)
+                share = held / trials if trials else np.nan
                 shares.append(share)
                 bounds.append((share - low, high - share))
-                row += [f"{share:.2%}" if trials else "-", f"{low:.2%} to {high:.2%}"]
-            table.append(row)
+        table[-1].append(in_words(sum(one.count("caught", n) for n in names), len(one.fates)))
         for ax, first in zip(axes, (0, 1)):
             ax.errorbar(
                 at, 100 * np.array(shares[first::2]), 100 * np.transpose(bounds[first::2]),
@@ -98,14 +103,16 @@ def draw(case, designs=()):
     axes[1].set_xticks(range(len(names)), names)
     axes[1].set_xlabel("sieve")
     for ax in axes:
-        ax.set_ylim(bottom=0)
+        # Room for the marks of zero
+        ax.set_ylim(bottom=-0.04 * ax.get_ylim()[1])
         ax.grid(True, axis="y")
         for edge in np.arange(len(names) - 1) + 0.5:
             ax.axvline(edge, color="0.85", linewidth=0.6)
     style.legend_below(axes[1], axes[0].get_legend_handles_labels()[0])
     style.describe(figure, f"""Trapping performance of every sieve by itself, with Wilson's 95 %
         intervals. A cell has reached a sieve when its centre has come within its longest
-        semi-axis, {cases[0].semi_axes.max():g} µm, of the sieve's walls.""", table)
+        semi-axis, {cases[0].semi_axes.max():g} µm, of the sieve's walls. In the table, in brackets:
+        the intervals in per cent.""", table)
     return figure
 
 

@@ -58,7 +58,7 @@ COMPONENTS = (
 
 # What an experiment showed, over what was computed
 MEASURED = {
-    "marker": "D", "markersize": 5, "markeredgecolor": "white", "markeredgewidth": 0.6
+    "marker": "D", "markersize": 5, "markeredgecolor": "black", "markeredgewidth": 0.8
 }
 
 plt.rcParams.update({
