@@ -13,7 +13,7 @@ import bodies
 import poses
 import style
 from case import MICRO
-from figure2 import cell_or_best, choose
+from figure2 import RESTING, cell_or_best, choose
 from files import CaseError
 
 # A view and a pose in which no two axes fall together
@@ -153,30 +153,38 @@ def draw_beads(ax, case, scale):
 
 
 def sequence(case, cell):
-    """Poses at equal distances of the way past the nearest sieve, or of all of it."""
+    """Poses at equal distances of the way past the sieve or, where the account does not
+    fit, of its end; of a cell that stays where it is at equal angles of half a turn, side by
+    side. Also whether they are so."""
     found = account.of_cell(case, cell)
     track = case.tracks[cell].finer(10)
     length = np.append(0, np.cumsum(np.linalg.norm(np.diff(track.x, axis=0), axis=1)))
     total = min(SPAN, length[-1])
+    if total < 2 * case.semi_axes.max():
+        half = np.abs((track.q[1:] * track.q[:-1]).sum(axis=1))
+        angle = np.append(0, np.cumsum(2 * np.arccos(np.minimum(half, 1))))
+        shown = track.at(np.interp(np.linspace(0, min(np.pi, angle[-1]), POSES), angle, track.t))
+        shown.x[:, 0] += 2.3 * case.semi_axes.max() * (np.arange(POSES) - POSES // 2)
+        return shown, True
     middle = length[np.searchsorted(track.t, found.flip)] if found else length[-1] - total / 2
     start = np.clip(middle - total / 2, 0, length[-1] - total)
-    return track.at(np.interp(start + np.linspace(0, total, POSES), length, track.t))
+    return track.at(np.interp(start + np.linspace(0, total, POSES), length, track.t)), False
 
 
 def draw_sequence(ax, case, cell, scale):
     """The cell at discrete times, seen from above at an angle."""
     view = bodies.camera(-90, 55)
-    shown = sequence(case, cell)
+    shown, apart = sequence(case, cell)
     height = shown.x[:, 2].mean()
     seen = (shown.x @ view.T)[:, :2]
     pad = 2.2 * case.semi_axes.max()
-    low, high = seen.min(axis=0) - pad, seen.max(axis=0) + pad
+    low, high = seen.min(axis=0) - pad * (1 + apart), seen.max(axis=0) + pad * (1 + apart)
     # Wide enough for the names of the times
     low[0], high[0] = min(low[0], seen[:, 0].mean() - 14), max(high[0], seen[:, 0].mean() + 14)
     bare(ax, (low[0], high[0]), (low[1], high[1]),
          f"D  cell {cell} at discrete times (ms since injection)")
     for name, lines in case.plane.outlines.items():
-        if case.patches[name] == "wall":
+        if case.patches[name] == "wall" and not apart:
             ends = np.dstack((lines, np.full(lines.shape[:2], height))) @ view.T
             for part in ends:
                 ax.plot(part[:, 0], part[:, 1], color="black", linewidth=1.4, zorder=0)
@@ -187,15 +195,17 @@ def draw_sequence(ax, case, cell, scale):
     quickest = np.linalg.norm(shown.omega, axis=1).max()
     reach = 2.6 * case.semi_axes.max()
     for t, x, u, q, omega in zip(shown.t, shown.x, shown.u, shown.q, shown.omega):
-        arrow(ax, x, x + reach * u / max(fastest, 1e-12), "", "black", width=1.5, view=view)
+        if fastest > RESTING:
+            arrow(ax, x, x + reach * u / fastest, "", "black", width=1.5, view=view)
         spin = poses.rotation(q) @ omega
         arrow(ax, x, x + reach * spin / max(quickest, 1e-12), "", BODY, width=1.5, view=view)
         ms = 1e3 * (t - case.tracks[cell].t[0])
-        ax.annotate(f"{ms:.1f}", (view @ x)[:2], (24, -3), textcoords="offset points",
+        ax.annotate(f"{ms:.1f}", (view @ x)[:2], (-10, -30) if apart else (24, -3), textcoords="offset points",
                     fontsize=7.5, path_effects=style.framed("white", 2))
-    ax.annotate(f"black: velocity, longest {fastest:.2f} mm/s; blue: angular velocity, longest\n"
-                f"{quickest:.0f} rad/s (right-hand rule); walls at the cell's height; seen 35° "
-                "off the vertical", (0, 0), xycoords="axes fraction", fontsize=7.5, va="top")
+    told = "the cell stays in its place; poses drawn side by side" if apart else \
+        f"black: velocity, longest {fastest:.2f} mm/s; walls at the cell's height"
+    ax.annotate(f"{told};\nblue: angular velocity (right-hand rule), longest {quickest:.0f} rad/s"
+                "\nseen 35° off the vertical", (0, 0), xycoords="axes fraction", fontsize=7.5, va="top")
 
 
 def draw(case, cell=None):

@@ -63,6 +63,7 @@ MEASURED = {
 
 plt.rcParams.update({
     "savefig.dpi": 200,
+    "savefig.bbox": "tight",   # nothing is cut off, whatever stands beside the axes
     "font.size": 9,
     "axes.titlesize": 9,
     "axes.linewidth": 0.7,
