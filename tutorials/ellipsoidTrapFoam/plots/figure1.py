@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
@@ -13,6 +12,12 @@ from matplotlib.ticker import MaxNLocator
 import style
 from case import FATES, NotApplicable
 from files import CaseError, read_measured
+
+OPTIONS = {
+    "measured": {
+        "metavar": "FILE", "help": "CSV with the columns sieve, t [s], fewest, most (cells seen)"
+    },
+}
 
 
 def holdings(case):
@@ -139,9 +144,3 @@ def draw(case, measured=None):
         the last cell entered. {sums[-1]} of {injected} cells are held at {case.end_time:g} s.
         {told}""", table)
     return figure
-
-
-if __name__ == "__main__":
-    style.command(draw, __doc__, measured={
-        "metavar": "FILE", "help": "CSV with the columns sieve, t [s], fewest, most (cells seen)"
-    })

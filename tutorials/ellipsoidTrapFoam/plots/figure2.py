@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
@@ -25,6 +24,25 @@ SLOW = 0.01   # part of a cell's highest speed below which it is taken to rest
 
 # Columns of a measured file: those of tracks.csv, t since the injection
 MEASURED = ("t", "O1", "O2", "O3", "u1", "u2", "u3")
+
+
+def cell_or_best(word):
+    """An id, or the word best."""
+    if word == "best":
+        return word
+    if not word.isdigit():
+        raise argparse.ArgumentTypeError(f"neither a number nor 'best': {word}")
+    return int(word)
+
+
+OPTIONS = {
+    "cell": {"type": cell_or_best, "metavar": "ID", "help": "its id in cells.csv, or best"},
+    "measured": {
+        "metavar": "FILE", "help": "CSV of points to overlay: t [s] since the injection, and "
+        "any of O1 O2 O3 [-], u1 u2 u3 [m/s]"
+    },
+    "sieve": {"default": account.SIEVE, "help": f"that the cell detours [{account.SIEVE}]"},
+}
 
 
 def choose(case, sieve):
@@ -137,22 +155,3 @@ def draw(case, cell=None, measured=None, sieve=account.SIEVE):
         {"The table holds it against the paper's account of its cell." if found else ""}""",
         found.table() if found else ())
     return figure
-
-
-def cell_or_best(word):
-    """An id, or the word best."""
-    if word == "best":
-        return word
-    if not word.isdigit():
-        raise argparse.ArgumentTypeError(f"neither a number nor 'best': {word}")
-    return int(word)
-
-
-if __name__ == "__main__":
-    style.command(
-        draw, __doc__,
-        cell={"type": cell_or_best, "metavar": "ID", "help": "its id in cells.csv, or best"},
-        measured={"metavar": "FILE", "help": "CSV of points to overlay: t [s] since the "
-                  "injection, and any of O1 O2 O3 [-], u1 u2 u3 [m/s]"},
-        sieve={"default": account.SIEVE, "help": f"that the cell detours [{account.SIEVE}]"},
-    )

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
@@ -23,6 +22,12 @@ POSES = 9        # in the sequence
 SPAN = 24.0      # length of path that the sequence follows, in micrometres
 AHEAD, BEHIND = style.ORANGE, style.YELLOW
 BODY, MOTION, LAB = style.BLUE, "0.35", "black"
+
+OPTIONS = {
+    "cell": {
+        "type": cell_or_best, "metavar": "ID", "help": "of panel D: its id in cells.csv, or best"
+    },
+}
 
 
 def flat(*points):
@@ -231,9 +236,3 @@ def draw(case, cell=None):
         {radius:g} µm ({layout}). D: cell {cell} at discrete times with its velocity and
         angular velocity.""")
     return figure
-
-
-if __name__ == "__main__":
-    style.command(draw, __doc__, cell={
-        "type": cell_or_best, "metavar": "ID", "help": "of panel D: its id in cells.csv, or best",
-    })

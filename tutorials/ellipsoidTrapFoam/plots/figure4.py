@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
@@ -26,6 +25,13 @@ LOOKS = (
     {"marker": "^", "color": "black"},
     {"marker": "D", "color": style.VERMILLION},
 )
+
+OPTIONS = {
+    "designs": {
+        "nargs": "+", "metavar": "FOLDER", "default": (),
+        "help": "cases to compare, such as those of compareDesigns [CASE alone]",
+    },
+}
 
 
 def wilson(successes, trials):
@@ -114,10 +120,3 @@ def draw(case, designs=()):
         semi-axis, {cases[0].semi_axes.max():g} µm, of the sieve's walls. In the table, in brackets:
         the intervals in per cent.""", table)
     return figure
-
-
-if __name__ == "__main__":
-    style.command(draw, __doc__, designs={
-        "nargs": "+", "metavar": "FOLDER", "default": (),
-        "help": "cases to compare, such as those of compareDesigns [CASE alone]",
-    })

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
@@ -21,6 +20,14 @@ from files import CaseError
 
 HEIGHT = 6.6      # of the plan, in inches
 SIEVE_COLOUR = style.VERMILLION
+
+OPTIONS = {
+    "sieve": {"help": "to look at closely [all, or the last of a design]"},
+    "designs": {
+        "nargs": "+", "metavar": "FOLDER", "default": (),
+        "help": "cases whose apertures to compare; the last is shown as a whole",
+    },
+}
 
 
 def finest(plane, name):
@@ -130,11 +137,3 @@ def draw(case, sieve=None, designs=()):
         {len(plane.velocity):,} of {case.mesh_size:,} mesh cells, and close-ups of the finest
         mesh cells, the {what}.""" if panels else "The finite volume mesh at half depth.")
     return figure
-
-
-if __name__ == "__main__":
-    style.command(
-        draw, __doc__, sieve={"help": "to look at closely [all, or the last of a design]"},
-        designs={"nargs": "+", "metavar": "FOLDER", "default": (),
-                 "help": "cases whose apertures to compare; the last is shown as a whole"},
-    )

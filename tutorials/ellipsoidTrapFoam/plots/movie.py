@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
@@ -31,6 +30,8 @@ APART = 9e-3        # s between their entries
 QUALITY = 55
 
 PASSES, STAYS = (style.ORANGE, style.YELLOW), (style.BLUE, style.SKY)
+
+OPTIONS = {"sieve": {"help": "to look at [the one that holds most cells]"}}
 
 
 class Film:
@@ -169,9 +170,3 @@ def draw(case, sieve=None):
         times of the run and are put together; they do not see one another. Cells:
         {", ".join(str(cell) for cell, _ in shown)}.""")
     return film
-
-
-if __name__ == "__main__":
-    style.command(
-        draw, __doc__, sieve={"help": "to look at [the one that holds most cells]"}
-    )

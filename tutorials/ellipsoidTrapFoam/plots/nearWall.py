@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
@@ -121,7 +120,3 @@ def draw(case):
         floor and ceiling shear little, {ratios[1]:.1f} times. Cells that stay turn slowly in
         the pockets.""", table)
     return figure
-
-
-if __name__ == "__main__":
-    style.command(draw, __doc__)

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
@@ -19,7 +18,7 @@ import numpy as np
 from PIL import Image
 from vtkmodules.vtkCommonCore import vtkVersion
 
-from case import MILLI, Case
+from case import MILLI
 from files import CaseError, read_dictionary, read_text
 
 # Chapter to (picture, title)
@@ -338,18 +337,3 @@ def make(case):
         return False
     print(f"report: {file} ({len(text) / 1e6:.1f} MB)")
     return True
-
-
-def main():
-    """The command."""
-    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
-        sys.exit(f"{__doc__}\n\nusage: report.py CASE")
-    try:
-        case = Case(sys.argv[1])
-    except CaseError as error:
-        sys.exit(f"report: {error}")
-    sys.exit(0 if make(case) else 1)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
@@ -57,7 +56,3 @@ def draw(case):
         by fate; points mark where cells are that have not left. Numbers beside the sieves are
         the cells that they hold.""")
     return figure
-
-
-if __name__ == "__main__":
-    style.command(draw, __doc__)

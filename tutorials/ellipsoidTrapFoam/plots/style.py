@@ -21,7 +21,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 
-from case import Case, NotApplicable
+from case import NotApplicable
 from files import CaseError
 
 # Viridis, paled so that tracks stand out on all of it
@@ -218,18 +218,13 @@ def make(draw, name, case, tables=True, **options):
     return True
 
 
-def command(draw, description, **options):
-    """Run a picture's script; options are those of its draw(), name to argparse's."""
-    name = os.path.splitext(os.path.basename(sys.argv[0]))[0]
+def command(picture, case, words):
+    """Make one picture, a module, with the options given as words; whether it went well."""
+    name = picture.__name__
     parser = argparse.ArgumentParser(
-        prog=name, description=description, formatter_class=argparse.RawDescriptionHelpFormatter
+        prog=f"makePictures CASE {name}", description=picture.__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("case", metavar="CASE", help="folder of the case")
-    for option, settings in options.items():
+    for option, settings in getattr(picture, "OPTIONS", {}).items():
         parser.add_argument("--" + option, **settings)
-    given = vars(parser.parse_args())
-    try:
-        case = Case(given.pop("case"))
-    except CaseError as error:
-        sys.exit(f"{name}: {error}")
-    sys.exit(0 if make(draw, name, case, **given) else 1)
+    return make(picture.draw, name, case, **vars(parser.parse_args(words)))

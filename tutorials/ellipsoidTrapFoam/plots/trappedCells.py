@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
@@ -106,7 +105,3 @@ def draw(case):
     style.describe(figure, """The cells at rest in the sieves, their true outlines seen from above,
         with their heights above the bottom, over the flow's speed at half depth.""")
     return figure
-
-
-if __name__ == "__main__":
-    style.command(draw, __doc__)
