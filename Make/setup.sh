@@ -163,6 +163,7 @@ setup_missing_packages()    # LEVEL OPENFOAM_DIR ('' for Debian's)
     command -v valgrind > /dev/null || echo valgrind
     command -v cppcheck > /dev/null || echo cppcheck
     command -v shellcheck > /dev/null || echo shellcheck
+    command -v chromium > /dev/null || echo chromium
     setup_has_header sundials/sundials_config.h || echo libsundials-dev
 }
 

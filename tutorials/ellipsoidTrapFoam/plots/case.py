@@ -7,11 +7,8 @@ Lengths are in micrometres and speeds in mm/s from here on, times in seconds. Th
 of the device is the x-y plane, its depth lies along z.
 """
 
-import gzip
 import os
 import re
-import subprocess
-import warnings
 from collections import namedtuple
 from functools import cached_property
 
@@ -23,10 +20,14 @@ from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkCleanPolyData, vtkCu
 from vtkmodules.vtkIOParallel import vtkPOpenFOAMReader
 from vtkmodules.vtkParallelCore import vtkDummyController
 
+import poses
+from files import (
+    CaseError, number_folders, read_csv, read_dictionary, read_text, without_comments,
+)
+from plane import Plane, coincide
+
 MICRO = 1e6   # m to micrometres
 MILLI = 1e3   # m/s to mm/s, s to ms
-
-SMOOTH = 50000   # triangles that make a smooth picture
 
 # That of ellipsoid_options_default() in src/ellipsoid
 DEFAULT_SEMI_AXES = (0.5e-6, 2e-6, 0.5e-6)
@@ -44,10 +45,6 @@ FATES = {
 Fate = namedtuple("Fate", "name patch t")
 
 
-class CaseError(Exception):
-    """An input is missing or malformed; the text names the file."""
-
-
 class NotApplicable(Exception):
     """The case has nothing that this picture could show."""
 
@@ -57,110 +54,47 @@ class Track(namedtuple("Track", "t x u q omega axis")):
 
     __slots__ = ()
 
-    def path(self):
-        """Points of a smooth curve in the plan, through all rows along their velocity."""
-        x, dt = self.x[:, :2], np.diff(self.t)[:, None]
-        chord = np.diff(x, axis=0)
-        length = np.linalg.norm(chord, axis=1, keepdims=True)
+    def at(self, times):
+        """The track at other times, on cubics that have the velocity and spin of its rows."""
+        if len(self.t) < 2:
+            return Track(*(np.repeat(part[:1], len(times), axis=0) for part in self))
+        first = np.searchsorted(self.t, times, side="right") - 1
+        first = np.clip(first, 0, len(self.t) - 2)
+        last = first + 1
+        dt = np.maximum(self.t[last] - self.t[first], 1e-30)[:, None]
+        s = np.clip((np.asarray(times)[:, None] - self.t[first][:, None]) / dt, 0, 1)
 
-        def tangent(u):
-            # At most the chord's length: rows of a cell at rest may lie far apart in time
-            reach = u[:, :2] * dt * MICRO / MILLI
-            size = np.linalg.norm(reach, axis=1, keepdims=True)
-            return reach * np.minimum(1, length / np.maximum(size, 1e-30))
+        chord = self.x[last] - self.x[first]
+        x = poses.hermite(
+            self.x[first], self.x[last], *(
+                poses.at_most(self.u[row] * dt * MICRO / MILLI, chord, 1)
+                for row in (first, last)
+            ), s,
+        )
+        # q and -q are the same pose
+        start, end = self.q[first], self.q[last]
+        near = np.where((start * end).sum(axis=1, keepdims=True) < 0, -1, 1)
+        chord = near * end - start
+        q = poses.hermite(
+            start, near * end,
+            poses.at_most(poses.quaternion_rate(start, self.omega[first]) * dt, chord, 3),
+            poses.at_most(near * poses.quaternion_rate(end, self.omega[last]) * dt, chord, 3),
+            s,
+        )
+        q /= np.linalg.norm(q, axis=1, keepdims=True)
+        u, omega = (
+            part[first] + s * (part[last] - part[first]) for part in (self.u, self.omega)
+        )
+        return Track(np.asarray(times), x, u, q, omega, poses.long_axis(q))
 
-        a, b = tangent(self.u[:-1]), tangent(self.u[1:])
-        s = np.linspace(0, 1, 6, endpoint=False)[None, :, None]
-        start, chord, a, b = x[:-1, None], chord[:, None], a[:, None], b[:, None]
-        # Hermite's cubic
-        curve = start + s * (a + s * (3 * chord - 2 * a - b + s * (a + b - 2 * chord)))
-        return np.concatenate((curve.reshape(-1, 2), x[-1:]))
+    def finer(self, parts=6):
+        """The track with every interval between rows divided."""
+        steps = np.diff(self.t)[:, None] * np.arange(parts) / parts
+        return self.at(np.append((self.t[:-1, None] + steps).ravel(), self.t[-1]))
 
-
-class Plane:
-    """A cut through mesh and flow, parallel to the plan of the device.
-
-    points      (n, 2) corners
-    connectivity, offsets   polygon i has the corners connectivity[offsets[i]:offsets[i+1]]
-    velocity    (m, 3) of the flow in every polygon
-    outlines    patch name to (k, 2, 2) segments
-    walls       (which points, their velocity) where it is known
-    """
-
-    def __init__(self, points, connectivity, offsets, velocity, outlines, walls):
-        self.points = points
-        self.connectivity = connectivity
-        self.offsets = offsets
-        self.velocity = velocity
-        self.outlines = outlines
-        self._walls = walls
-
-    @property
-    def bounds(self):
-        """(xMin, xMax), (yMin, yMax)"""
-        return tuple(zip(self.points.min(axis=0), self.points.max(axis=0)))
-
-    @cached_property
-    def polygons(self):
-        """List of (k, 2) corner arrays."""
-        return np.split(self.points[self.connectivity], self.offsets[1:-1])
-
-    @cached_property
-    def areas(self):
-        """Area of every polygon."""
-        a, b = self.points[self.connectivity], self.points[self._next]
-        cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-        return 0.5 * np.abs(np.add.reduceat(cross, self.offsets[:-1]))
-
-    @cached_property
-    def point_velocity(self):
-        """Velocity at every corner, the mean of the polygons about it."""
-        owner = np.repeat(np.arange(len(self.velocity)), np.diff(self.offsets))
-        shares = np.bincount(self.connectivity, minlength=len(self.points))
-        velocity = np.column_stack([
-            np.bincount(self.connectivity, component[owner], len(self.points))
-            for component in self.velocity.T
-        ]) / np.maximum(shares, 1)[:, None]
-        for which, value in self._walls:
-            velocity[which] = value
-        return velocity
-
-    @cached_property
-    def _fans(self):
-        """Nodes of x, y and velocity, and triangles: every polygon a fan about its middle."""
-        sides = np.diff(self.offsets)
-        corners = self.points[self.connectivity]
-        middles = np.add.reduceat(corners, self.offsets[:-1]) / sides[:, None]
-        hub = np.repeat(len(self.points) + np.arange(len(sides)), sides)
-        nodes = np.column_stack((
-            np.concatenate((self.points, middles)),
-            np.concatenate((self.point_velocity, self.velocity)),
-        ))
-        return nodes, np.column_stack((hub, self.connectivity, self._next))
-
-    def speed_in(self, xlim, ylim):
-        """Speed on a triangulation of a window: x, y, triangles, speed."""
-        nodes, triangles = self._fans
-        low, high = np.transpose((xlim, ylim))
-        boxes = nodes[triangles, :2]
-        seen = (boxes.max(axis=1) > low) & (boxes.min(axis=1) < high)
-        triangles = triangles[seen.all(axis=1)]
-        # The speed is not linear: where there are few, triangles are quartered
-        while 0 < len(triangles) < SMOOTH:
-            corners = nodes[triangles]
-            halves = 0.5 * (corners + np.roll(corners, -1, axis=1))
-            nodes = np.concatenate((corners, halves), axis=1).reshape(-1, nodes.shape[1])
-            first = 6 * np.arange(len(triangles))[:, None, None]
-            quarters = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]])
-            triangles = (first + quarters).reshape(-1, 3)
-        return nodes[:, 0], nodes[:, 1], triangles, np.linalg.norm(nodes[:, 2:], axis=1)
-
-    @cached_property
-    def _next(self):
-        """The corner that follows each entry of connectivity within its polygon."""
-        after = np.roll(self.connectivity, -1)
-        after[self.offsets[1:] - 1] = self.connectivity[self.offsets[:-1]]
-        return after
+    def until(self, t):
+        """The rows up to a time."""
+        return Track(*(part[self.t <= t] for part in self))
 
 
 class Case:
@@ -194,6 +128,36 @@ class Case:
             file = self.path("constant", "ellipsoidCloudProperties")
             raise CaseError(f"{file}: cell/semiAxes are not three positive numbers")
         return axes * MICRO
+
+    @cached_property
+    def design(self):
+        """Name of the trap's design, of those in constant/trapGeometry; "" without one."""
+        file = self.path("constant", "generated", "chosen")
+        return read_dictionary(file).get("design", "") if os.path.isfile(file) else ""
+
+    @cached_property
+    def chamber(self):
+        """(radius, y at which the channels begin) of a circular trap, or None."""
+        file = self.path("constant", "trapGeometry")
+        if not os.path.isfile(file):
+            return None
+        chamber = read_dictionary(file)["chamber"]
+        radius, width = float(chamber["radius"]), float(chamber["channelWidth"])
+        return radius, float(np.sqrt(radius**2 - width**2 / 4))
+
+    @cached_property
+    def loading(self):
+        """How long cells enter [s]: the last duration of the injections, or as it was."""
+        durations = [
+            float(one["duration"]) for one in self.properties.get("injection", {}).values()
+            if isinstance(one, dict) and "duration" in one
+        ]
+        return max(durations, default=self.last_injection)
+
+    @property
+    def last_injection(self):
+        """When the last cell so far entered [s]."""
+        return self.events["t"][self.events["event"] == "injected"].max(initial=0)
 
     @cached_property
     def patches(self):
@@ -370,6 +334,36 @@ class Case:
             )
         return meshes, pieces
 
+    def patch_surfaces(self, name):
+        """The pieces of a patch, VTK's polygons in metres."""
+        return self._vtk[1].get(name, [])
+
+    @cached_property
+    def depth(self):
+        """(lowest, highest) z of the mesh."""
+        bounds = np.array([mesh.GetBounds() for mesh in self._vtk[0]]) * MICRO
+        return bounds[:, 4].min(), bounds[:, 5].max()
+
+    @cached_property
+    def inlet_speed(self):
+        """Mean speed of the flow that comes in, as the solver logged it."""
+        file = self.path("log.ellipsoidTrapFoam")
+        found = re.findall(r"flow: mean inlet speed (\S+) m/s", read_text(file))
+        if not found:
+            raise CaseError(f"{file}: no mean inlet speed")
+        return float(found[-1]) * MILLI
+
+    @property
+    def fluxes(self):
+        """Flux [m3/s] through the inlet and each sieve, as system/apertureFluxes logged it."""
+        file = self.path("log.postProcess")
+        found = {}
+        for block in (read_text(file) if os.path.isfile(file) else "").split("surfaceFieldValue "):
+            value = re.search(r"\) of \w+ = (\S+)", block)
+            if value:
+                found[block.split()[0]] = abs(float(value.group(1)))
+        return found
+
     @property
     def mesh_size(self):
         """Number of mesh cells."""
@@ -432,107 +426,3 @@ class Case:
             outlines,
             walls,
         )
-
-
-# -- files -------------------------------------------------------------------
-
-def read_text(file):
-    """The text of a file, gzipped or not."""
-    try:
-        with (gzip.open if file.endswith(".gz") else open)(file, "rt", encoding="latin-1") as f:
-            return f.read()
-    except OSError as error:
-        raise CaseError(f"{file}: {error.strerror or error}") from None
-
-
-def without_comments(text):
-    """Text of an OpenFOAM file without its comments and header."""
-    text = re.sub(r"/\*.*?\*/|//[^\n]*", " ", text, flags=re.S)
-    return re.sub(r"\bFoamFile\s*\{[^}]*\}", " ", text)
-
-
-def read_dictionary(file):
-    """An OpenFOAM dictionary as nested dicts; lists as lists, other values as strings."""
-    text = without_comments(read_text(file))
-    if re.search(r"[#$]", text):
-        # Directives and macros are OpenFOAM's to resolve
-        try:
-            text = subprocess.run(
-                ["foamDictionary", "-expand", file],
-                check=True, capture_output=True, text=True, encoding="latin-1",
-            ).stdout
-        except (OSError, subprocess.CalledProcessError):
-            raise CaseError(f"{file}: its # and $ need OpenFOAM's foamDictionary") from None
-        text = without_comments(text)
-    tokens = re.findall(r'"[^"]*"|[{}();]|[^\s{}();"]+', text)
-
-    def fail(what):
-        raise CaseError(f"{file}: {what}")
-
-    def read(at, nested):
-        entries = {}
-        while at < len(tokens) and tokens[at] != "}":
-            key = tokens[at]
-            if at + 1 < len(tokens) and tokens[at + 1] == "{":
-                entries[key], at = read(at + 2, True)
-                continue
-            try:
-                end = tokens.index(";", at)
-            except ValueError:
-                fail(f"entry '{key}' has no ';'")
-            words = tokens[at + 1:end]
-            entries[key] = words[1:-1] if words[:1] == ["("] else " ".join(words)
-            at = end + 1
-        if nested != (at < len(tokens)):
-            fail("'{' and '}' do not match")
-        return entries, at + 1
-
-    return read(0, False)[0]
-
-
-def read_csv(file, types):
-    """The named columns of a CSV file with a header, as a structured array."""
-    if not os.path.isfile(file):
-        raise CaseError(f"{file}: not there")
-    with open(file, encoding="latin-1") as f:
-        header = f.readline().strip().split(",")
-    missing = [name for name, _ in types if name not in header]
-    if missing:
-        raise CaseError(f"{file}: no column {missing[0]}")
-    try:
-        with warnings.catch_warnings():
-            warnings.filterwarnings("ignore", "loadtxt: input contained no data")
-            rows = np.loadtxt(
-                file, dtype=types, delimiter=",", skiprows=1, ndmin=1,
-                usecols=[header.index(name) for name, _ in types],
-            )
-    except (ValueError, IndexError) as error:
-        raise CaseError(f"{file}: {error}") from None
-    for name, kind in types:
-        if kind is float and not np.isfinite(rows[name]).all():
-            line = 2 + int(np.argmin(np.isfinite(rows[name])))
-            raise CaseError(f"{file}: line {line}: {name} is not a number")
-    return rows
-
-
-def number_folders(root):
-    """(value, name) of the folders named by a number, ascending."""
-    found = []
-    for name in os.listdir(root) if os.path.isdir(root) else []:
-        is_number = re.fullmatch(r"\d+(\.\d*)?(e[+-]?\d+)?", name)
-        if is_number and os.path.isdir(os.path.join(root, name)):
-            found.append((float(name), name))
-    return sorted(found)
-
-
-def coincide(points, others, tolerance):
-    """Which of the points lie on one of the others."""
-    near = np.zeros(len(points), dtype=bool)
-    if len(others):
-        (x0, y0), (x1, y1) = others.min(axis=0) - tolerance, others.max(axis=0) + tolerance
-        x, y = points.T
-        candidates = np.flatnonzero((x >= x0) & (x <= x1) & (y >= y0) & (y <= y1))
-        for part in np.array_split(candidates, len(candidates) // 1000 + 1):
-            apart = np.abs(points[part, None] - others[None]).max(axis=2)
-            near[part] = apart.min(axis=1, initial=np.inf) <= tolerance
-    return near

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
@@ -25,7 +24,7 @@ def draw(case):
     keys = []
     for fate, line in style.FATE_LINES.items():
         tracks = [
-            case.tracks[cell].path()
+            case.tracks[cell].finer().x[:, :2]
             for cell, one in case.fates.items() if one.name == fate and cell in case.tracks
         ]
         if not tracks:
@@ -53,8 +52,7 @@ def draw(case):
         )
     keys.append(Patch(facecolor=style.SOLID, edgecolor="black", label="no fluid"))
     style.legend_below(ax, keys)
+    style.describe(figure, """Speed of the flow at half depth, and the paths of the cells' centres
+        by fate; points mark where cells are that have not left. Numbers beside the sieves are
+        the cells that they hold.""")
     return figure
-
-
-if __name__ == "__main__":
-    style.command(draw, __doc__)

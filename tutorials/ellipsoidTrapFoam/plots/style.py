@@ -4,6 +4,7 @@
 """The look that the pictures share, and the frame of their commands."""
 
 import argparse
+import json
 import os
 import sys
 import time
@@ -20,7 +21,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 
-from case import Case, CaseError, NotApplicable
+from case import NotApplicable
+from files import CaseError
 
 # Viridis, paled so that tracks stand out on all of it
 PALE = 0.3
@@ -47,8 +49,21 @@ LAST_POINT = {
     "marker": "o", "markersize": 3, "markeredgecolor": "black", "markeredgewidth": 0.5
 }
 
+# Colour and dashes of the components along x1, x2, x3
+COMPONENTS = (
+    {"color": VERMILLION, "linestyle": (0, (5, 1.5))},
+    {"color": "black", "linestyle": "-"},
+    {"color": SKY, "linestyle": (0, (1, 0.8)), "linewidth": 1.6},
+)
+
+# What an experiment showed, over what was computed
+MEASURED = {
+    "marker": "D", "markersize": 5, "markeredgecolor": "black", "markeredgewidth": 0.8
+}
+
 plt.rcParams.update({
     "savefig.dpi": 200,
+    "savefig.bbox": "tight",   # nothing is cut off, whatever stands beside the axes
     "font.size": 9,
     "axes.titlesize": 9,
     "axes.linewidth": 0.7,
@@ -141,25 +156,52 @@ def fate_key(fate, number):
     return Line2D([], [], label=f"{fate} ({number})", **line)
 
 
+def describe(figure, caption, table=()):
+    """What goes beside the picture: a caption, and a table with its headings first."""
+    figure.note = {"caption": " ".join(caption.split()), "table": list(table)}
+
+
+def print_table(table):
+    """Rows of words in columns, the first to the left."""
+    words = [[str(word) for word in row] for row in table]
+    widths = [max(map(len, column)) for column in zip(*words)]
+    for row in words:
+        print("    " + "  ".join(
+            [row[0].ljust(widths[0])] + [w.rjust(n) for w, n in zip(row[1:], widths[1:])]
+        ).rstrip())
+
+
 def save(figure, case, name):
-    """Write a figure to the case's pictures; the path."""
+    """Write a picture and what describe() said of it to the case's pictures; the path."""
     folder = case.path("pictures")
-    file = os.path.join(folder, name + ".png")
+    name = getattr(figure, "name", name)
+    file = os.path.join(folder, name + getattr(figure, "suffix", ".png"))
     try:
         os.makedirs(folder, exist_ok=True)
         figure.savefig(file)
+        with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as f:
+            json.dump(figure.note, f, ensure_ascii=False, indent=1)
     except OSError as error:
         raise CaseError(f"{file}: {error.strerror or error}") from None
     finally:
-        plt.close(figure)
+        plt.close("all")
     return file
 
 
-def make(draw, name, case, **options):
+def remove(case, name):
+    """Take away a picture made before."""
+    for suffix in (".png", ".webp", ".json"):
+        file = case.path("pictures", name + suffix)
+        if os.path.isfile(file):
+            os.remove(file)
+
+
+def make(draw, name, case, tables=True, **options):
     """Draw one picture of a case and say what came of it; whether it went well."""
     start = time.monotonic()
     try:
-        file = save(draw(case, **options), case, name)
+        figure = draw(case, **options)
+        file = save(figure, case, name)
     except NotApplicable as reason:
         print(f"{name}: left out: {reason}")
         return True
@@ -171,19 +213,18 @@ def make(draw, name, case, **options):
         traceback.print_exc()
         return False
     print(f"{name}: {file} ({time.monotonic() - start:.1f} s)")
+    if tables and figure.note["table"]:
+        print_table(figure.note["table"])
     return True
 
 
-def command(draw, description, **options):
-    """Run a picture's script; options are those of its draw(), name to argparse's."""
-    name = os.path.splitext(os.path.basename(sys.argv[0]))[0]
-    parser = argparse.ArgumentParser(prog=name, description=description)
-    parser.add_argument("case", metavar="CASE", help="folder of the case")
-    for option, settings in options.items():
+def command(picture, case, words):
+    """Make one picture, a module, with the options given as words; whether it went well."""
+    name = picture.__name__
+    parser = argparse.ArgumentParser(
+        prog=f"makePictures CASE {name}", description=picture.__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    for option, settings in getattr(picture, "OPTIONS", {}).items():
         parser.add_argument("--" + option, **settings)
-    given = vars(parser.parse_args())
-    try:
-        case = Case(given.pop("case"))
-    except CaseError as error:
-        sys.exit(f"{name}: {error}")
-    sys.exit(0 if make(draw, name, case, **given) else 1)
+    return make(picture.draw, name, case, **vars(parser.parse_args(words)))

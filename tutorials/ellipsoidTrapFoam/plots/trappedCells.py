@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
@@ -14,17 +13,11 @@ from matplotlib.ticker import MaxNLocator
 
 import style
 from case import NotApplicable
+from poses import rotation
 
 MARGIN = 2.0     # about a sieve, in micrometres
 COLUMNS = 4
 CELL_COLOURS = {"caught": style.ORANGE, "stalled": style.SKY}
-
-
-def rotation(q):
-    """Matrix that turns the body's frame to that of the case; q scalar last."""
-    e, eta = q[:3], q[3]
-    cross = np.array([[0, -e[2], e[1]], [e[2], 0, -e[0]], [-e[1], e[0], 0]])
-    return (eta**2 - e @ e) * np.eye(3) + 2 * np.outer(e, e) + 2 * eta * cross
 
 
 def shadow(x, q, semi_axes):
@@ -109,8 +102,6 @@ def draw(case):
     ]
     keys.append(Patch(facecolor=style.SOLID, edgecolor="black", label="no fluid"))
     style.legend_below(axes[-1, 0], keys)
+    style.describe(figure, """The cells at rest in the sieves, their true outlines seen from above,
+        with their heights above the bottom, over the flow's speed at half depth.""")
     return figure
-
-
-if __name__ == "__main__":
-    style.command(draw, __doc__)

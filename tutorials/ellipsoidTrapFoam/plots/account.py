@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
+"""How well a cell's motion fits what the paper tells of the cell of its Figure 2.
+
+It moves with a high |O_x2| in free flow, detours around S8 and flips over after t = 50 ms;
+at 55 ms its velocity along x2 rises while O_x1 and O_x2 turn steeply; at 56 ms it lies
+across the flow, |O_x1| and |O_x3| high; |O_x2| has recovered when it leaves the chamber.
+"""
+
+from collections import namedtuple
+
+import numpy as np
+
+import walls
+from case import MILLI, NotApplicable
+
+SIEVE = "S8"
+SIDE = 0.5        # |O_x2| beyond which the long axis is on one side
+NEAR = 3.0        # micrometres between the cell's centre and a sieve that it detours
+AFTER = 20e-3     # s between the passing of the sieve and the flip
+AROUND = 1e-3     # s before and after the flip for the change of u2
+PAPER_FLIP = 55.0   # ms
+
+
+def path_length(track):
+    """Length of a cell's path."""
+    return np.linalg.norm(np.diff(track.x, axis=0), axis=1).sum()
+
+
+def turning(track):
+    """Angle that a cell has turned through, back and forth."""
+    half = np.abs((track.q[1:] * track.q[:-1]).sum(axis=1))
+    return 2 * np.arccos(np.minimum(half, 1)).sum()
+
+
+def flips(track):
+    """Times at which O_x2 passes zero between one side and the other."""
+    along = track.axis[:, 1]
+    firm = np.flatnonzero(np.abs(along) > SIDE)
+    changes = np.flatnonzero(np.diff(np.sign(along[firm])))
+    times = []
+    for before, after in zip(firm[changes], firm[changes + 1]):
+        k = before + np.flatnonzero(np.diff(np.sign(along[before:after + 1])))[0]
+        share = along[k] / (along[k] - along[k + 1])
+        times.append(track.t[k] + share * (track.t[k + 1] - track.t[k]))
+    return np.array(times)
+
+
+class Account(namedtuple(
+    "Account", "cell sieve passing gap free flip rise steep across exit time"
+)):
+    """What a cell does of the paper's account; passing and flip are times of the run [s],
+    rise [mm/s], steep [1/ms], time of the flip since the injection [ms]."""
+
+    __slots__ = ()
+
+    @property
+    def score(self):
+        """From 0, nothing fits, to 1, all fits: the mean of its parts."""
+        return np.mean([
+            self.free,
+            np.clip((2 * NEAR - self.gap) / NEAR, 0, 1),
+            np.clip(self.rise / 0.2, 0, 1),
+            np.clip(self.steep / 0.5, 0, 1),
+            self.across,
+            self.exit,
+            np.exp(-((self.time - PAPER_FLIP) / 20) ** 2),
+        ])
+
+    def table(self):
+        """Beside the paper's words."""
+        return [
+            ["the paper's account", f"cell {self.cell}"],
+            ["high |O_x2| in free flow", f"median |O_x2| = {self.free:.2f} until there"],
+            [f"detours around {self.sieve}", f"its centre passes {self.gap:.1f} µm from it, "
+             f"{1e3 * (self.flip - self.passing):+.1f} ms before it flips"],
+            ["flips over after t = 50 ms", f"at {self.time:.1f} ms"],
+            ["at 55 ms the velocity along x2 rises",
+             f"by {self.rise:+.2f} mm/s within 1 ms either way of the flip"],
+            ["and O_x1 and O_x2 turn steeply", f"|dO_x2/dt| = {self.steep:.2f} per ms"],
+            ["at 56 ms |O_x1| and |O_x3| near 1", f"the higher of both is {self.across:.2f}"],
+            ["|O_x2| high again at the exit", f"|O_x2| = {self.exit:.2f} at the chamber's end"],
+            ["fit, of 1", f"{self.score:.2f}"],
+        ]
+
+
+def of_cell(case, cell, sieve=SIEVE):
+    """The account of an escaped cell; None if it does not flip after passing the sieve."""
+    if not case.chamber or sieve not in case.sieves or case.fates[cell].name != "escaped":
+        return None
+    rows = case.tracks[cell]
+    # Most never come near: find that out from their rows
+    corners = case.plane.outlines[sieve].reshape(-1, 2)
+    reach = 2 * NEAR + np.abs(np.diff(rows.x[:, :2], axis=0)).max(initial=0)
+    x = rows.x[:, :2]
+    if not ((x > corners.min(axis=0) - reach) & (x < corners.max(axis=0) + reach)).all(1).any():
+        return None
+    track = rows.finer(10)
+    gaps = walls.distance(case, [sieve], track.x, within=2 * NEAR)
+    nearest = int(np.argmin(gaps))
+    passing = track.t[nearest]
+    exits = np.flatnonzero(track.x[:, 1] > case.chamber[1])
+    if not np.isfinite(gaps[nearest]) or not len(exits):
+        return None
+    later = flips(track)
+    later = later[(later > passing) & (later < min(passing + AFTER, track.t[exits[0]]))]
+    if not len(later):
+        return None
+
+    flip = later[0]
+    before, at, after = (track.at([flip + dt]) for dt in (-AROUND, 0, AROUND))
+    inside = (track.x[:, 1] > -case.chamber[1]) & (track.t < passing)
+    steep = np.abs(np.gradient(track.axis[:, 1], track.t))[np.abs(track.t - flip) < AROUND]
+    return Account(
+        cell, sieve, passing, gaps[nearest],
+        float(np.median(np.abs(track.axis[inside, 1]))) if inside.any() else 0.0,
+        flip, float(after.u[0, 1] - before.u[0, 1]), steep.max(initial=0) / MILLI,
+        float(np.abs(at.axis[0, [0, 2]]).max()), float(abs(track.axis[exits[0], 1])),
+        (flip - track.t[0]) * MILLI,
+    )
+
+
+def best(case, sieve=SIEVE):
+    """The account that fits best."""
+    told = [one for one in (of_cell(case, cell, sieve) for cell in case.tracks) if one]
+    if not told:
+        raise NotApplicable(f"no escaped cell flips after it has passed {sieve}")
+    return max(told, key=lambda one: one.score)

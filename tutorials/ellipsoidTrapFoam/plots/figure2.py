@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
+"""Orientation, velocity and spin of one cell against time; the paper's Figure 2.
+
+--cell best is the cell that fits the paper's account best; without --cell it is that one
+where there is one, or else the caught cell with the longest path, or else the cell that
+turns most.
+"""
+
+import argparse
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import account
+import style
+from account import flips, path_length, turning
+from case import MILLI, NotApplicable
+from files import CaseError, read_measured
+
+RESTING = 1e-3   # speed in mm/s below which only rounding would be seen
+SLOW = 0.01   # part of a cell's highest speed below which it is taken to rest
+
+# Columns of a measured file: those of tracks.csv, t since the injection
+MEASURED = ("t", "O1", "O2", "O3", "u1", "u2", "u3")
+
+
+def cell_or_best(word):
+    """An id, or the word best."""
+    if word == "best":
+        return word
+    if not word.isdigit():
+        raise argparse.ArgumentTypeError(f"neither a number nor 'best': {word}")
+    return int(word)
+
+
+OPTIONS = {
+    "cell": {"type": cell_or_best, "metavar": "ID", "help": "its id in cells.csv, or best"},
+    "measured": {
+        "metavar": "FILE", "help": "CSV of points to overlay: t [s] since the injection, and "
+        "any of O1 O2 O3 [-], u1 u2 u3 [m/s]"
+    },
+    "sieve": {"default": account.SIEVE, "help": f"that the cell detours [{account.SIEVE}]"},
+}
+
+
+def choose(case, sieve):
+    """The cell to show where none is named."""
+    if not case.tracks:
+        raise NotApplicable("no cell has been injected")
+    try:
+        return account.best(case, sieve).cell
+    except NotApplicable:
+        pass
+    caught = [cell for cell in case.tracks if case.fates[cell].name == "caught"]
+    if caught:
+        # A held cell may still roll: that is no way made
+        return max(
+            caught, key=lambda cell: path_length(case.tracks[cell].until(case.fates[cell].t))
+        )
+    return max(case.tracks, key=lambda cell: turning(case.tracks[cell]))
+
+
+def draw_measured(file, pose, motion):
+    """A user's points over the curves."""
+    columns = read_measured(file, MEASURED)
+    if "t" not in columns or len(columns) < 2:
+        raise CaseError(f"{file}: needs the column t and one of {' '.join(MEASURED[1:])}")
+    time = columns.pop("t") * MILLI
+    for name, values in columns.items():
+        ax, scale = (pose, 1) if name[0] == "O" else (motion, MILLI)
+        colour = style.COMPONENTS[int(name[1]) - 1]["color"]
+        symbol = "O_{x" if name[0] == "O" else "u_{"
+        ax.plot(
+            time, values * scale, linestyle="none", color=colour, **style.MEASURED,
+            label=f"${symbol}{'_' if name[0] == 'O' else ''}{name[1]}}}$ measured",
+        )
+
+
+def draw(case, cell=None, measured=None, sieve=account.SIEVE):
+    """The figure."""
+    found = None
+    if cell == "best":
+        found = account.best(case, sieve)
+        cell = found.cell
+    elif cell is None:
+        cell = choose(case, sieve)
+    if cell not in case.tracks:
+        raise CaseError(f"{case.results}/tracks.csv: no cell {cell}")
+    found = found or account.of_cell(case, cell, sieve)
+    rows = case.tracks[cell]
+    track = rows.finer(10)
+    fate = case.fates[cell]
+    begun = track.t[0]
+    time = (track.t - begun) * MILLI
+
+    # Of a long rest only the beginning is of interest
+    speed = np.linalg.norm(track.u, axis=1)
+    moving = np.flatnonzero(speed > SLOW * speed.max())
+    end = time[-1]
+    if fate.name in ("caught", "stalled") and len(moving) and speed.max() > 0:
+        end = min(end, 1.15 * time[moving[-1]])
+    end = max(end, 1e-9)
+
+    figure, (pose, motion, spin) = plt.subplots(
+        3, 1, figsize=(7, 6.8), sharex=True, layout="constrained"
+    )
+    for i, line in enumerate(style.COMPONENTS):
+        pose.plot(time, track.axis[:, i], label=f"$O_{{x_{i + 1}}}$", **line)
+        motion.plot(time, track.u[:, i], label=f"$u_{i + 1}$", **line)
+    spin.plot(time, np.linalg.norm(track.omega, axis=1), color="black", label="|ω|")
+    if measured:
+        draw_measured(measured, pose, motion)
+
+    turned = [t for t in (flips(track) - begun) * MILLI if t <= end]
+    for ax in (pose, motion, spin):
+        for t in turned:
+            ax.axvline(t, color="0.35", linewidth=0.8, linestyle=(0, (5, 2)),
+                       label="flip" if ax is pose and t == turned[0] else None)
+    if case.chamber:
+        inside = np.abs(track.x[:, 1]) < case.chamber[1]
+        if inside.any():
+            for ax in (pose, motion, spin):
+                ax.axvspan(time[inside][0], min(time[inside][-1], end), color="0.93",
+                           linewidth=0, zorder=0,
+                           label="in the chamber" if ax is pose else None)
+    if found:
+        t = (found.passing - begun) * MILLI
+        pose.annotate(f"past {found.sieve}", (t, 1.08), xytext=(0, 9), annotation_clip=False,
+                      textcoords="offset points", ha="center", fontsize=7,
+                      arrowprops={"arrowstyle": "-|>", "linewidth": 0.7})
+
+    pose.set_ylabel("orientation O [-]")
+    pose.set_ylim(-1.08, 1.08)
+    if speed.max() < RESTING:
+        motion.set_ylim(-RESTING, RESTING)
+    motion.set_ylabel("velocity u [mm/s]")
+    spin.set_ylabel("spin rate |ω| [rad/s]")
+    spin.set_ylim(bottom=0)
+    spin.set_xlabel("time since injection [ms]")
+    spin.set_xlim(0, end)
+    for ax in (pose, motion, spin):
+        ax.grid(True)
+        ax.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+
+    where = f" by {fate.patch}" if fate.name == "caught" else ""
+    pose.set_title(
+        f"cell {cell}, {fate.name}{where}, injected at t = {begun:.4g} s", pad=22 if found else 6
+    )
+    at = ", ".join(f"{t:.1f}" for t in turned[:12]) + (", ..." if len(turned) > 12 else "")
+    style.describe(figure, f"""Orientation O of the long axis, velocity u and spin rate |ω| of
+        cell {cell} against the time since its injection. It flips, that is O_x2 changes from
+        one side of ±{account.SIDE:g} to the other, {f"at {at} ms" if at else "never"}.
+        {"The table holds it against the paper's account of its cell." if found else ""}""",
+        found.table() if found else ())
+    return figure

@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
+"""The model of the cell drawn: frames, Euler angles, beads, and one cell at discrete times
+with its velocity and angular velocity; the paper's Figure 3. --cell is as in figure2."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import account
+import bodies
+import poses
+import style
+from case import MICRO
+from figure2 import RESTING, cell_or_best, choose
+from files import CaseError
+
+# A view and a pose in which no two axes fall together
+VIEW = bodies.camera(70, 30)
+POSE = np.radians((50, 35, 65))   # phi, theta, psi of the drawings
+POSES = 9        # in the sequence
+SPAN = 24.0      # length of path that the sequence follows, in micrometres
+AHEAD, BEHIND = style.ORANGE, style.YELLOW
+BODY, MOTION, LAB = style.BLUE, "0.35", "black"
+
+OPTIONS = {
+    "cell": {
+        "type": cell_or_best, "metavar": "ID", "help": "of panel D: its id in cells.csv, or best"
+    },
+}
+
+
+def flat(*points):
+    """Points of space in the plane of the drawings."""
+    return (np.array(points) @ VIEW.T)[:, :2]
+
+
+def arrow(ax, start, end, text, color, dashes="-", width=1.3, view=VIEW, size=9):
+    """An arrow in space with its name at the tip."""
+    (x0, y0), (x1, y1) = (np.array((start, end)) @ view.T)[:, :2]
+    ax.annotate("", (x1, y1), (x0, y0), annotation_clip=False, arrowprops={
+        "arrowstyle": "-|>", "color": color, "linewidth": width, "linestyle": dashes,
+        "shrinkA": 0, "shrinkB": 0,
+    })
+    away = np.array((x1 - x0, y1 - y0)) / max(np.hypot(x1 - x0, y1 - y0), 1e-9)
+    ax.annotate(text, (x1, y1), 8 * away, textcoords="offset points", ha="center", va="center",
+                color=color, fontsize=size, annotation_clip=False)
+
+
+def triad(ax, origin, axes, names, color, length, dashes="-"):
+    """Three axes, the columns of a matrix."""
+    for axis, name in zip(axes.T, names):
+        arrow(ax, origin, origin + length * axis, name, color, dashes)
+
+
+def arc(ax, start, end, radius, text, color):
+    """Arc about the origin between two unit vectors, named in its middle."""
+    angle = np.arccos(np.clip(start @ end, -1, 1))
+    side = (end - start * (start @ end)) / np.sin(angle)
+    a = np.linspace(0, angle, 40)[:, None]
+    line = radius * (np.cos(a) * start + np.sin(a) * side)
+    ax.plot(*flat(*line).T, color=color, linewidth=1.2)
+    arrow(ax, line[-4], line[-1], "", color, width=1.2)
+    x, y = flat(1.22 * line[20])[0]
+    ax.annotate(text, (x, y), ha="center", va="center", color=color, fontsize=11)
+
+
+def bare(ax, xlim, ylim, title):
+    """Axes without axes."""
+    ax.set_aspect("equal")
+    ax.set_xlim(xlim)
+    ax.set_ylim(ylim)
+    ax.set_axis_off()
+    ax.set_title(title, loc="left")
+
+
+def numbered(symbol):
+    """Names of three axes."""
+    return [f"${symbol}_{i}$" for i in (1, 2, 3)]
+
+
+def draw_frames(ax, semi_axes, scale):
+    """Lab, motion and body frame."""
+    bare(ax, (-3.2, 8.4), (-2.4, 6.4), "A  frames: lab, motion and body")
+    q, centre = poses.quaternion_from_euler(*POSE), np.array((-4.2, 2.6, 3.0))
+    bodies.show(ax, [bodies.Body(centre, q, semi_axes, AHEAD, BEHIND)], VIEW, scale, zorder=0)
+    triad(ax, np.zeros(3), np.eye(3), numbered("x"), LAB, 2.6)
+    triad(ax, centre, np.eye(3), numbered(r"\tilde{x}"), MOTION, 2.7, (0, (4, 2)))
+    triad(ax, centre, poses.rotation(q), numbered(r"\hat{x}"), BODY, 2.9)
+    arrow(ax, np.zeros(3), centre, "", style.VERMILLION)
+    ax.annotate("x", flat(0.5 * centre)[0] + (0.1, -0.6), color=style.VERMILLION)
+    ax.annotate("flow along $x_2$; motion frame: parallel to the lab's,\n"
+                "moves with the cell; O is the unit vector of $\\hat{x}_2$",
+                (0, 0), xycoords="axes fraction", fontsize=7.5, va="top")
+
+
+def draw_angles(ax):
+    """Euler's angles, z-x-z."""
+    bare(ax, (-1.35, 1.75), (-1.2, 1.35), "B  Euler angles φ, θ, ψ (z-x-z)")
+    phi, theta, psi = POSE
+    lab, body = np.eye(3), poses.rotation(poses.quaternion_from_euler(*POSE))
+    node = np.array((np.cos(phi), np.sin(phi), 0))
+    circle = np.linspace(0, 2 * np.pi, 181)[:, None]
+    for x, y, colour in ((lab[:, 0], lab[:, 1], MOTION), (body[:, 0], body[:, 1], BODY)):
+        disc = flat(*(np.cos(circle) * x + np.sin(circle) * y))
+        ax.fill(*disc.T, color=colour, alpha=0.12, linewidth=0)
+        ax.plot(*disc.T, color=colour, linewidth=0.7)
+    triad(ax, np.zeros(3), lab, numbered(r"\tilde{x}"), MOTION, 1.3, (0, (4, 2)))
+    triad(ax, np.zeros(3), body, numbered(r"\hat{x}"), BODY, 1.3)
+    ax.plot(*flat(-1.15 * node, 1.15 * node).T, color=style.VERMILLION, linewidth=1)
+    arrow(ax, np.zeros(3), 1.2 * node, "N", style.VERMILLION)
+    arc(ax, lab[:, 0], node, 0.55, "φ", "black")
+    arc(ax, lab[:, 2], body[:, 2], 0.7, "θ", "black")
+    arc(ax, node, body[:, 0], 0.8, "ψ", "black")
+    ax.annotate("N, the line of nodes: where the planes $\\tilde{x}_1\\tilde{x}_2$ and "
+                "$\\hat{x}_1\\hat{x}_2$ meet;\nR = $R_3$(φ) $R_1$(θ) $R_3$(ψ)",
+                (0, 0), xycoords="axes fraction", fontsize=7.5, va="top")
+
+
+def contact_of(case):
+    """Layout, number and radius [µm] of the beads, and the ellipsoid's semi-axes."""
+    contact = case.properties.get("contact", {})
+    layout = contact.get("beadLayout", "staggered")
+    try:
+        count = int(contact.get("beads", 32))
+        radius = float(contact.get("beadRadius", 0.285e-6)) * MICRO
+    except ValueError:
+        file = case.path("constant", "ellipsoidCloudProperties")
+        raise CaseError(f"{file}: contact/beads or beadRadius is no number") from None
+    return layout, count, radius
+
+
+def draw_beads(ax, case, scale):
+    """The beads that stand for the surface in contact."""
+    layout, count, radius = contact_of(case)
+    a1, a2, _ = case.semi_axes
+    reach = max(a2, a1) + radius
+    bare(ax, (-1.25 * reach, 1.25 * reach), (-0.8 * reach, 0.8 * reach), "C  the cell and its beads")
+    lie = np.array((np.sin(np.pi / 4) * np.array((0, 0, -1))).tolist() + [np.cos(np.pi / 4)])
+    centres = poses.beads(layout, count, radius, case.semi_axes)
+    sphere = np.full(3, radius)
+    turn = poses.rotation(lie)
+    bodies.show(ax, [
+        bodies.Body(turn @ centre, lie, sphere, style.SKY, style.SKY) for centre in centres
+    ], bodies.FROM_ABOVE, scale)
+    angle = np.linspace(0, 2 * np.pi, 181)
+    ax.plot(a2 * np.cos(angle), a1 * np.sin(angle), color=style.VERMILLION, linewidth=1.3)
+    for (x0, y0), (x1, y1), text, at in (
+        ((0, -2.2 * a1), (a2, -2.2 * a1), f"b = {a2:g} µm", (a2 / 2, -2.9 * a1)),
+        ((-1.05 * a2, 0), (-1.05 * a2, a1), f"a = {a1:g} µm", (-1.05 * a2, 1.5 * a1)),
+    ):
+        ax.annotate("", (x1, y1), (x0, y0), arrowprops={
+            "arrowstyle": "<->", "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0})
+        ax.annotate(text, at, ha="center", va="center", fontsize=8)
+    ax.annotate(f"{len(centres)} beads of radius {radius:g} µm, layout {layout}; "
+                "the line is the ellipsoid",
+                (0, 0), xycoords="axes fraction", fontsize=7.5, va="top")
+
+
+def sequence(case, cell):
+    """Poses at equal distances of the way past the sieve or, where the account does not
+    fit, of its end; of a cell that stays where it is at equal angles of half a turn, side by
+    side. Also whether they are so."""
+    found = account.of_cell(case, cell)
+    track = case.tracks[cell].finer(10)
+    length = np.append(0, np.cumsum(np.linalg.norm(np.diff(track.x, axis=0), axis=1)))
+    total = min(SPAN, length[-1])
+    if total < 2 * case.semi_axes.max():
+        half = np.abs((track.q[1:] * track.q[:-1]).sum(axis=1))
+        angle = np.append(0, np.cumsum(2 * np.arccos(np.minimum(half, 1))))
+        shown = track.at(np.interp(np.linspace(0, min(np.pi, angle[-1]), POSES), angle, track.t))
+        shown.x[:, 0] += 2.3 * case.semi_axes.max() * (np.arange(POSES) - POSES // 2)
+        return shown, True
+    middle = length[np.searchsorted(track.t, found.flip)] if found else length[-1] - total / 2
+    start = np.clip(middle - total / 2, 0, length[-1] - total)
+    return track.at(np.interp(start + np.linspace(0, total, POSES), length, track.t)), False
+
+
+def draw_sequence(ax, case, cell, scale):
+    """The cell at discrete times, seen from above at an angle."""
+    view = bodies.camera(-90, 55)
+    shown, apart = sequence(case, cell)
+    height = shown.x[:, 2].mean()
+    seen = (shown.x @ view.T)[:, :2]
+    pad = 2.2 * case.semi_axes.max()
+    low, high = seen.min(axis=0) - pad * (1 + apart), seen.max(axis=0) + pad * (1 + apart)
+    # Wide enough for the names of the times
+    low[0], high[0] = min(low[0], seen[:, 0].mean() - 14), max(high[0], seen[:, 0].mean() + 14)
+    bare(ax, (low[0], high[0]), (low[1], high[1]),
+         f"D  cell {cell} at discrete times (ms since injection)")
+    for name, lines in case.plane.outlines.items():
+        if case.patches[name] == "wall" and not apart:
+            ends = np.dstack((lines, np.full(lines.shape[:2], height))) @ view.T
+            for part in ends:
+                ax.plot(part[:, 0], part[:, 1], color="black", linewidth=1.4, zorder=0)
+    bodies.show(ax, [
+        bodies.Body(x, q, case.semi_axes, AHEAD, BEHIND) for x, q in zip(shown.x, shown.q)
+    ], view, scale, zorder=1)
+    fastest = np.linalg.norm(shown.u, axis=1).max()
+    quickest = np.linalg.norm(shown.omega, axis=1).max()
+    reach = 2.6 * case.semi_axes.max()
+    for t, x, u, q, omega in zip(shown.t, shown.x, shown.u, shown.q, shown.omega):
+        if fastest > RESTING:
+            arrow(ax, x, x + reach * u / fastest, "", "black", width=1.5, view=view)
+        spin = poses.rotation(q) @ omega
+        arrow(ax, x, x + reach * spin / max(quickest, 1e-12), "", BODY, width=1.5, view=view)
+        ms = 1e3 * (t - case.tracks[cell].t[0])
+        ax.annotate(f"{ms:.1f}", (view @ x)[:2], (-10, -30) if apart else (24, -3), textcoords="offset points",
+                    fontsize=7.5, path_effects=style.framed("white", 2))
+    told = "the cell stays in its place; poses drawn side by side" if apart else \
+        f"black: velocity, longest {fastest:.2f} mm/s; walls at the cell's height"
+    ax.annotate(f"{told};\nblue: angular velocity (right-hand rule), longest {quickest:.0f} rad/s"
+                "\nseen 35° off the vertical", (0, 0), xycoords="axes fraction", fontsize=7.5, va="top")
+
+
+def draw(case, cell=None):
+    """The figure."""
+    if cell == "best":
+        cell = account.best(case).cell
+    elif cell is None:
+        cell = choose(case, account.SIEVE)
+    if cell not in case.tracks:
+        raise CaseError(f"{case.results}/tracks.csv: no cell {cell}")
+    figure = plt.figure(figsize=(8.6, 7.4), layout="constrained")
+    figure.set_constrained_layout_pads(h_pad=0.12, w_pad=0.05)
+    panels = figure.subplot_mosaic("AB;CD", height_ratios=(1, 1.05))
+    cell_axes = np.array((0.5, 2, 0.5)) * 0.9
+    draw_frames(panels["A"], cell_axes, 60)
+    draw_angles(panels["B"])
+    draw_beads(panels["C"], case, 200)
+    draw_sequence(panels["D"], case, cell, 30)
+    layout, count, radius = contact_of(case)
+    style.describe(figure, f"""The model. A: the lab's frame x, the motion frame, which moves
+        with the cell and stays parallel to the lab's, and the body's frame, the ellipsoid's
+        axes. B: Euler angles, with N the line of nodes. C: the cell with its {count} beads of
+        {radius:g} µm ({layout}). D: cell {cell} at discrete times with its velocity and
+        angular velocity.""")
+    return figure

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
+"""Trapping performance of every sieve by itself; the paper's Figure 4.
+
+Of the cells that reached a sieve, the share that it held at the end; and the same of all
+cells injected. A cell has reached a sieve when its centre has come within its longest
+semi-axis of the sieve's walls: near enough to touch. Bars are Wilson's 95 % intervals,
+for which cells are taken to be caught independently of one another.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import style
+import walls
+from case import Case, NotApplicable
+from files import CaseError
+
+NORMAL_95 = 1.959963984540054   # two-sided quantile of the normal distribution
+
+LOOKS = (
+    {"marker": "o", "color": style.BLUE},
+    {"marker": "s", "color": style.ORANGE},
+    {"marker": "^", "color": "black"},
+    {"marker": "D", "color": style.VERMILLION},
+)
+
+OPTIONS = {
+    "designs": {
+        "nargs": "+", "metavar": "FOLDER", "default": (),
+        "help": "cases to compare, such as those of compareDesigns [CASE alone]",
+    },
+}
+
+
+def wilson(successes, trials):
+    """(low, high) of a share, Wilson's score interval (Wilson 1927)."""
+    if trials == 0:
+        return 0.0, 1.0
+    z2 = NORMAL_95**2
+    share = successes / trials
+    middle = (share + z2 / (2 * trials)) / (1 + z2 / trials)
+    half = NORMAL_95 / (1 + z2 / trials) * np.sqrt(
+        share * (1 - share) / trials + z2 / (4 * trials**2)
+    )
+    # At the ends rounding must not leave [0, 1], nor the share
+    return max(0.0, min(share, middle - half)), min(1.0, max(share, middle + half))
+
+
+def in_words(held, trials):
+    """A share with its interval."""
+    low, high = wilson(held, trials)
+    share = f"{held / trials:.1%}" if trials else "-"
+    return f"{held}/{trials} = {share} ({100 * low:.1f}-{100 * high:.1f})"
+
+
+def reached(case):
+    """Sieve to the cells that reached it."""
+    paths = {cell: track.finer().x for cell, track in case.tracks.items()}
+    owner = np.repeat(list(paths), [len(path) for path in paths.values()])
+    points = np.concatenate(list(paths.values()))
+    found = {}
+    for name in case.sieves:
+        near = walls.distance(case, [name], points, within=case.semi_axes.max())
+        # What touches a cell caught before is held without having come so near
+        found[name] = set(owner[np.isfinite(near)].tolist()) | {
+            cell for cell, fate in case.fates.items()
+            if fate.name == "caught" and fate.patch == name
+        }
+    return found
+
+
+def draw(case, designs=()):
+    """The figure."""
+    cases = [Case(folder) for folder in designs] or [case]
+    if len(cases) > len(LOOKS):
+        raise CaseError(f"--designs: at most {len(LOOKS)} cases")
+    names = list(dict.fromkeys(name for one in cases for name in one.sieves))
+    if not names:
+        raise NotApplicable("the case has no sieves")
+    if not all(one.tracks for one in cases):
+        raise NotApplicable("no cell has been injected")
+
+    figure, axes = plt.subplots(2, 1, figsize=(7, 6), sharex=True, layout="constrained")
+    labels = [one.design or one.folder.rsplit("/", 1)[-1] for one in cases]
+    table = [["held of reached"] + labels] + [[name] for name in [*names, "all, of injected"]]
+    for k, (one, label, look) in enumerate(zip(cases, labels, LOOKS)):
+        near = reached(one)
+        at = np.arange(len(names)) + 0.22 * (k - (len(cases) - 1) / 2)
+        shares, bounds = [], []
+        for name, row in zip(names, table[1:]):
+            held, came = one.count("caught", name), len(near.get(name, ()))
+            row.append(in_words(held, came))
+            for trials in (came, len(one.fates)):
+                low, high = wilson(held, trials)
+                share = held / trials if trials else np.nan
+                shares.append(share)
+                bounds.append((share - low, high - share))
+        table[-1].append(in_words(sum(one.count("caught", n) for n in names), len(one.fates)))
+        for ax, first in zip(axes, (0, 1)):
+            ax.errorbar(
+                at, 100 * np.array(shares[first::2]), 100 * np.transpose(bounds[first::2]),
+                linestyle="none", markersize=6, markeredgecolor="black", markeredgewidth=0.5,
+                capsize=3, linewidth=1.2, label=f"design {label} ({len(one.fates)} cells)", **look,
+            )
+    axes[0].set_ylabel("held, of the cells that\nreached the sieve [%]")
+    axes[1].set_ylabel("held, of the cells\ninjected [%]")
+    axes[1].set_xticks(range(len(names)), names)
+    axes[1].set_xlabel("sieve")
+    for ax in axes:
+        # Room for the marks of zero
+        ax.set_ylim(bottom=-0.04 * ax.get_ylim()[1])
+        ax.grid(True, axis="y")
+        for edge in np.arange(len(names) - 1) + 0.5:
+            ax.axvline(edge, color="0.85", linewidth=0.6)
+    style.legend_below(axes[1], axes[0].get_legend_handles_labels()[0])
+    style.describe(figure, f"""Trapping performance of every sieve by itself, with Wilson's 95 %
+        intervals. A cell has reached a sieve when its centre has come within its longest
+        semi-axis, {cases[0].semi_axes.max():g} µm, of the sieve's walls. In the table, in brackets:
+        the intervals in per cent.""", table)
+    return figure

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
+"""Readers of the files that a case, its run and its user leave."""
+
+import csv
+import gzip
+import os
+import re
+import subprocess
+import warnings
+
+import numpy as np
+
+
+class CaseError(Exception):
+    """An input is missing or malformed; the text names the file."""
+
+
+def read_text(file):
+    """The text of a file, gzipped or not."""
+    try:
+        with (gzip.open if file.endswith(".gz") else open)(file, "rt", encoding="latin-1") as f:
+            return f.read()
+    except OSError as error:
+        raise CaseError(f"{file}: {error.strerror or error}") from None
+
+
+def without_comments(text):
+    """Text of an OpenFOAM file without its comments and header."""
+    text = re.sub(r"/\*.*?\*/|//[^\n]*", " ", text, flags=re.S)
+    return re.sub(r"\bFoamFile\s*\{[^}]*\}", " ", text)
+
+
+def read_dictionary(file):
+    """An OpenFOAM dictionary as nested dicts; lists as lists, other values as strings."""
+    text = without_comments(read_text(file))
+    if re.search(r"[#$]", text):
+        # Directives and macros are OpenFOAM's to resolve
+        try:
+            text = subprocess.run(
+                ["foamDictionary", "-expand", file],
+                check=True, capture_output=True, text=True, encoding="latin-1",
+            ).stdout
+        except (OSError, subprocess.CalledProcessError):
+            raise CaseError(f"{file}: its # and $ need OpenFOAM's foamDictionary") from None
+        text = without_comments(text)
+    tokens = re.findall(r'"[^"]*"|[{}();]|[^\s{}();"]+', text)
+
+    def fail(what):
+        raise CaseError(f"{file}: {what}")
+
+    def read(at, nested):
+        entries = {}
+        while at < len(tokens) and tokens[at] != "}":
+            key = tokens[at]
+            if at + 1 < len(tokens) and tokens[at + 1] == "{":
+                entries[key], at = read(at + 2, True)
+                continue
+            try:
+                end = tokens.index(";", at)
+            except ValueError:
+                fail(f"entry '{key}' has no ';'")
+            words = tokens[at + 1:end]
+            entries[key] = words[1:-1] if words[:1] == ["("] else " ".join(words)
+            at = end + 1
+        if nested != (at < len(tokens)):
+            fail("'{' and '}' do not match")
+        return entries, at + 1
+
+    return read(0, False)[0]
+
+
+def read_csv(file, types):
+    """The named columns of a CSV file with a header, as a structured array."""
+    if not os.path.isfile(file):
+        raise CaseError(f"{file}: not there")
+    with open(file, encoding="latin-1") as f:
+        header = f.readline().strip().split(",")
+    missing = [name for name, _ in types if name not in header]
+    if missing:
+        raise CaseError(f"{file}: no column {missing[0]}")
+    try:
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "loadtxt: input contained no data")
+            rows = np.loadtxt(
+                file, dtype=types, delimiter=",", skiprows=1, ndmin=1,
+                usecols=[header.index(name) for name, _ in types],
+            )
+    except (ValueError, IndexError) as error:
+        raise CaseError(f"{file}: {error}") from None
+    for name, kind in types:
+        if kind is float and not np.isfinite(rows[name]).all():
+            line = 2 + int(np.argmin(np.isfinite(rows[name])))
+            raise CaseError(f"{file}: line {line}: {name} is not a number")
+    return rows
+
+
+def read_measured(file, names, words=()):
+    """A user's CSV file: the named columns it has, to arrays; NaN where there is no number."""
+    try:
+        with open(file, newline="", encoding="utf-8-sig") as f:
+            rows = list(csv.DictReader(f))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise CaseError(f"{file}: {getattr(error, 'strerror', None) or error}") from None
+    if not rows:
+        raise CaseError(f"{file}: no rows below a header")
+    columns = {}
+    for name in names:
+        if name not in rows[0]:
+            continue
+        if name in words:
+            columns[name] = [(row[name] or "").strip() for row in rows]
+            continue
+        columns[name] = np.full(len(rows), np.nan)
+        for i, row in enumerate(rows):
+            word = (row[name] or "").strip()
+            try:
+                columns[name][i] = float(word) if word else np.nan
+            except ValueError:
+                raise CaseError(f"{file}: line {i + 2}: {name} is no number: {word}") from None
+    return columns
+
+
+def number_folders(root):
+    """(value, name) of the folders named by a number, ascending."""
+    found = []
+    for name in os.listdir(root) if os.path.isdir(root) else []:
+        is_number = re.fullmatch(r"\d+(\.\d*)?(e[+-]?\d+)?", name)
+        if is_number and os.path.isdir(os.path.join(root, name)):
+            found.append((float(name), name))
+    return sorted(found)

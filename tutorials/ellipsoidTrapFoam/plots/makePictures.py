@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
+"""Make the pictures of a case, in its folder pictures, and the report of them, report.html.
+
+usage: makePictures CASE                          all but figure4, and the report
+       makePictures CASE PICTURE [OPTION...]      one; --help tells its options
+       makePictures CASE report                   the report of the pictures that are there
+
+PICTURE is one of
+    figure1         cells held by every sieve against time
+    figure2         orientation, velocity and spin of one cell
+    figure3         the model drawn, and a cell at discrete times
+    figure4         trapping performance of every sieve, of several designs
+    figure5         the mesh, with close-ups of the apertures
+    movie           cells that tumble past a sieve, an animation
+    nearWall        spin rate against the distance from the sieves
+    speedAndTracks  speed of the flow, tracks of all cells
+    trappedCells    the cells at rest in the sieves
+
+A picture that cannot be made leaves the others; the exit status is then 1.
+"""
+
+import importlib
+import os
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from functools import lru_cache
+
+import report
+import style
+from case import Case
+from files import CaseError
+
+# The longest first, so that none of them comes last alone
+PICTURES = (
+    "movie", "figure3", "speedAndTracks", "figure2", "trappedCells", "figure5", "nearWall",
+    "figure1",
+)
+# Compares designs, which takes runs of its own
+BY_ITSELF = ("figure4",)
+MOST_AT_ONCE = 4   # each reads the case for itself, mesh and tracks
+
+
+@lru_cache(maxsize=1)
+def case_of(folder):
+    """The case as this process has read it."""
+    return Case(folder)
+
+
+def make(name, folder):
+    """One picture; whether it went well."""
+    return style.make(importlib.import_module(name).draw, name, case_of(folder), tables=False)
+
+
+def make_all(folder):
+    """All that every run leaves; whether they went well."""
+    # What a picture of an earlier run showed must not get into the report
+    for name in PICTURES:
+        style.remove(case_of(folder), name)
+    workers = min(len(os.sched_getaffinity(0)), MOST_AT_ONCE)
+    with ProcessPoolExecutor(workers) as pool:
+        well = list(pool.map(make, PICTURES, [folder] * len(PICTURES)))
+    return all(well) & report.make(case_of(folder))
+
+
+def main(words):
+    """The command; whether it went well."""
+    if not words or words[0].startswith("-"):
+        sys.exit(__doc__.strip())
+    folder, *rest = words
+    if rest and rest[0] not in (*PICTURES, *BY_ITSELF, "report"):
+        sys.exit(f"makePictures: no picture {rest[0]}; there are "
+                 f"{' '.join(sorted((*PICTURES, *BY_ITSELF)))}")
+    try:
+        case = case_of(folder)
+    except CaseError as error:
+        sys.exit(f"{rest[0] if rest else 'makePictures'}: {error}")
+    if not rest:
+        return make_all(folder)
+    if rest == ["report"]:
+        return report.make(case)
+    return style.command(importlib.import_module(rest[0]), case, rest[1:])
+
+
+if __name__ == "__main__":
+    sys.exit(0 if main(sys.argv[1:]) else 1)
