@@ -231,19 +231,7 @@ Foam::label Foam::cellInjection::readNumber(const scalar flux) const
 
     if (dict_.found("number"))
     {
-        const label number = dict_.get<label>("number");
-
-        if (number < 1)
-        {
-            FatalIOErrorInFunction
-            (
-                dict_.lookupEntry("number", keyType::LITERAL).stream()
-            )   << "number " << number << " is out of range" << nl
-                << "    allowed: a whole number above 0"
-                << exit(FatalIOError);
-        }
-
-        return number;
+        return ellipsoidProperties::getWhole(dict_, "number", 1);
     }
 
     const scalar duration =

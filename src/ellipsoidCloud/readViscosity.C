@@ -12,6 +12,11 @@ License
 #include "IOdictionary.H"
 #include "Time.H"
 
+extern "C"
+{
+    #include "ellipsoid.h"
+}
+
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
 Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
@@ -50,7 +55,22 @@ Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
             << " number [m2/s]" << exit(FatalIOError);
     }
 
-    return dimensionedScalar("nu", dimViscosity, dict);
+    const dimensionedScalar nu("nu", dimViscosity, dict);
+
+    // The core knows what the cells can live with
+    ellipsoid_options options(ellipsoid_options_default());
+    options.kinematic_viscosity = nu.value();
+
+    const char* range = nullptr;
+
+    if (ellipsoid_options_check(&options, nullptr, &range) != ELLIPSOID_OK)
+    {
+        FatalIOErrorInFunction(nuEntry)
+            << "nu " << nuEntry.toString() << " is out of range" << nl
+            << "    allowed: " << range << exit(FatalIOError);
+    }
+
+    return nu;
 }
 
 
