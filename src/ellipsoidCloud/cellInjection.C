@@ -183,10 +183,10 @@ void Foam::cellInjection::setTimes(const label number)
 
     if (!(duration >= 0 && duration < VGREAT))
     {
-        FatalIOErrorInFunction(dict_)
-            << "duration " << duration << " is out of range" << nl
-            << "    allowed: 0 or above"
-            << exit(FatalIOError);
+        ellipsoidProperties::refuse
+        (
+            dict_, "duration", "duration", "0 or more"
+        );
     }
 
     times_.setSize(number);

@@ -151,30 +151,6 @@ namespace Foam
         text << value;
         return text.str();
     }
-
-    //- An entry is out of range: say where it is, and what is allowed
-    static void refuse
-    (
-        const dictionary& dict,
-        const word& keyword,
-        const string& name,
-        const string& range
-    )
-    {
-        const ITstream& is =
-            dict.lookupEntry(keyword, keyType::LITERAL).stream();
-
-        FatalIOErrorInFunction(is) << name.c_str();
-
-        for (const token& t : static_cast<const tokenList&>(is))
-        {
-            FatalIOError<< ' ' << textOf(t).c_str();
-        }
-
-        FatalIOError
-            << " is out of range" << nl
-            << "    allowed: " << range.c_str() << exit(FatalIOError);
-    }
 }
 
 
@@ -423,6 +399,30 @@ void Foam::ellipsoidProperties::checkKeywords
                 << exit(FatalIOError);
         }
     }
+}
+
+
+void Foam::ellipsoidProperties::refuse
+(
+    const dictionary& dict,
+    const word& keyword,
+    const string& name,
+    const string& range
+)
+{
+    const ITstream& is = dict.lookupEntry(keyword, keyType::LITERAL).stream();
+
+    FatalIOErrorInFunction(is) << name.c_str();
+
+    // With fewer digits than files have
+    for (const token& t : static_cast<const tokenList&>(is))
+    {
+        FatalIOError<< ' ' << textOf(t).c_str();
+    }
+
+    FatalIOError
+        << " is out of range" << nl
+        << "    allowed: " << range.c_str() << exit(FatalIOError);
 }
 
 

@@ -8,14 +8,10 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "readViscosity.H"
+#include "ellipsoidProperties.H"
 #include "masterFirst.H"
 #include "IOdictionary.H"
 #include "Time.H"
-
-extern "C"
-{
-    #include "ellipsoid.h"
-}
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
@@ -65,9 +61,7 @@ Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
 
     if (ellipsoid_options_check(&options, nullptr, &range) != ELLIPSOID_OK)
     {
-        FatalIOErrorInFunction(nuEntry)
-            << "nu " << nuEntry.toString() << " is out of range" << nl
-            << "    allowed: " << range << exit(FatalIOError);
+        ellipsoidProperties::refuse(dict, "nu", "nu", range);
     }
 
     return nu;

@@ -13,6 +13,7 @@ License
 #include "clockTime.H"
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
+#include "ellipsoidParcel.H"
 #include "ellipsoidProperties.H"
 #include "findRefCell.H"
 #include "fvcDiv.H"
@@ -33,7 +34,6 @@ License
 #include "wholeFile.H"
 
 #include <cmath>
-#include <limits>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -477,12 +477,7 @@ void Foam::steadyFlow::solve()
 
 void Foam::steadyFlow::write()
 {
-    // Enough digits to read back the same numbers
-    const unsigned asked = IOstream::defaultPrecision
-    (
-        std::numeric_limits<scalar>::max_digits10
-    );
-
+    const fullPrecision digits;
     const word& instance = mesh_.time().timeName();
 
     leaveNote(unfinishedFile(instance));
@@ -494,8 +489,6 @@ void Foam::steadyFlow::write()
     rm(unfinishedFile(instance));
 
     Info<< "flow: written to " << mesh_.time().timeName() << endl;
-
-    IOstream::defaultPrecision(asked);
 }
 
 
