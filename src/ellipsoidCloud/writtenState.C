@@ -32,6 +32,12 @@ namespace Foam
         reduce(all, sumOp<label>());
     }
 
+    //- Do ranks share files?
+    static bool sharedFiles()
+    {
+        return fileHandler().type() == "collated";
+    }
+
     //- Take the bytes of a list into a digest
     template<class Type>
     static void addTo(SHA1& digest, const UList<Type>& list)
@@ -130,12 +136,21 @@ Foam::fileName Foam::writtenState::cellFolder(const fileName& path)
 
 Foam::dictionary Foam::writtenState::readMark(const fileName& path)
 {
-    if (!isFile(markFile(path)))
+    fileName file(markFile(path));
+
+    if (sharedFiles() && !isFile(file))
+    {
+        // Where decomposePar puts a copy
+        const word parts("processors" + Foam::name(Pstream::nProcs()));
+        file = markFile(path.path().path()/parts/path.name());
+    }
+
+    if (!isFile(file))
     {
         return dictionary();
     }
 
-    IFstream is(markFile(path));
+    IFstream is(file);
     return dictionary(is);
 }
 
@@ -389,7 +404,7 @@ void Foam::writtenState::checkMesh(const polyMesh& whole) const
 void Foam::writtenState::setAsideIncomplete(const argList& args)
 {
     // Where ranks share files, times without their end are refused, not moved
-    if (!fromLatestTime(args) || fileHandler().type() == "collated")
+    if (!fromLatestTime(args) || sharedFiles())
     {
         return;
     }
