@@ -58,13 +58,18 @@ namespace Foam
         }
 
         const std::vector<char> block(1 << 16);
+        const auto write =
+            [&]()
+            {
+                return
+                    ::write(at, block.data(), block.size())
+                 == ssize_t(block.size());
+            };
 
+        // If it takes a part, it says why to the next
         errno = 0;
-        const bool done =
-            ::write(at, block.data(), block.size()) == ssize_t(block.size())
-         && ::fsync(at) == 0;
-        const int reason =
-            done ? 0 : errno ? errno : ENOSPC;      // a part of it: no more
+        const bool done = (write() || write()) && ::fsync(at) == 0;
+        const int reason = done ? 0 : errno;
 
         ::close(at);
         ::unlink(partOf(file).c_str());
