@@ -13,6 +13,7 @@ License
 #include "OSspecific.H"
 #include "Pstream.H"
 
+#include <cerrno>
 #include <unistd.h>
 #include <vector>
 
@@ -93,9 +94,12 @@ void Foam::appendedFile::open()
     {
         if (::truncate(name_.c_str(), off_t(earlier_)))
         {
-            cannotWrite(name_);
+            cannotWrite(name_, errno);
         }
-        file_.open(name_, std::ios::app);
+
+        // At its end from the beginning: where that is, is noted at the next
+        // write time even if there was nothing to append
+        file_.open(name_, std::ios::app | std::ios::ate);
     }
     else
     {
@@ -114,7 +118,7 @@ void Foam::appendedFile::flush()
 
     if (!file_)
     {
-        cannotWrite(name_);
+        cannotWrite(name_, errno);
     }
 }
 

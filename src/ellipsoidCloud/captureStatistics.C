@@ -112,6 +112,12 @@ void Foam::captureStatistics::readLog()
                 i == 2 ? scalar(eventNames[word(field)])
               : i == 3 ? scalar(patchNames_.find(field))
               : std::atof(field.c_str());
+
+            if (i == 3 && event[i] < 0 && field != patchName(-1))
+            {
+                // Of another mesh
+                fields.setstate(std::ios::failbit);
+            }
         }
 
         if (!fields)
@@ -193,14 +199,14 @@ Foam::captureStatistics::captureStatistics
 (
     const setting& given,
     const wordList& patchNames,
-    const scalar inletSpeed,
     const fileName& folder,
     const dictionary& earlierLog
 )
 :
     patchNames_(patchNames),
     sieves_(given.sieves),
-    slowSpeed_(inletSpeed*given.speedFraction),
+    speedFraction_(given.speedFraction),
+    slowSpeed_(0),
     holdTime_(given.holdTime),
     folder_(folder),
     pending_(),

@@ -187,10 +187,10 @@ void Foam::cellInjection::setTimes(const label number)
 
     if (!(duration >= 0 && duration < VGREAT))
     {
-        FatalIOErrorInFunction(dict_)
-            << "duration " << duration << " is out of range" << nl
-            << "    allowed: 0 or above"
-            << exit(FatalIOError);
+        ellipsoidProperties::refuse
+        (
+            dict_, "duration", "duration", "0 or more"
+        );
     }
 
     times_.setSize(number);
@@ -235,19 +235,7 @@ Foam::label Foam::cellInjection::readNumber(const scalar flux) const
 
     if (dict_.found("number"))
     {
-        const label number = dict_.get<label>("number");
-
-        if (number < 1)
-        {
-            FatalIOErrorInFunction
-            (
-                dict_.lookupEntry("number", keyType::LITERAL).stream()
-            )   << "number " << number << " is out of range" << nl
-                << "    allowed: a whole number above 0"
-                << exit(FatalIOError);
-        }
-
-        return number;
+        return ellipsoidProperties::getWhole(dict_, "number", 1);
     }
 
     const scalar duration =

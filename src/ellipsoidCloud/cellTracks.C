@@ -13,6 +13,7 @@ License
 #include "PstreamReduceOps.H"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -313,7 +314,7 @@ void Foam::cellTracks::writeVTP()
 
     if (!os.flush())
     {
-        cannotWrite(folder_/"tracks.vtp");
+        cannotWrite(folder_/"tracks.vtp", errno);
     }
 }
 

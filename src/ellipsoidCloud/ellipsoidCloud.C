@@ -60,12 +60,12 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::ellipsoidCloud::makeInjections(const undecomposedFlow& whole)
+void Foam::ellipsoidCloud::makeInjections()
 {
     const dictionary& dict = properties_.subDict("injection");
     const cellInjection::setting from
     {
-        whole, *flow_, *walls_, model_, properties_.seed()
+        *whole_, *flow_, *walls_, model_, properties_.seed()
     };
 
     label nCells = 0;
@@ -341,33 +341,30 @@ void Foam::ellipsoidCloud::handOver()
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::ellipsoidCloud::ellipsoidCloud
-(
-    const volVectorField& U,
-    const volScalarField& p,
-    const surfaceScalarField& phi
-)
+Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
 :
     // Empty: what was written is looked at before it is read
     Cloud<ellipsoidParcel>
     (
-        U.mesh(),
+        mesh,
         "ellipsoidCloud",
         IDLList<ellipsoidParcel>()
     ),
-    mesh_(U.mesh()),
-    properties_(U.mesh()),
+    mesh_(mesh),
+    properties_(mesh),
+    earlier_(mesh.time()),
+    whole_(new undecomposedFlow(mesh)),
     model_(),
     flow_(),
     walls_(),
-    cellRank_(),
-    cellLocal_(),
+    cellRank_(whole_->cellRank()),
+    cellLocal_(whole_->cellLocal()),
     injections_(),
     statistics_(),
     tracks_(),
     meshNotes_(),
-    time_(presentTime(U.time())),
-    firstTime_(U.time().timeName()),
+    time_(presentTime(mesh.time())),
+    firstTime_(mesh.time().timeName()),
     totals_(),
     trackingTime_(0),
     movingTime_(0),
@@ -382,50 +379,63 @@ Foam::ellipsoidCloud::ellipsoidCloud
             << abort(FatalIOError);
     }
 
-    const scalar length =
-        *std::max_element(options.semi_axes, options.semi_axes + 3);
-
-    const undecomposedFlow whole(U, p, phi);
-    const writtenState earlier(mesh_.time());
     {
         const masterFirst once;
 
         if (Pstream::master())
         {
-            meshNotes_ = writtenState::notesOf(whole.mesh());
-            earlier.checkMesh(whole.mesh());
+            meshNotes_ = writtenState::notesOf(whole_->mesh());
+            earlier_.checkMesh(whole_->mesh());
         }
     }
 
+    makeTables();
+    if (earlier_.found())
+    {
+        readCells();
+        checkCells();
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::ellipsoidCloud::setFlow
+(
+    const volVectorField& U,
+    const volScalarField& p,
+    const surfaceScalarField& phi
+)
+{
+    const ellipsoid_options& options = properties_.options();
+
+    whole_->gather(U, p, phi);
+
     flow_.reset
     (
-        new frozenFlow(whole, options.fluid_density, properties_.scheme())
+        new frozenFlow(*whole_, options.fluid_density, properties_.scheme())
     );
     walls_.reset
     (
         new wallFacets
         (
-            Pstream::master() ? &whole.mesh() : nullptr, length
+            Pstream::master() ? &whole_->mesh() : nullptr,
+            *std::max_element(options.semi_axes, options.semi_axes + 3)
         )
     );
-    cellRank_ = whole.cellRank();
-    cellLocal_ = whole.cellLocal();
 
     scalar speed = 0;
     if (Pstream::master())
     {
         const undecomposedFlow::serialScope serial;
-        speed = throughFlow(whole.U(), whole.phi()).speed();
+        speed = throughFlow(whole_->U(), whole_->phi()).speed();
     }
     Pstream::scatter(speed);
+    statistics_->setInletSpeed(speed);
 
-    makeInjections(whole);
-    makeTables(speed, earlier);
-    if (earlier.found())
-    {
-        readCells();
-        checkCells();
-    }
+    checkPlaces();
+    makeInjections();
+    whole_.clear();
 
     // Nothing on the disk is touched before all is known to be sound
     statistics_->open();
@@ -436,8 +446,6 @@ Foam::ellipsoidCloud::ellipsoidCloud
         << statistics_->slowSpeed() << " m/s" << endl;
 }
 
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::ellipsoidCloud::evolve()
 {

@@ -20,23 +20,21 @@ Description
 #include "wholeFile.H"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::ellipsoidCloud::makeTables
-(
-    const scalar inletSpeed,
-    const writtenState& earlier
-)
+void Foam::ellipsoidCloud::makeTables()
 {
+    const masterFirst once;
     dictionary tables;
 
-    if (earlier.found())
+    if (earlier_.found())
     {
-        firstTime_ = earlier.notes().get<string>("folder");
-        time_ = earlier.notes().get<scalar>("time");
-        tables = earlier.notes().subDict("tables");
+        firstTime_ = earlier_.notes().get<string>("folder");
+        time_ = earlier_.notes().get<scalar>("time");
+        tables = earlier_.notes().subDict("tables");
     }
 
     const fileName folder
@@ -54,7 +52,6 @@ void Foam::ellipsoidCloud::makeTables
                 properties_.section("capture"), mesh_.boundaryMesh()
             ),
             mesh_.boundaryMesh().names(),
-            inletSpeed,
             folder,
             tables.subOrEmptyDict("events")
         )
@@ -92,20 +89,28 @@ void Foam::ellipsoidCloud::readCells()
 }
 
 
-void Foam::ellipsoidCloud::checkCells() const
+void Foam::ellipsoidCloud::checkedCells(const string& complaint) const
+{
+    if (!complaint.empty())
+    {
+        FatalErrorInFunction
+            << "time " << mesh_.time().timeName() << ": " << complaint.c_str()
+            << nl << "    Its folder lagrangian/" << name()
+            << " is incomplete or of another run: go on from another time"
+            << exit(FatalError);
+    }
+}
+
+
+void Foam::ellipsoidCloud::checkPlaces() const
 {
     // What is wrong on any rank, said once
-    List<labelList> ids(Pstream::nProcs());
     List<string> complaints(Pstream::nProcs());
-
-    DynamicList<label> mine(size());
 
     for (const ellipsoidParcel& parcel : *this)
     {
         const cellState& cell = parcel.state();
         const point x(cell.body.x[0], cell.body.x[1], cell.body.x[2]);
-
-        mine.append(cell.id);
 
         frozenFlow::probe at{cell.tet, -1};
 
@@ -124,9 +129,31 @@ void Foam::ellipsoidCloud::checkCells() const
         }
     }
 
+    Pstream::gatherList(complaints);
+    const masterFirst once;
+
+    if (Pstream::master())
+    {
+        for (const string& complaint : complaints)
+        {
+            checkedCells(complaint);
+        }
+    }
+}
+
+
+void Foam::ellipsoidCloud::checkCells() const
+{
+    List<labelList> ids(Pstream::nProcs());
+    DynamicList<label> mine(size());
+
+    for (const ellipsoidParcel& parcel : *this)
+    {
+        mine.append(parcel.state().id);
+    }
+
     ids[Pstream::myProcNo()].transfer(mine);
     Pstream::gatherList(ids);
-    Pstream::gatherList(complaints);
 
     const masterFirst once;
 
@@ -144,11 +171,6 @@ void Foam::ellipsoidCloud::checkCells() const
                 complaint = text;
             }
         };
-
-    for (const string& text : complaints)
-    {
-        complain(text);
-    }
 
     labelHashSet read;
     for (const labelList& some : ids)
@@ -181,14 +203,7 @@ void Foam::ellipsoidCloud::checkCells() const
         }
     }
 
-    if (!complaint.empty())
-    {
-        FatalErrorInFunction
-            << "time " << mesh_.time().timeName() << ": " << complaint.c_str()
-            << nl << "    Its folder lagrangian/" << name()
-            << " is incomplete or of another run: go on from another time"
-            << exit(FatalError);
-    }
+    checkedCells(complaint);
 }
 
 
@@ -239,8 +254,6 @@ void Foam::ellipsoidCloud::reportLoad() const
 
 void Foam::ellipsoidCloud::writeFields() const
 {
-    writtenState::begin(mesh_.time());
-
     tracks_->flush();
 
     const fileName failed
@@ -249,7 +262,7 @@ void Foam::ellipsoidCloud::writeFields() const
     );
     if (!failed.empty())
     {
-        cannotWrite(failed);
+        cannotWrite(failed, errno);
     }
 
     dictionary tables;

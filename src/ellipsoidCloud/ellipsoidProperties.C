@@ -83,37 +83,79 @@ namespace Foam
         std::copy_n(v.v_, 3, value);
     }
 
-    //- Where each option of the core stands in the dictionary
-    static const struct { const char* field; const char* section; const char* entry; }
-    optionEntries[] =
+    //- An option of the core and where it stands in the dictionary
+    struct optionEntry
     {
-        { "semi_axes", "cell", "semiAxes" },
-        { "density", "cell", "density" },
-        { "fluid_density", "fluid", "density" },
-        { "drag", "forces", "drag" },
-        { "flow_points", "forces", "flowPoints" },
-        { "charge", "forces", "charge" },
-        { "dipole", "forces", "dipole" },
-        { "electric_field", "forces", "electricField" },
-        { "gravity", "forces", "gravity" },
-        { "external_force", "forces", "externalForce" },
-        { "external_torque", "forces", "externalTorque" },
-        { "brownian", "brownian", "active" },
-        { "temperature", "brownian", "temperature" },
-        { "noise_interval", "brownian", "interval" },
-        { "bead_layout", "contact", "beadLayout" },
-        { "bead_count", "contact", "beads" },
-        { "bead_radius", "contact", "beadRadius" },
-        { "contact_modulus", "contact", "modulus" },
-        { "friction", "contact", "friction" },
-        { "slip_speed", "contact", "slipSpeed" },
-        { "contact_damping", "contact", "damping" },
-        { "tolerance", "integration", "tolerance" },
-        { "initial_step", "integration", "initialStep" },
-        { "minimum_step", "integration", "minimumStep" },
-        { "maximum_step", "integration", "maximumStep" },
-        { "maximum_steps", "integration", "maximumSteps" }
+        const char* field;
+        const char* section;
+        const char* entry;
+
+        //- Where a default can be at fault beside other entries
+        double ellipsoid_options::* value;
     };
+
+    static const optionEntry optionEntries[] =
+    {
+        { "semi_axes", "cell", "semiAxes", nullptr },
+        { "density", "cell", "density", nullptr },
+        { "fluid_density", "fluid", "density", nullptr },
+        { "drag", "forces", "drag", nullptr },
+        { "flow_points", "forces", "flowPoints", nullptr },
+        { "charge", "forces", "charge", nullptr },
+        { "dipole", "forces", "dipole", nullptr },
+        { "electric_field", "forces", "electricField", nullptr },
+        { "gravity", "forces", "gravity", nullptr },
+        { "external_force", "forces", "externalForce", nullptr },
+        { "external_torque", "forces", "externalTorque", nullptr },
+        { "brownian", "brownian", "active", nullptr },
+        { "temperature", "brownian", "temperature", nullptr },
+        { "noise_interval", "brownian", "interval", nullptr },
+        { "bead_layout", "contact", "beadLayout", nullptr },
+        { "bead_count", "contact", "beads", nullptr },
+        {
+            "bead_radius", "contact", "beadRadius",
+            &ellipsoid_options::bead_radius
+        },
+        { "contact_modulus", "contact", "modulus", nullptr },
+        { "friction", "contact", "friction", nullptr },
+        { "slip_speed", "contact", "slipSpeed", nullptr },
+        { "contact_damping", "contact", "damping", nullptr },
+        { "tolerance", "integration", "tolerance", nullptr },
+        { "initial_step", "integration", "initialStep", nullptr },
+        { "minimum_step", "integration", "minimumStep", nullptr },
+        {
+            "maximum_step", "integration", "maximumStep",
+            &ellipsoid_options::maximum_step
+        },
+        { "maximum_steps", "integration", "maximumSteps", nullptr }
+    };
+
+    //- A range of the core in the words of the dictionary
+    static string inWordsOfEntries(string range)
+    {
+        for (const optionEntry& known : optionEntries)
+        {
+            range.replaceAll(known.field, known.entry);
+        }
+
+        // Enumerators, and switches that are 0 or 1 in the core
+        range.replaceAll("PAPER", "paper");
+        range.replaceAll("INERTIALESS", "inertialess");
+        range.replaceAll("0 without", "no without");
+        range.replaceAll("1 with", "yes with");
+
+        return range;
+    }
+
+    //- A value as one would write it
+    template<class Type>
+    static string textOf(const Type& value)
+    {
+        OStringStream text;
+        text.precision(6);
+        text << value;
+        return text.str();
+    }
 }
 
 
@@ -227,36 +269,33 @@ void Foam::ellipsoidProperties::checkOptions() const
         return;
     }
 
-    for (const auto& known : optionEntries)
+    for (const optionEntry& known : optionEntries)
     {
-        if (word(field) == known.field)
+        if (word(field) != known.field)
         {
-            const dictionary& dict = section(known.section);
+            continue;
+        }
 
-            if (dict.found(known.entry))
-            {
-                ITstream& is =
-                    dict.lookupEntry(known.entry, keyType::LITERAL).stream();
+        const string name(string(known.section) + '/' + known.entry);
+        const dictionary& dict = section(known.section);
 
-                OStringStream value;
-                value.precision(6);
-                for (const token& t : static_cast<const tokenList&>(is))
-                {
-                    value << ' ' << t;
-                }
-
-                FatalIOErrorInFunction(is)
-                    << known.section << '/' << known.entry
-                    << value.str().c_str() << " is out of range" << nl
-                    << "    allowed: " << range
-                    << exit(FatalIOError);
-            }
+        if (dict.found(known.entry))
+        {
+            refuse(dict, known.entry, name, inWordsOfEntries(range));
+        }
+        if (known.value)
+        {
+            FatalIOErrorInFunction(*this)
+                << name.c_str() << ' ' << textOf(options_.*known.value).c_str()
+                << ", the default, is out of range" << nl
+                << "    allowed: " << inWordsOfEntries(range).c_str()
+                << exit(FatalIOError);
         }
     }
 
     FatalIOErrorInFunction(*this)
         << field << " is out of range" << nl << "    allowed: " << range
-        << exit(FatalIOError);
+        << abort(FatalIOError);
 }
 
 
@@ -426,6 +465,30 @@ void Foam::ellipsoidProperties::checkKeywords
 }
 
 
+void Foam::ellipsoidProperties::refuse
+(
+    const dictionary& dict,
+    const word& keyword,
+    const string& name,
+    const string& range
+)
+{
+    const ITstream& is = dict.lookupEntry(keyword, keyType::LITERAL).stream();
+
+    FatalIOErrorInFunction(is) << name.c_str();
+
+    // With fewer digits than files have
+    for (const token& t : static_cast<const tokenList&>(is))
+    {
+        FatalIOError<< ' ' << textOf(t).c_str();
+    }
+
+    FatalIOError
+        << " is out of range" << nl
+        << "    allowed: " << range.c_str() << exit(FatalIOError);
+}
+
+
 Foam::scalar Foam::ellipsoidProperties::getAbove
 (
     const dictionary& dict,
@@ -437,15 +500,44 @@ Foam::scalar Foam::ellipsoidProperties::getAbove
 
     if (!(value > bound && value < VGREAT))
     {
-        FatalIOErrorInFunction
-        (
-            dict.lookupEntry(keyword, keyType::LITERAL).stream()
-        )   << keyword << ' ' << value << " is out of range" << nl
-            << "    allowed: above " << bound
-            << exit(FatalIOError);
+        refuse(dict, keyword, keyword, "above " + textOf(bound));
     }
 
     return value;
+}
+
+
+Foam::label Foam::ellipsoidProperties::getWhole
+(
+    const dictionary& dict,
+    const word& keyword,
+    const label least
+)
+{
+    const label value = dict.get<label>(keyword);
+
+    if (value < least)
+    {
+        refuse
+        (
+            dict, keyword, keyword,
+            "a whole number, " + textOf(least) + " or more"
+        );
+    }
+
+    return value;
+}
+
+
+Foam::label Foam::ellipsoidProperties::getWholeOrDefault
+(
+    const dictionary& dict,
+    const word& keyword,
+    const label least,
+    const label deflt
+)
+{
+    return dict.found(keyword) ? getWhole(dict, keyword, least) : deflt;
 }
 
 

@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "readViscosity.H"
+#include "ellipsoidProperties.H"
 #include "masterFirst.H"
 #include "IOdictionary.H"
 #include "Time.H"
@@ -50,7 +51,20 @@ Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
             << " number [m2/s]" << exit(FatalIOError);
     }
 
-    return dimensionedScalar("nu", dimViscosity, dict);
+    const dimensionedScalar nu("nu", dimViscosity, dict);
+
+    // The core knows what the cells can live with
+    ellipsoid_options options(ellipsoid_options_default());
+    options.kinematic_viscosity = nu.value();
+
+    const char* range = nullptr;
+
+    if (ellipsoid_options_check(&options, nullptr, &range) != ELLIPSOID_OK)
+    {
+        ellipsoidProperties::refuse(dict, "nu", "nu", range);
+    }
+
+    return nu;
 }
 
 

@@ -19,24 +19,57 @@ Foam::throughFlow::throughFlow
     const surfaceScalarField& phi
 )
 :
+    patches_(openPatches(U.mesh().boundaryMesh())),
+    flux_(patches_.size()),
+    magFlux_(patches_.size()),
+    area_(patches_.size()),
     inflow_(0),
     inletArea_(0),
-    meanSpeed_(0)
+    meanSpeed_(0),
+    crossing_(0)
 {
     const fvMesh& mesh = U.mesh();
-    const scalar volume = gSum(mesh.V());
+    const label n = patches_.size();
 
-    meanSpeed_ = gSum(mag(U.primitiveField())*mesh.V())/volume;
+    // One message for all sums
+    scalarField sums(3*n + 2);
 
-    for (const label patchi : openPatches(mesh.boundaryMesh()))
+    forAll(patches_, i)
     {
-        const scalar flux = -gSum(phi.boundaryField()[patchi]);
+        const scalarField& phip = phi.boundaryField()[patches_[i]];
 
-        if (flux > 0 && !isRounding(flux, crossFlux(meanSpeed_, volume)))
+        sums[i] = sum(phip);
+        sums[n + i] = sum(mag(phip));
+        sums[2*n + i] = sum(mesh.magSf().boundaryField()[patches_[i]]);
+    }
+    sums[3*n] = sum(mag(U.primitiveField())*mesh.V());
+    sums[3*n + 1] = sum(mesh.V().field());
+
+    Pstream::listCombineGather(sums, plusEqOp<scalar>());
+    Pstream::listCombineScatter(sums);
+
+    const scalar volume = sums[3*n + 1];
+    meanSpeed_ = sums[3*n]/volume;
+    crossing_ = meanSpeed_*pow(volume, 2.0/3.0);
+
+    forAll(patches_, i)
+    {
+        flux_[i] = sums[i];
+        magFlux_[i] = sums[n + i];
+        area_[i] = sums[2*n + i];
+
+        // Rounding of a velocity along the patch is no inflow. A channel so
+        // thin would be 1e13 times as long as wide.
+        if (-flux_[i] > 1e-9*crossing_)
         {
-            inflow_ += flux;
-            inletArea_ += gSum(mesh.magSf().boundaryField()[patchi]);
+            inflow_ -= flux_[i];
+            inletArea_ += area_[i];
         }
+    }
+
+    if (!closed())
+    {
+        crossing_ = inflow_;
     }
 }
 

@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "undecomposedFlow.H"
+#include "masterFirst.H"
 #include "labelIOList.H"
 #include "calculatedFvPatchFields.H"
 #include "calculatedFvsPatchFields.H"
@@ -120,9 +121,7 @@ template<class Type>
 Foam::autoPtr<Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh>>
 Foam::undecomposedFlow::gather
 (
-    const GeometricField<Type, fvPatchField, volMesh>& field,
-    const labelList& cellAddressing,
-    const labelList& faceAddressing
+    const GeometricField<Type, fvPatchField, volMesh>& field
 ) const
 {
     typedef GeometricField<Type, fvPatchField, volMesh> fieldType;
@@ -142,7 +141,7 @@ Foam::undecomposedFlow::gather
         {
             forAll(pf, i)
             {
-                faces.append(mag(faceAddressing[pf.patch().start() + i]) - 1);
+                faces.append(mag(faceAddressing_[pf.patch().start() + i]) - 1);
                 faceValues.append(pf[i]);
             }
         }
@@ -153,7 +152,7 @@ Foam::undecomposedFlow::gather
     List<labelList> allFaces(Pstream::nProcs());
     List<List<Type>> allFaceValues(Pstream::nProcs());
 
-    allCells[Pstream::myProcNo()] = cellAddressing;
+    allCells[Pstream::myProcNo()] = cellAddressing_;
     allValues[Pstream::myProcNo()] = field.primitiveField();
     allFaces[Pstream::myProcNo()] = faces;
     allFaceValues[Pstream::myProcNo()] = faceValues;
@@ -214,13 +213,12 @@ Foam::undecomposedFlow::gather
 
 Foam::autoPtr<Foam::surfaceScalarField> Foam::undecomposedFlow::gather
 (
-    const surfaceScalarField& flux,
-    const labelList& faceAddressing
+    const surfaceScalarField& flux
 ) const
 {
     // Addresses count from 1, negative where the face looks the other way
-    labelList faces(faceAddressing);
-    scalarField faceValues(faceAddressing.size(), Zero);
+    labelList faces(faceAddressing_);
+    scalarField faceValues(faces.size(), Zero);
 
     forAll(flux, facei)
     {
@@ -300,33 +298,26 @@ Foam::autoPtr<Foam::surfaceScalarField> Foam::undecomposedFlow::gather
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::undecomposedFlow::undecomposedFlow
-(
-    const volVectorField& U,
-    const volScalarField& p,
-    const surfaceScalarField& phi
-)
+Foam::undecomposedFlow::undecomposedFlow(const fvMesh& mesh)
 :
+    part_(mesh),
+    cellAddressing_(),
+    faceAddressing_(),
     time_(),
     mesh_(),
     UGathered_(),
     pGathered_(),
     phiGathered_(),
-    U_(&U),
-    p_(&p),
-    phi_(&phi),
+    U_(nullptr),
+    p_(nullptr),
+    phi_(nullptr),
     cellRank_(),
     cellLocal_()
 {
-    const polyMesh& mesh = U.mesh();
-
-    labelList cellAddressing;
-    labelList faceAddressing;
-
     if (Pstream::parRun())
     {
-        cellAddressing = readAddressing("cellProcAddressing", mesh);
-        faceAddressing = readAddressing("faceProcAddressing", mesh);
+        cellAddressing_ = readAddressing("cellProcAddressing", mesh);
+        faceAddressing_ = readAddressing("faceProcAddressing", mesh);
 
         if (Pstream::master())
         {
@@ -339,6 +330,8 @@ Foam::undecomposedFlow::undecomposedFlow
         Pstream::scatter(nWhole);
         const label nParts = returnReduce(mesh.nCells(), sumOp<label>());
 
+        const masterFirst once;
+
         if (nWhole != nParts)
         {
             FatalErrorInFunction
@@ -347,25 +340,14 @@ Foam::undecomposedFlow::undecomposedFlow
                 << "    Run decomposePar -force again"
                 << exit(FatalError);
         }
-
-        UGathered_ = gather(U, cellAddressing, faceAddressing);
-        pGathered_ = gather(p, cellAddressing, faceAddressing);
-        phiGathered_ = gather(phi, faceAddressing);
-
-        if (Pstream::master())
-        {
-            U_ = UGathered_.get();
-            p_ = pGathered_.get();
-            phi_ = phiGathered_.get();
-        }
     }
     else
     {
-        cellAddressing = identity(mesh.nCells());
+        cellAddressing_ = identity(mesh.nCells());
     }
 
     List<labelList> allCells(Pstream::nProcs());
-    allCells[Pstream::myProcNo()] = cellAddressing;
+    allCells[Pstream::myProcNo()] = cellAddressing_;
     Pstream::gatherList(allCells);
     Pstream::scatterList(allCells);
 
@@ -402,6 +384,37 @@ Foam::undecomposedFlow::~undecomposedFlow()
         UGathered_.clear();
         mesh_.clear();
         time_.clear();
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::undecomposedFlow::gather
+(
+    const volVectorField& U,
+    const volScalarField& p,
+    const surfaceScalarField& phi
+)
+{
+    U_ = &U;
+    p_ = &p;
+    phi_ = &phi;
+
+    if (!Pstream::parRun())
+    {
+        return;
+    }
+
+    UGathered_ = gather(U);
+    pGathered_ = gather(p);
+    phiGathered_ = gather(phi);
+
+    if (Pstream::master())
+    {
+        U_ = UGathered_.get();
+        p_ = pGathered_.get();
+        phi_ = phiGathered_.get();
     }
 }
 

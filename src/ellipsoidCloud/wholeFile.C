@@ -16,8 +16,14 @@ License
 #include "SHA1.H"
 #include "Time.H"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <fstream>
 #include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -29,13 +35,61 @@ namespace Foam
         return file + ".part";
     }
 
-    //- Give a file that was written its own name
-    static void rename(const fileName& part, const fileName& file)
+    //- What the system says to writing a file, or another beside it; 0 if it
+    //  does not mind
+    static int objection(const fileName& file)
+    {
+        int at = ::open(file.c_str(), O_WRONLY | O_APPEND);
+
+        if (at < 0 && errno != ENOENT)
+        {
+            return errno;
+        }
+        if (at >= 0)
+        {
+            ::close(at);
+        }
+
+        at = ::open(partOf(file).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+
+        if (at < 0)
+        {
+            return errno;
+        }
+
+        const std::vector<char> block(1 << 16);
+        const auto write =
+            [&]()
+            {
+                return
+                    ::write(at, block.data(), block.size())
+                 == ssize_t(block.size());
+            };
+
+        // If it takes a part, it says why to the next
+        errno = 0;
+        const bool done = (write() || write()) && ::fsync(at) == 0;
+        const int reason = done ? 0 : errno;
+
+        ::close(at);
+        ::unlink(partOf(file).c_str());
+
+        return reason;
+    }
+
+    //- Give a file that was written its own name; the reason is that of what
+    //  it may lack
+    static void rename
+    (
+        const fileName& part,
+        const fileName& file,
+        const int reason
+    )
     {
         if (!fileContent(part).ended)
         {
             rm(part);
-            cannotWrite(file);
+            cannotWrite(file, reason);
         }
 
         // Compressed or not, as the writing option has it
@@ -47,7 +101,7 @@ namespace Foam
             std::rename((part + suffix).c_str(), (file + suffix).c_str())
         )
         {
-            cannotWrite(file);
+            cannotWrite(file, errno);
         }
         if (isFile(file + other, false))
         {
@@ -104,6 +158,7 @@ Foam::fileContent::fileContent(const fileName& file)
 Foam::fileName Foam::failedFile(const std::function<void()>& write)
 {
     fileName file;
+    int reason = 0;
     const bool throwing = FatalIOError.throwExceptions();
 
     try
@@ -112,6 +167,7 @@ Foam::fileName Foam::failedFile(const std::function<void()>& write)
     }
     catch (const IOerror& error)
     {
+        reason = errno;
         file = error.ioFileName();
     }
 
@@ -119,16 +175,39 @@ Foam::fileName Foam::failedFile(const std::function<void()>& write)
     {
         FatalIOError.dontThrowExceptions();
     }
+    if (!file.empty())
+    {
+        errno = reason;
+    }
 
     return file;
 }
 
 
-void Foam::cannotWrite(const fileName& file)
+void Foam::cannotWrite(const fileName& file, int reason)
 {
+    if (!reason)
+    {
+        reason = objection(file);
+    }
+
     FatalErrorInFunction
-        << "cannot write " << file << ": is the disk full?"
+        << "cannot write " << file << ": "
+        << (reason ? std::strerror(reason) : "its end is missing")
         << exit(FatalError);
+}
+
+
+void Foam::leaveNote(const fileName& file)
+{
+    mkDir(file.path());
+    std::ofstream os(file);
+    os << "Not all of this time is written\n";
+
+    if (!os.flush())
+    {
+        cannotWrite(file, errno);
+    }
 }
 
 
@@ -141,7 +220,7 @@ void Foam::writeWhole(const dictionary& dict, const fileName& file)
         dict.write(os, false);
         IOobject::writeEndDivider(os);
     }
-    rename(partOf(file), file);
+    rename(partOf(file), file, errno);
 }
 
 
@@ -185,7 +264,7 @@ void Foam::writeWhole(regIOobject& object)
             }
         );
     }
-    rename(partOf(file), file);
+    rename(partOf(file), file, errno);
 }
 
 

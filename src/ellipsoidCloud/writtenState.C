@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "writtenState.H"
+#include "masterFirst.H"
 #include "wholeFile.H"
 #include "argList.H"
 #include "cloud.H"
@@ -29,6 +30,12 @@ namespace Foam
     {
         label all = 1;
         reduce(all, sumOp<label>());
+    }
+
+    //- Do ranks share files?
+    static bool sharedFiles()
+    {
+        return fileHandler().type() == "collated";
     }
 
     //- Take the bytes of a list into a digest
@@ -115,6 +122,12 @@ Foam::fileName Foam::writtenState::markFile(const fileName& path)
 }
 
 
+Foam::fileName Foam::writtenState::unfinishedFile(const fileName& path)
+{
+    return path/"uniform"/"ellipsoidCloudUnfinished";
+}
+
+
 Foam::fileName Foam::writtenState::cellFolder(const fileName& path)
 {
     return path/cloud::prefix/"ellipsoidCloud";
@@ -123,12 +136,21 @@ Foam::fileName Foam::writtenState::cellFolder(const fileName& path)
 
 Foam::dictionary Foam::writtenState::readMark(const fileName& path)
 {
-    if (!isFile(markFile(path)))
+    fileName file(markFile(path));
+
+    if (sharedFiles() && !isFile(file))
+    {
+        // Where decomposePar puts a copy
+        const word parts("processors" + Foam::name(Pstream::nProcs()));
+        file = markFile(path.path().path()/parts/path.name());
+    }
+
+    if (!isFile(file))
     {
         return dictionary();
     }
 
-    IFstream is(markFile(path));
+    IFstream is(file);
     return dictionary(is);
 }
 
@@ -146,6 +168,15 @@ bool Foam::writtenState::isCopy
          || mark.get<label>("rank") != Pstream::myProcNo()
          || mark.get<label>("ranks") != Pstream::nProcs()
         );
+}
+
+
+bool Foam::writtenState::begun(const fileName& path)
+{
+    return
+        isFile(markFile(path))
+     || isFile(unfinishedFile(path))
+     || isDir(cellFolder(path));
 }
 
 
@@ -171,6 +202,32 @@ Foam::string Foam::writtenState::findDamage() const
         if (found.digest != e.dict().get<string>("digest"))
         {
             return file + " is damaged: it is not what was written";
+        }
+    }
+
+    return string();
+}
+
+
+Foam::string Foam::writtenState::findOtherName(const Time& time)
+{
+    for (const word& name : timeNames(time.path()))
+    {
+        scalar value;
+        readScalar(name.c_str(), value);
+
+        if
+        (
+            name != time.timeName()
+         && mag(value - time.value()) < 1e-6*time.deltaTValue()
+         && begun(time.path()/name)
+        )
+        {
+            return
+                "the cells of this time are in the directory " + name
+              + ", which by timeFormat and timePrecision of controlDict is now "
+              + time.timeName() + "\n"
+              + "    Put these entries back, or rename the directory";
         }
     }
 
@@ -214,14 +271,17 @@ Foam::writtenState::writtenState(const Time& time)
 
     // Where ranks share a file the folder is another, and asking is collective
     const bool shared = isDir(fileHandler().filePath(cellFolder(path_)));
-    const bool cells =
-        returnReduce(shared || isDir(cellFolder(path_)), orOp<bool>());
+    const bool some = returnReduce(shared || begun(path_), orOp<bool>());
 
     // The first complaint of any rank, said once
     List<string> complaints(Pstream::nProcs());
     string& complaint = complaints[Pstream::myProcNo()];
 
-    if (!all && !copies && (found() || cells))
+    if (!some)
+    {
+        complaint = findOtherName(time);
+    }
+    else if (!all && !copies)
     {
         complaint =
             "time " + time.timeName() + " was not written to its end";
@@ -231,23 +291,24 @@ Foam::writtenState::writtenState(const Time& time)
         complaint = findDamage();
     }
 
-    Pstream::gatherList(complaints);
-
-    if (Pstream::master())
+    if (some && !complaint.empty())
     {
-        for (const string& text : complaints)
+        complaint +=
+            "\n    Remove the directory " + time.timeName()
+          + (Pstream::parRun() ? " of every processor" : "")
+          + " to go on from an earlier time";
+    }
+
+    Pstream::gatherList(complaints);
+    const masterFirst once;
+
+    for (const string& text : complaints)
+    {
+        if (!text.empty())
         {
-            if (!text.empty())
-            {
-                FatalErrorInFunction
-                    << text.c_str() << nl
-                    << "    Remove the directory " << time.timeName()
-                    << (Pstream::parRun() ? " of every processor" : "")
-                    << " to go on from an earlier time" << exit(FatalError);
-            }
+            FatalErrorInFunction << text.c_str() << exit(FatalError);
         }
     }
-    meet();
 }
 
 
@@ -264,9 +325,21 @@ Foam::dictionary Foam::writtenState::notesOf(const polyMesh& mesh)
         addTo(digest, f);
     }
 
+    // The log and the cells name patches, or count them
+    dictionary patches;
+    for (const polyPatch& pp : mesh.boundaryMesh())
+    {
+        dictionary patch;
+        patch.add("type", pp.type());
+        patch.add("start", pp.start());
+        patch.add("faces", pp.size());
+        patches.add(pp.name(), patch);
+    }
+
     dictionary dict;
     dict.add("cells", mesh.nCells());
     dict.add("digest", string(digest.str()));
+    dict.add("patches", patches);
     return dict;
 }
 
@@ -280,13 +353,48 @@ void Foam::writtenState::checkMesh(const polyMesh& whole) const
 
     const dictionary& then = notes_.subDict("mesh");
     const dictionary now(notesOf(whole));
+    const dictionary& patchesThen = then.subDict("patches");
+    const dictionary& patchesNow = now.subDict("patches");
+
+    OStringStream difference;
 
     if (then.get<string>("digest") != now.get<string>("digest"))
     {
+        difference
+            << "it had " << then.get<label>("cells")
+            << " mesh cells, this one has " << whole.nCells();
+    }
+    else if (patchesThen.toc() != patchesNow.toc())
+    {
+        difference
+            << "its patches were " << flatOutput(patchesThen.toc())
+            << ", now they are " << flatOutput(patchesNow.toc());
+    }
+    else
+    {
+        for (const word& name : patchesThen.toc())
+        {
+            const dictionary& was = patchesThen.subDict(name);
+            const dictionary& is = patchesNow.subDict(name);
+
+            if (was != is)
+            {
+                difference
+                    << "patch " << name << " was of type "
+                    << was.get<word>("type") << " with "
+                    << was.get<label>("faces") << " faces, and is now of type "
+                    << is.get<word>("type") << " with "
+                    << is.get<label>("faces");
+                break;
+            }
+        }
+    }
+
+    if (!difference.str().empty())
+    {
         FatalErrorInFunction
-            << path_ << " holds cells of another mesh: it had "
-            << then.get<label>("cells") << " mesh cells, this one has "
-            << whole.nCells() << nl
+            << path_ << " holds cells of another mesh: "
+            << difference.str().c_str() << nl
             << "    Put the mesh back, or start again from the first time"
             << exit(FatalError);
     }
@@ -295,7 +403,8 @@ void Foam::writtenState::checkMesh(const polyMesh& whole) const
 
 void Foam::writtenState::setAsideIncomplete(const argList& args)
 {
-    if (!fromLatestTime(args))
+    // Where ranks share files, times without their end are refused, not moved
+    if (!fromLatestTime(args) || sharedFiles())
     {
         return;
     }
@@ -316,7 +425,6 @@ void Foam::writtenState::setAsideIncomplete(const argList& args)
         const fileName path(args.path()/names[i]);
 
         const dictionary mark(readMark(path));
-        const bool begun = !mark.empty() || isDir(cellFolder(path));
         const bool other = isFile(path/"U") || isDir(path/"polyMesh");
 
         if (returnReduce(isCopy(mark, path), orOp<bool>()))
@@ -336,7 +444,7 @@ void Foam::writtenState::setAsideIncomplete(const argList& args)
         // A flow or mesh to start from, or another program's
         if
         (
-            !returnReduce(begun, orOp<bool>())
+            !returnReduce(begun(path), orOp<bool>())
          && (!tracked || returnReduce(other, orOp<bool>()))
         )
         {
@@ -367,12 +475,15 @@ void Foam::writtenState::begin(const Time& time)
 {
     const fileName path(time.path()/time.timeName());
 
-    rm(markFile(path));
+    // A link of decomposePar leads into the undecomposed case, whose mark stays
     if (Foam::type(path/"uniform", false) == fileName::LINK)
     {
         rm(path/"uniform");
     }
+
+    leaveNote(unfinishedFile(path));
     meet();
+    rm(markFile(path));
     rmDir(cellFolder(path), true);
 }
 
@@ -405,6 +516,7 @@ void Foam::writtenState::end(const Time& time, const dictionary& notes)
     // No mark before all ranks have written
     meet();
     writeWhole(mark, markFile(path));
+    rm(unfinishedFile(path));
 }
 
 

@@ -60,15 +60,19 @@ set_decomposition()     # N METHOD '(NX NY NZ)'
     } > system/decomposeParDict
 }
 
-# Runs the solver in the present folder, decomposed if on more than one rank; its output goes to log, and the end of that is shown
-run_cells()     # RANKS
+# Runs the solver in the present folder, decomposed if on more than one rank; its
+# output goes to log, and the end of that is shown. A rank that waits for ever shall
+# not hold the test: $run_limit [s], 600 if not set.
+run_cells()     # RANKS [OPTION...]
 {
     local status n=$1
-    if [ "$n" -eq 1 ]; then
-        ellipsoidTrapFoam > log 2>&1
-    else
-        mpirun --oversubscribe -np "$n" ellipsoidTrapFoam -parallel > log 2>&1
+    local run=(timeout -k 10 "${run_limit:-600}")
+    shift
+    if [ "$n" -gt 1 ]; then
+        run+=(mpirun --oversubscribe -np "$n")
+        set -- -parallel "$@"
     fi
+    "${run[@]}" ellipsoidTrapFoam "$@" > log 2>&1
     status=$?
     # For whoever reads why a test failed
     sed '1,/^Create time/d' log | tail -n 40
@@ -76,14 +80,19 @@ run_cells()     # RANKS
 }
 
 # All files of a case but logs and what tests change on purpose
-files()         { find . -type f ! -name 'log*' ! -name ellipsoidCloudProperties ! -path './system/*' -exec cksum {} + | sort -k 3; }
-
-# What the run on so many ranks must say: one message with all of these in it
-refused()       # RANKS REGEX...
+files()
 {
-    local text found status=0
-    # A rank that waits for ever shall not hold the test
-    timeout 60 bash -c "$(declare -f run_cells); run_cells $1" > log.shown
+    find . -type f ! -name 'log*' ! -name ellipsoidCloudProperties ! -path './system/*' \
+        -exec cksum {} + | sort -k 3
+}
+
+# What the run on so many ranks must say: one message with all of these in it. If an
+# option is to be given, it stands before the ranks.
+refused()       # [-OPTION] RANKS REGEX...
+{
+    local text found status=0 option=()
+    if [ "${1#-}" != "$1" ]; then option=("$1"); shift; fi
+    run_limit=60 run_cells "$1" "${option[@]}" > log.shown
     found=$?
     shift
     sed '1,/^Create time/d' log
@@ -98,7 +107,7 @@ refused()       # RANKS REGEX...
 }
 
 # Solves the flow of a case whose mesh is there
-solve_flow()    { ellipsoidTrapFoam -flowOnly > log.flow 2>&1 || { tail -n 20 log.flow; return 1; }; }
+solve_flow()    { run_cells 1 -flowOnly; }
 
 # The tables of two cases, byte by byte
 same_tables()   # CASE OTHER

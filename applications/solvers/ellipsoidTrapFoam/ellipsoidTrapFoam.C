@@ -40,6 +40,7 @@ SourceFiles
 #include "columnFvMesh.H"
 #include "ellipsoidCloud.H"
 #include "steadyFlow.H"
+#include "wholeFile.H"
 #include "writtenState.H"
 
 using namespace Foam;
@@ -73,16 +74,10 @@ int main(int argc, char *argv[])
     #include "createMesh.H"
 
     // Read before the flow takes its time: bad input ends the run here
-    scalar density = 0;
+    autoPtr<ellipsoidCloud> cells;
     if (!flowOnly)
     {
-        density = ellipsoidProperties(mesh).options().fluid_density;
-
-        const writtenState earlier(runTime);
-        if (!Pstream::parRun())
-        {
-            earlier.checkMesh(mesh);
-        }
+        cells.reset(new ellipsoidCloud(mesh));
     }
 
     steadyFlow flow(mesh);
@@ -93,26 +88,31 @@ int main(int argc, char *argv[])
         flow.write();
     }
 
-    flow.report(density);
+    flow.report(flowOnly ? 0 : cells->fluidDensity());
 
     if (!flowOnly)
     {
-        ellipsoidCloud cells(flow.U(), flow.p(), flow.phi());
+        cells->setFlow(flow.U(), flow.p(), flow.phi());
 
         while (runTime.loop())
         {
-            cells.evolve();
+            cells->evolve();
 
-            if (!runTime.write() && runTime.writeTime())
+            if (runTime.writeTime())
             {
-                FatalErrorInFunction
-                    << "cannot write time " << runTime.timeName()
-                    << ": is the disk full, or not writable?"
-                    << exit(FatalError);
+                writtenState::begin(runTime);
+
+                if (!runTime.write())
+                {
+                    cannotWrite
+                    (
+                        runTime.path()/runTime.timeName()/"uniform"/"time"
+                    );
+                }
             }
         }
 
-        cells.finish();
+        cells->finish();
     }
 
     Info<< "End\n" << endl;

@@ -9,9 +9,10 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "flowConvergence.H"
+#include "ellipsoidProperties.H"
 #include "fvcDiv.H"
 #include "fvMesh.H"
-#include "throughFlow.H"
+#include "masterFirst.H"
 
 #include <cmath>
 
@@ -61,45 +62,20 @@ Foam::scalarField Foam::flowConvergence::record
     const surfaceScalarField& phi
 )
 {
-    const label nPatches = openPatches_.size();
+    through_.reset(new throughFlow(U, phi));
 
-    scalarField values(nPatches + 1);
-    scalarField scales(nPatches + 1);
+    const label nPatches = through_->patches().size();
 
-    inflow_ = 0;
-    forAll(openPatches_, i)
-    {
-        const scalarField& patchPhi = phi.boundaryField()[openPatches_[i]];
-        values[i] = sum(patchPhi);
-        scales[i] = sum(mag(patchPhi));
-        inflow_ -= sum(min(patchPhi, scalar(0)));
-    }
-    values[nPatches] = sum(mag(U.primitiveField())*mesh_.V());
+    scalarField values(through_->flux());
+    values.append(through_->meanSpeed());
 
-    reduce(inflow_, sumOp<scalar>());
-    Pstream::listCombineGather(values, plusEqOp<scalar>());
-    Pstream::listCombineScatter(values);
-    Pstream::listCombineGather(scales, plusEqOp<scalar>());
-    Pstream::listCombineScatter(scales);
-
-    const scalar volume = gSum(mesh_.V());
-
-    values[nPatches] /= volume;
-    meanSpeed_ = scales[nPatches] = values[nPatches];
-
-    // A closed domain is as good as one with a flow across it
-    const scalar across = throughFlow::crossFlux(meanSpeed_, volume);
-
-    if (throughFlow::isRounding(inflow_, across))
-    {
-        inflow_ = 0;
-    }
-    through_ = inflow_ > 0 ? inflow_ : across;
+    scalarField scales(through_->magFlux());
+    scales.append(through_->meanSpeed());
 
     // A flux that is nothing beside the others need not be as exact
     for (label i = 0; i < nPatches; ++i)
     {
-        scales[i] = max(scales[i], fluxTolerance_*through_);
+        scales[i] = max(scales[i], fluxTolerance_*through_->crossing());
     }
 
     history_.append(values);
@@ -165,29 +141,25 @@ Foam::flowConvergence::flowConvergence
 )
 :
     mesh_(mesh),
-    openPatches_(throughFlow::openPatches(mesh.boundaryMesh())),
     fluxTolerance_(),
     fluxWindow_(),
     target_(),
     value_(),
-    inflow_(0),
-    through_(0),
-    meanSpeed_(0),
+    through_(),
     history_()
 {
-    const auto positive = [](const scalar x){ return x > 0; };
+    typedef ellipsoidProperties entries;
+
+    const masterFirst once;
 
     const dictionary targets(dict.subOrEmptyDict("residualControl"));
 
-    fluxTolerance_ =
-        dict.getCheckOrDefault<scalar>("fluxTolerance", 1e-4, positive);
-    fluxWindow_ = dict.getCheckOrDefault<label>("fluxWindow", 10, positive);
+    fluxTolerance_ = entries::getAboveOrDefault(dict, "fluxTolerance", 0, 1e-4);
+    fluxWindow_ = entries::getWholeOrDefault(dict, "fluxWindow", 1, 10);
 
     target_ = fluxTolerance_;
-    target_[mPressure] =
-        targets.getCheckOrDefault<scalar>("p", 1e-5, positive);
-    target_[mVelocity] =
-        targets.getCheckOrDefault<scalar>("U", 1e-5, positive);
+    target_[mPressure] = entries::getAboveOrDefault(targets, "p", 0, 1e-5);
+    target_[mVelocity] = entries::getAboveOrDefault(targets, "U", 0, 1e-5);
 }
 
 
@@ -221,7 +193,7 @@ void Foam::flowConvergence::update
     value_[mForces] = forces.net;
     value_[mContinuity] =
         gSum(mag(fvc::div(phi)().primitiveField())*mesh_.V())
-       /(through_ + VSMALL);
+       /(through_->crossing() + VSMALL);
     value_[mFluxChange] = fluxChange(scales);
 }
 
@@ -239,7 +211,9 @@ bool Foam::flowConvergence::sound() const
         }
     }
 
-    return std::isfinite(meanSpeed_) && meanSpeed_ < maxSpeed;
+    const scalar meanSpeed = through_->meanSpeed();
+
+    return std::isfinite(meanSpeed) && meanSpeed < maxSpeed;
 }
 
 

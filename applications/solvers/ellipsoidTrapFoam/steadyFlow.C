@@ -13,6 +13,8 @@ License
 #include "clockTime.H"
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
+#include "ellipsoidParcel.H"
+#include "ellipsoidProperties.H"
 #include "findRefCell.H"
 #include "fvcDiv.H"
 #include "fvcFlux.H"
@@ -29,11 +31,9 @@ License
 #include "sigFpe.H"
 #include "StringStream.H"
 #include "surfaceInterpolate.H"
-#include "throughFlow.H"
 #include "wholeFile.H"
 
 #include <cmath>
-#include <limits>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -143,6 +143,20 @@ static void checkFinite
     }
 }
 
+
+// A control; what is wrong with it is said once
+static label wholeNumber
+(
+    const dictionary& dict,
+    const word& keyword,
+    const label least,
+    const label deflt
+)
+{
+    const masterFirst once;
+    return ellipsoidProperties::getWholeOrDefault(dict, keyword, least, deflt);
+}
+
 } // End namespace Foam
 
 
@@ -160,6 +174,8 @@ Foam::IOobject Foam::steadyFlow::fieldIO
 
 void Foam::steadyFlow::checkControls() const
 {
+    const masterFirst once;
+
     const wordHashSet known
     ({
         "consistent", "nNonOrthogonalCorrectors", "maxIterations",
@@ -312,19 +328,26 @@ void Foam::steadyFlow::iterate()
 }
 
 
+Foam::fileName Foam::steadyFlow::unfinishedFile(const word& instance) const
+{
+    return mesh_.time().path()/instance/"U.unfinished";
+}
+
+
 void Foam::steadyFlow::reportProgress(const label iteration) const
 {
     Info<< "flow: iteration " << iteration << ": "
         << convergence_.measures().c_str();
 
-    if (convergence_.inflow() > 0)
+    const throughFlow& through = convergence_.through();
+
+    if (through.closed())
     {
-        Info<< ", inflow " << text(convergence_.inflow()) << " m3/s" << endl;
+        Info<< ", mean speed " << text(through.speed()) << " m/s" << endl;
     }
     else
     {
-        Info<< ", mean speed " << text(convergence_.meanSpeed()) << " m/s"
-            << endl;
+        Info<< ", inflow " << text(through.inflow()) << " m3/s" << endl;
     }
 }
 
@@ -338,23 +361,14 @@ Foam::steadyFlow::steadyFlow(const fvMesh& mesh)
     consistent_(controls_.getOrDefault("consistent", true)),
     nNonOrthogonalCorrectors_
     (
-        controls_.getCheckOrDefault<label>
-        (
-            "nNonOrthogonalCorrectors",
-            0,
-            [](const label n){ return n >= 0; }
-        )
+        wholeNumber(controls_, "nNonOrthogonalCorrectors", 0, 0)
     ),
-    maxIterations_
-    (
-        controls_.getCheckOrDefault<label>
-        (
-            "maxIterations",
-            2000,
-            [](const label n){ return n > 0; }
-        )
-    ),
+    maxIterations_(wholeNumber(controls_, "maxIterations", 1, 2000)),
     instance_(mesh.time().findInstance(mesh.dbDir(), "U")),
+    unfinished_
+    (
+        returnReduce(isFile(unfinishedFile(instance_)), orOp<bool>())
+    ),
     nu_(readViscosity(mesh)),
     U_(fieldIO("U", IOobject::MUST_READ), mesh),
     p_(fieldIO("p", IOobject::MUST_READ), mesh),
@@ -382,6 +396,12 @@ Foam::steadyFlow::steadyFlow(const fvMesh& mesh)
 
 bool Foam::steadyFlow::converged()
 {
+    if (unfinished_)
+    {
+        Info<< "flow: not all of it was written in " << instance_ << endl;
+        return false;
+    }
+
     const volVectorField URead(U_);
     const volScalarField pRead(p_);
     const surfaceScalarField phiRead(phi_);
@@ -436,7 +456,7 @@ void Foam::steadyFlow::solve()
             FatalIOErrorInFunction(controls_)
                 << "The flow diverges: iteration " << iteration << " left "
                 << convergence_.measures().c_str() << ", mean speed "
-                << text(convergence_.meanSpeed()) << " m/s" << nl
+                << text(convergence_.through().meanSpeed()) << " m/s" << nl
                 << "Nothing was written. Lower the relaxationFactors, or check"
                 << " the boundary conditions and nu." << exit(FatalIOError);
         }
@@ -457,24 +477,24 @@ void Foam::steadyFlow::solve()
 
 void Foam::steadyFlow::write()
 {
-    // Enough digits to read back the same numbers
-    const unsigned asked = IOstream::defaultPrecision
-    (
-        std::numeric_limits<scalar>::max_digits10
-    );
+    const fullPrecision digits;
+    const word& instance = mesh_.time().timeName();
 
+    leaveNote(unfinishedFile(instance));
     writeWhole(phi_);
     writeWhole(p_);
     writeWhole(U_);
-    Info<< "flow: written to " << mesh_.time().timeName() << endl;
+    label all = 1;
+    reduce(all, sumOp<label>());
+    rm(unfinishedFile(instance));
 
-    IOstream::defaultPrecision(asked);
+    Info<< "flow: written to " << mesh_.time().timeName() << endl;
 }
 
 
 void Foam::steadyFlow::report(const scalar density) const
 {
-    const throughFlow through(U_, phi_);
+    const throughFlow& through = convergence_.through();
 
     if (through.closed())
     {
@@ -483,25 +503,25 @@ void Foam::steadyFlow::report(const scalar density) const
         return;
     }
 
-    scalar inflow = 0, inP = 0;
+    scalar inP = 0;
     scalar outflow = 0, outP = 0;
 
-    for (const label patchi : convergence_.openPatches())
+    forAll(through.patches(), i)
     {
-        const scalarField& phip = phi_.boundaryField()[patchi];
-        const scalarField& pp = p_.boundaryField()[patchi];
-        const scalarField& magSf = mesh_.magSf().boundaryField()[patchi];
-
-        const scalar flux = gSum(phip);
-        const scalar area = gSum(magSf);
-
         // A patch may have no faces
-        if (area <= 0)
+        if (through.area()[i] <= 0)
         {
             continue;
         }
 
-        const scalar patchP = gSum(pp*magSf)/area;
+        const label patchi = through.patches()[i];
+        const scalar flux = through.flux()[i];
+        const scalar patchP =
+            gSum
+            (
+                p_.boundaryField()[patchi]*mesh_.magSf().boundaryField()[patchi]
+            )
+           /through.area()[i];
 
         Info<< "flow: " << mesh_.boundary()[patchi].name() << ": "
             << text(mag(flux)) << " m3/s " << (flux < 0 ? "in" : "out")
@@ -509,7 +529,6 @@ void Foam::steadyFlow::report(const scalar density) const
 
         if (flux < 0)
         {
-            inflow -= flux;
             inP -= flux*patchP;
         }
         else
@@ -522,9 +541,9 @@ void Foam::steadyFlow::report(const scalar density) const
     Info<< "flow: mean inlet speed " << text(through.speed()) << " m/s"
         << endl;
 
-    if (inflow > 0 && outflow > 0)
+    if (outflow > 0)
     {
-        const scalar drop = inP/inflow - outP/outflow;
+        const scalar drop = inP/through.inflow() - outP/outflow;
 
         Info<< "flow: pressure drop " << text(drop) << " m2/s2";
 
