@@ -170,9 +170,12 @@ void Foam::ellipsoidProperties::readOptions()
     const dictionary& contact = section("contact");
     checkKeywords
     (
-        contact, {"active", "beadLayout", "beads", "beadRadius", "modulus"}
+        contact,
+        {"active", "cells", "beadLayout", "beads", "beadRadius", "modulus"}
     );
     options_.contact = contact.getOrDefault("active", Switch(options_.contact));
+    pushing_ = contact.getOrDefault("cells", Switch(true));
+    pushing_ = pushing_ && options_.contact;
     options_.bead_layout =
         layoutNames_.getOrDefault("beadLayout", contact, options_.bead_layout);
     options_.bead_count = contact.getOrDefault("beads", options_.bead_count);
@@ -308,6 +311,7 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     options_(ellipsoid_options_default()),
     scheme_(frozenFlow::stCellPoint),
     seed_(1),
+    pushing_(true),
     empty_()
 {
     options_.kinematic_viscosity = readViscosity(mesh).value();
