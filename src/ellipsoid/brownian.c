@@ -13,7 +13,7 @@
     Where the interval is many relaxation times long nobody wants to follow
     that: the layer is crossed in one go.
 */
-#include "ellipsoidInternal.h"
+#include "integrator.h"
 
 #include <float.h>
 
@@ -84,46 +84,27 @@ void ellipsoid_add_noise(const ellipsoid_noise *noise, double axis[3][3],
     }
 }
 
-/*
-    Leading order of matched asymptotics. u_b being the balanced velocity,
-        m du/dt = mu R K^ R^T (u_b - u)
-    leaves x displaced by R m (mu K^)^-1 R^T (u - u_b), and u = u_b; and likewise
-    the rotation. A cell that touches is not displaced.
-*/
-ellipsoid_status ellipsoid_cross_layer(const ellipsoid_problem *problem,
-                                       double t, double until,
-                                       ellipsoid_state *state)
+/* Is the layer at t, where the noise of this cell jumps, to be crossed? */
+static int is_thin(const ellipsoid_problem *p, double t, double until)
 {
-    const ellipsoid_model *m = problem->model;
-    const ellipsoid_noise *noise = problem->noise;
+    const ellipsoid_noise *noise = p->noise;
     const double slowest =
-        fmax(m->relaxation_time, m->rotation_relaxation_time);
-    const double *q = state->q, conjugate[4] = {q[0], q[1], q[2], -q[3]};
-    ellipsoid_state after = *state, unused;
-    ellipsoid_contact contact;
-    double axis[3][3], slip[3], angle[3], turn[4];
-    ellipsoid_status status;
+        fmax(p->model->relaxation_time, p->model->rotation_relaxation_time);
 
-    if (!noise || !problem->inertial
-        || fabs(t - noise->start) > 8 * DBL_EPSILON * fmax(fabs(t), until - t)
-        || until - t < many * slowest)
-    {
-        return ELLIPSOID_OK;
-    }
-    status =
-        ellipsoid_problem_evaluate(problem, &after, 1, &unused, &contact, NULL);
-    if (status != ELLIPSOID_OK)
-    {
-        return status;
-    }
-    if (problem->walls && contact.touching_beads > 0)
-    {
-        /* a stiff wall does not let it drift on */
-        *state = after;
-        return ELLIPSOID_OK;
-    }
-    ellipsoid_rotation_inline(conjugate, axis);
-    ellipsoid_difference(state->u, after.u, slip);
+    return noise
+        && fabs(t - noise->start) <= 8 * DBL_EPSILON * fmax(fabs(t), until - t)
+        && until - t >= many * slowest;
+}
+
+/* Displaces `after`, which has its balanced u and omega, see below. */
+static void displace(const ellipsoid_model *m, const ellipsoid_state *before,
+                     ellipsoid_state *after)
+{
+    const double *q = before->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
+    double axis[3][3], slip[3], angle[3], turn[4];
+
+    ellipsoid_rotation_inline(opposite, axis);
+    ellipsoid_difference(before->u, after->u, slip);
     for (int i = 0; i < 3; i++)
     {
         const double way =
@@ -131,17 +112,53 @@ ellipsoid_status ellipsoid_cross_layer(const ellipsoid_problem *problem,
 
         for (int l = 0; l < 3; l++)
         {
-            after.x[l] += way * axis[i][l];
+            after->x[l] += way * axis[i][l];
         }
         angle[i] = m->inertia[i] * m->rotation_mobility[i]
-                 * (state->omega[i] - after.omega[i]);
+                 * (before->omega[i] - after->omega[i]);
     }
     ellipsoid_spin(angle, q, turn);
     for (int n = 0; n < 4; n++)
     {
-        after.q[n] += 0.5 * turn[n];
+        after->q[n] += 0.5 * turn[n];
     }
-    ellipsoid_normalise(after.q);
-    *state = after;
-    return ELLIPSOID_OK;
+    ellipsoid_normalise(after->q);
+}
+
+/*
+    Leading order of matched asymptotics. u_b being the balanced velocity,
+        m du/dt = mu R K^ R^T (u_b - u)
+    leaves x displaced by R m (mu K^)^-1 R^T (u - u_b), and u = u_b; and likewise
+    the rotation. A cell that touches is not displaced: a stiff wall does not
+    let it drift on.
+*/
+ellipsoid_status ellipsoid_cross_layer(ellipsoid_group *g, double t,
+                                       double until)
+{
+    ellipsoid_status status;
+    int crossed = g->inertial;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        crossed = crossed && is_thin(&g->cell[cell], t, until);
+        g->next[cell].state = g->start[cell].state;
+    }
+    if (!crossed)
+    {
+        return ELLIPSOID_OK;
+    }
+    status = ellipsoid_group_evaluate(g, g->next, 1, 0);
+    for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
+    {
+        ellipsoid_state *before = &g->start[cell].state;
+        ellipsoid_state *after = &g->next[cell].state;
+
+        if (!ellipsoid_group_feels(g, cell)
+            || !ellipsoid_touches(&g->next[cell].contact))
+        {
+            displace(g->cell[cell].model, before, after);
+        }
+        *before = *after;
+    }
+    return status;
 }

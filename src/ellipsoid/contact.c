@@ -13,118 +13,16 @@
 /* How far beyond a bead's surface a gap is measured, in bead radii. */
 static const double gap_horizon = 1;
 
-/* v = (dR/dq_n) body: derivative of the polynomial R(q), n = 0..3. */
-static void turned_by(const double q[4], int n, const double body[3],
-                      double v[3])
-{
-    const double along = ellipsoid_dot(q, body);
-    double cross[3];
-
-    if (n == 3) /* 2 eta + 2 [eps]x */
-    {
-        ellipsoid_cross(q, body, cross);
-        for (int i = 0; i < 3; i++)
-        {
-            v[i] = 2 * (q[3] * body[i] + cross[i]);
-        }
-        return;
-    }
-
-    /* 2 (-eps_n + e_n eps^T + eps e_n^T + eta [e_n]x) */
-    double axis[3] = {0, 0, 0};
-
-    axis[n] = 1;
-    ellipsoid_cross(axis, body, cross);
-    for (int i = 0; i < 3; i++)
-    {
-        v[i] = 2 * (q[i] * body[n] - q[n] * body[i] + q[3] * cross[i]
-                    + axis[i] * along);
-    }
-}
-
-/* R^T v */
-static void to_body(double r[3][3], const double v[3], double body[3])
-{
-    for (int i = 0; i < 3; i++)
-    {
-        body[i] = r[0][i] * v[0] + r[1][i] * v[1] + r[2][i] * v[2];
-    }
-}
-
-/* One bead's part in the derivatives: the centre is x + R(q) arm. */
-static void add_derivatives(const double arm[3], const double q[4],
-                            double r[3][3], const double force[3],
-                            double force_x[3][3],
-                            ellipsoid_contact_jacobian *jacobian)
-{
-    const double conjugate[4] = {-q[0], -q[1], -q[2], q[3]};
-    double column[3], body[3], torque[3];
-
-    for (int n = 0; n < 7; n++)
-    {
-        double turned[3];
-
-        if (n < 3)
-        {
-            for (int i = 0; i < 3; i++)
-            {
-                column[i] = force_x[i][n];
-                jacobian->force_x[i][n] += column[i];
-            }
-        }
-        else
-        {
-            turned_by(q, n - 3, arm, turned);
-            for (int i = 0; i < 3; i++)
-            {
-                column[i] = ellipsoid_dot(force_x[i], turned);
-                jacobian->force_q[i][n - 3] += column[i];
-            }
-        }
-        to_body(r, column, body);
-        if (n >= 3)
-        {
-            /* the frame turns under the force: (dR/dq_n)^T F, and R^T(q) is
-               R of the conjugate */
-            turned_by(conjugate, n - 3, force, turned);
-            for (int i = 0; i < 3; i++)
-            {
-                body[i] += n == 6 ? turned[i] : -turned[i];
-            }
-        }
-        ellipsoid_cross(arm, body, torque);
-        for (int i = 0; i < 3; i++)
-        {
-            if (n < 3)
-            {
-                jacobian->torque_x[i][n] += torque[i];
-            }
-            else
-            {
-                jacobian->torque_q[i][n - 3] += torque[i];
-            }
-        }
-    }
-}
-
 static void add_bead(const double arm[3], const double q[4], double r[3][3],
                      const double force[3], double force_x[3][3],
                      ellipsoid_contact *contact,
                      ellipsoid_contact_jacobian *jacobian)
 {
-    double body[3], torque[3];
-
-    to_body(r, force, body);
-    ellipsoid_cross(arm, body, torque);
-    for (int i = 0; i < 3; i++)
-    {
-        contact->force[i] += force[i];
-        contact->torque[i] += torque[i];
-    }
+    ellipsoid_add_force_at(arm, r, force, contact->force, contact->torque);
     contact->touching_beads++;
     if (jacobian)
     {
-        add_derivatives(arm, q, r, force, force_x, jacobian);
+        ellipsoid_add_derivatives(arm, q, r, force, force_x, jacobian);
     }
 }
 
@@ -200,7 +98,7 @@ ellipsoid_status ellipsoid_contact_evaluate(
     ellipsoid_contact_jacobian *jacobian)
 {
     memset(contact, 0, sizeof *contact);
-    contact->gap = HUGE_VAL;
+    contact->gap = contact->cell_gap = HUGE_VAL;
     if (jacobian)
     {
         memset(jacobian, 0, sizeof *jacobian);

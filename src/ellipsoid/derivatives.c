@@ -3,10 +3,10 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    derivatives.c - right-hand side and dense Jacobian for callers; the
-    integrators use the blocks of equations.c as they are.
+    derivatives.c - right-hand side, balanced motion and dense Jacobian for
+    callers; the integrator uses the blocks of equations.c as they are.
 */
-#include "ellipsoidInternal.h"
+#include "integrator.h"
 
 #include <string.h>
 
@@ -56,13 +56,6 @@ ellipsoid_jacobian(const ellipsoid_model *model,
                    const ellipsoid_state *state, ellipsoid_contact_cache *cache,
                    double jacobian[ELLIPSOID_STATE_SIZE][ELLIPSOID_STATE_SIZE])
 {
-    enum
-    {
-        U = 0,
-        X = 3,
-        W = 6,
-        Q = 9
-    };
     ellipsoid_contact contact;
     ellipsoid_state at = *state, derivative;
     ellipsoid_blocks b;
@@ -87,23 +80,25 @@ ellipsoid_jacobian(const ellipsoid_model *model,
            sizeof(double[ELLIPSOID_STATE_SIZE][ELLIPSOID_STATE_SIZE]));
     for (int i = 0; i < 3; i++)
     {
-        memcpy(&jacobian[U + i][U], b.uu[i], sizeof(b.uu[i]));
-        memcpy(&jacobian[U + i][X], b.ux[i], sizeof(b.ux[i]));
-        memcpy(&jacobian[U + i][Q], b.uq[i], sizeof(b.uq[i]));
-        jacobian[X + i][U + i] = 1;
-        memcpy(&jacobian[W + i][X], b.wx[i], sizeof(b.wx[i]));
-        memcpy(&jacobian[W + i][W], b.ww[i], sizeof(b.ww[i]));
-        memcpy(&jacobian[W + i][Q], b.wq[i], sizeof(b.wq[i]));
+        memcpy(&jacobian[AT_U + i][AT_U], b.uu[i], sizeof(b.uu[i]));
+        memcpy(&jacobian[AT_U + i][AT_X], b.ux[i], sizeof(b.ux[i]));
+        memcpy(&jacobian[AT_U + i][AT_OMEGA], b.uw[i], sizeof(b.uw[i]));
+        memcpy(&jacobian[AT_U + i][AT_Q], b.uq[i], sizeof(b.uq[i]));
+        jacobian[AT_X + i][AT_U + i] = 1;
+        memcpy(&jacobian[AT_OMEGA + i][AT_U], b.wu[i], sizeof(b.wu[i]));
+        memcpy(&jacobian[AT_OMEGA + i][AT_X], b.wx[i], sizeof(b.wx[i]));
+        memcpy(&jacobian[AT_OMEGA + i][AT_OMEGA], b.ww[i], sizeof(b.ww[i]));
+        memcpy(&jacobian[AT_OMEGA + i][AT_Q], b.wq[i], sizeof(b.wq[i]));
     }
     for (int n = 0; n < 4; n++)
     {
         for (int l = 0; l < 3; l++)
         {
-            jacobian[Q + n][W + l] = 0.5 * qw[n][l];
+            jacobian[AT_Q + n][AT_OMEGA + l] = 0.5 * qw[n][l];
         }
         for (int l = 0; l < 4; l++)
         {
-            jacobian[Q + n][Q + l] = 0.5 * qq[n][l];
+            jacobian[AT_Q + n][AT_Q + l] = 0.5 * qq[n][l];
         }
     }
     return ELLIPSOID_OK;

@@ -403,6 +403,8 @@ typedef struct ellipsoid_contact
     double cell_force[3];   /* [N] lab, of the other cells */
     double cell_torque[3];  /* [N m] body */
     double cell_deepest;    /* [m] deepest overlap with another cell */
+    double cell_gap;        /* [m] smallest gap to a bead of another cell; as
+                               for walls */
     int touched_cell_count; /* at most MAX_TOUCHED listed */
     uint32_t touched_cell[ELLIPSOID_MAX_TOUCHED]; /* their ids, in the order of
                                                      the group */

@@ -3,7 +3,8 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    ellipsoidInternal.h - what the core's own files share.
+    ellipsoidInternal.h - what the core's own files share; the integrator's
+    share more, see integrator.h.
 
     Not installed and not for users: everything here may change. Tests may
     include it.
@@ -23,8 +24,8 @@
 */
 typedef struct ellipsoid_blocks
 {
-    double uu[3][3], ux[3][3], uq[3][4];
-    double wx[3][3], ww[3][3], wq[3][4];
+    double uu[3][3], ux[3][3], uw[3][3], uq[3][4];
+    double wu[3][3], wx[3][3], ww[3][3], wq[3][4];
 } ellipsoid_blocks;
 
 /* The motion that the flow would give a body free of other forces, and its
@@ -104,190 +105,6 @@ static inline ellipsoid_status ellipsoid_answer_status(int answer)
     return answer > 0 ? ELLIPSOID_STEP_UNDERFLOW : ELLIPSOID_FLOW_FAILED;
 }
 
-/*
-    The Rosenbrock coefficients as in Hairer & Wanner II, eq. (IV.7.25):
-    (1/(gamma h) - J) K_i = f(y0 + sum a_ij K_j) + sum c_ij/h K_j,
-    y1 = y0 + sum m_j K_j; the error estimate is K_6, and
-    y(s) = y0 (1-s) + s (y1 + (1-s) (d_0 + s d_1)), d_i = sum_j dense_ij K_j.
-*/
-#define ELLIPSOID_ROSENBROCK_STAGES 6
-
-typedef struct ellipsoid_rosenbrock_table
-{
-    double gamma;
-    double a[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
-    double c[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
-    double dense[2][ELLIPSOID_ROSENBROCK_STAGES];
-    int in_time[ELLIPSOID_ROSENBROCK_STAGES]; /* stages by their time */
-} ellipsoid_rosenbrock_table;
-
-extern const ellipsoid_rosenbrock_table ellipsoid_rosenbrock_set; /* rodas4p2.c */
-
-/* Indices of the unknowns in a vector of thirteen. */
-enum
-{
-    ELLIPSOID_U = 0,
-    ELLIPSOID_X = 3,
-    ELLIPSOID_OMEGA = 6,
-    ELLIPSOID_Q = 9
-};
-
-/* One cell's surroundings, and what an advance does not change. */
-typedef struct ellipsoid_problem
-{
-    const ellipsoid_model *model;
-    const ellipsoid_surroundings *surroundings;
-    ellipsoid_contact_cache *cache;
-    ellipsoid_statistics *statistics;
-    double length;        /* [m] largest semi-axis */
-    double rate;          /* [1/s] 1/tau of u, 0 in vacuum */
-    double rotation_rate; /* [1/s] 1/tau of omega, 0 in vacuum */
-    const ellipsoid_noise *noise; /* NULL: none */
-    int aligned; /* by a dipole */
-    int inertial;
-    int walls;
-    int observed; /* is the whole of ellipsoid_step asked for? */
-} ellipsoid_problem;
-
-/* The equations at the start of a step, kept while steps are rejected. */
-typedef struct ellipsoid_point
-{
-    ellipsoid_state state;
-    ellipsoid_state derivative;
-    ellipsoid_blocks blocks;
-    ellipsoid_contact contact;
-    int has_blocks;
-} ellipsoid_point;
-
-#define ELLIPSOID_MAX_STAGES 7
-
-/* The stages of one step. */
-typedef struct ellipsoid_stages
-{
-    double k[ELLIPSOID_MAX_STAGES][ELLIPSOID_STATE_SIZE];
-    double y[ELLIPSOID_STATE_SIZE]; /* result */
-    double error[ELLIPSOID_STATE_SIZE];
-    int order;     /* of the error estimate in the step */
-    int sampled;   /* poses where walls were felt, in the order of their time; */
-    const int *in_time; /* only with walls */
-    double x[ELLIPSOID_MAX_STAGES][3], q[ELLIPSOID_MAX_STAGES][4];
-    double gap[ELLIPSOID_MAX_STAGES];
-} ellipsoid_stages;
-
-/* A stage's pose and the gap there [m], for the guard against tunnelling. */
-static inline void ellipsoid_stages_sample(ellipsoid_stages *stages, int stage,
-                                           const ellipsoid_state *state,
-                                           double gap)
-{
-    memcpy(stages->x[stage], state->x, sizeof(state->x));
-    memcpy(stages->q[stage], state->q, sizeof(state->q));
-    stages->gap[stage] = gap;
-}
-
-/* ellipsoid_evaluate(), counted; balanced says whether u and omega are set
-   first. blocks may be NULL. */
-ellipsoid_status ellipsoid_problem_evaluate(const ellipsoid_problem *problem,
-                                            ellipsoid_state *state,
-                                            int balanced,
-                                            ellipsoid_state *derivative,
-                                            ellipsoid_contact *contact,
-                                            ellipsoid_blocks *blocks);
-
-/*
-    (g M - J) k = r with g = 1/(gamma h), M = I but for inertialess motion.
-    As dx/dt = u, k_x = (r_x + k_u)/g. As Q^2 = -|omega|^2 I,
-        (g I - Q/2)^-1 = (g I + Q/2)/(g^2 + |omega|^2/4)
-    gives k_q from k_omega. A dense 6x6 system in (k_u, k_omega) is left. The
-    solution is wanted six times, hence explicit matrices instead of
-    substitutions, in which each number waits for the one before.
-*/
-typedef struct ellipsoid_stage_system
-{
-    double per_g;
-    double to_rates[ELLIPSOID_STATE_SIZE][6]; /* transposed: (k_u, k_omega)
-                                                 from r */
-    double q_from_q[4][4];    /* transposed: k_q from r_q */
-    double q_from_w[3][4];    /* transposed: k_q from k_omega */
-} ellipsoid_stage_system;
-
-/* Returns 0 if the step is so long that the matrix is singular
-   (stageSystem.c). */
-int ellipsoid_stage_system_prepare(ellipsoid_stage_system *system,
-                                   const ellipsoid_problem *problem,
-                                   const ellipsoid_point *start, double h);
-
-void ellipsoid_stage_system_solve(const ellipsoid_stage_system *system,
-                                  const double r[ELLIPSOID_STATE_SIZE],
-                                  double k[ELLIPSOID_STATE_SIZE]);
-
-/*
-    One Rosenbrock step of length h [s] from a point that has its blocks; y has
-    a q not yet of length one. Returns STEP_UNDERFLOW or NON_FINITE where a
-    shorter step may succeed.
-*/
-ellipsoid_status ellipsoid_rosenbrock_step(const ellipsoid_problem *problem,
-                                           const ellipsoid_point *start,
-                                           double h, ellipsoid_stages *stages);
-
-/* The continuous extension of such a step. */
-void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,
-                                double dense[3][ELLIPSOID_STATE_SIZE]);
-
-/*
-    One explicit step of inertialess motion (rungeKutta.c). Its last stage is
-    `next`, the end of the step. *touched is set, and the step not finished,
-    where a stage touches a wall: the equations are stiff there.
-*/
-ellipsoid_status ellipsoid_explicit_step(const ellipsoid_problem *problem,
-                                         const ellipsoid_point *start, double h,
-                                         ellipsoid_stages *stages,
-                                         ellipsoid_point *next, int *touched);
-
-/* The continuous extension of such a step. */
-void ellipsoid_explicit_dense(ellipsoid_stages *stages,
-                              const ellipsoid_step *step,
-                              double dense[3][ELLIPSOID_STATE_SIZE]);
-
-/* At the start of a noise interval that lasts many relaxation times: takes the
-   state to where they have passed, in no time (brownian.c). */
-ellipsoid_status ellipsoid_cross_layer(const ellipsoid_problem *problem,
-                                       double t, double until,
-                                       ellipsoid_state *state);
-
-/* -------------------------------------------------------- step control */
-
-/* A step as planned. */
-typedef struct ellipsoid_plan
-{
-    double h;
-    int last;      /* ends at `end` */
-    int shortened; /* less than proposed, to land on `end` */
-} ellipsoid_plan;
-
-/* The next step from t towards end (stepControl.c). */
-ellipsoid_plan ellipsoid_plan_step(double proposal, double t, double end);
-
-/* Sets *step to a first step from a point. */
-ellipsoid_status ellipsoid_first_step(const ellipsoid_problem *problem,
-                                      const ellipsoid_point *start,
-                                      double *step);
-
-/* Sets *error to what the step has made, above 1 if it is too much. NON_FINITE
-   if it is not finite. */
-ellipsoid_status ellipsoid_judge_step(const ellipsoid_problem *problem,
-                                      double h,
-                                      const ellipsoid_stages *stages,
-                                      double *error);
-
-/* The factor by which the next step differs from one that made that error. */
-double ellipsoid_step_factor(int order, double error, double previous_error);
-
-/* Is it a failure that a shorter step may cure? */
-static inline int ellipsoid_may_recover(ellipsoid_status status)
-{
-    return status == ELLIPSOID_STEP_UNDERFLOW || status == ELLIPSOID_NON_FINITE;
-}
-
 /* ------------------------------------------------------------- contact */
 
 /* Where the distance from a point to the wall has a local minimum. */
@@ -358,6 +175,50 @@ ellipsoid_contact_collect(ellipsoid_contact_cache *cache,
                           const ellipsoid_surroundings *surroundings,
                           const double x[3], const double q[4], double horizon,
                           double *moved);
+
+/* -------------------------------------------------- a force on the body */
+
+/* R^T v */
+static inline void ellipsoid_to_body(double r[3][3], const double v[3],
+                                     double body[3])
+{
+    ellipsoid_combination(r, v[0], v[1], v[2], body);
+}
+
+/* Adds a force [N, lab] at the point `arm` [m, body] and its torque. */
+static inline void ellipsoid_add_force_at(const double arm[3], double r[3][3],
+                                          const double force[3],
+                                          double total[3], double torque[3])
+{
+    double body[3], turning[3];
+
+    ellipsoid_to_body(r, force, body);
+    ellipsoid_cross(arm, body, turning);
+    ellipsoid_add(total, force);
+    ellipsoid_add(torque, turning);
+}
+
+/*
+    Adds the derivatives of a force at x + R(q) arm, and of its torque, by the
+    body's own pose: force_x is that of the force by this point (lever.c).
+*/
+void ellipsoid_add_derivatives(const double arm[3], const double q[4],
+                               double r[3][3], const double force[3],
+                               double force_x[3][3],
+                               ellipsoid_contact_jacobian *jacobian);
+
+/* Likewise by the pose of another body, that of its point `other_arm`. */
+void ellipsoid_add_other_derivatives(const double arm[3], double r[3][3],
+                                     const double other_arm[3],
+                                     const double other_q[4],
+                                     double force_x[3][3],
+                                     ellipsoid_contact_jacobian *jacobian);
+
+/* Adds derivatives of force and torque to the blocks: rows of u times
+   of_force, row i of omega times of_torque[i]. */
+void ellipsoid_add_to_blocks(const ellipsoid_contact_jacobian *jacobian,
+                             double of_force, const double of_torque[3],
+                             ellipsoid_blocks *blocks);
 
 /* Are walls felt at all? */
 static inline int ellipsoid_has_walls(const ellipsoid_model *model,

@@ -230,19 +230,9 @@ add_contact(evaluation *e, const ellipsoid_surroundings *surroundings,
     ellipsoid_add(e->torque, contact->torque);
     if (b && contact->touching_beads > 0)
     {
-        for (int i = 0; i < 3; i++)
-        {
-            for (int j = 0; j < 3; j++)
-            {
-                b->ux[i][j] += jacobian.force_x[i][j];
-                b->wx[i][j] += jacobian.torque_x[i][j];
-            }
-            for (int n = 0; n < 4; n++)
-            {
-                b->uq[i][n] += jacobian.force_q[i][n];
-                b->wq[i][n] += jacobian.torque_q[i][n];
-            }
-        }
+        static const double ones[3] = {1, 1, 1};
+
+        ellipsoid_add_to_blocks(&jacobian, 1, ones, b);
     }
     return ELLIPSOID_OK;
 }
@@ -298,6 +288,8 @@ static void finish_blocks(const evaluation *e, int inertial,
         {
             b->uu[i][l] *= per_mass;
             b->ux[i][l] *= per_mass;
+            b->uw[i][l] *= per_mass;
+            b->wu[i][l] *= per_inertia;
             b->ww[i][l] *= per_inertia;
             b->wx[i][l] *= per_inertia;
         }
@@ -403,7 +395,7 @@ set_forces(evaluation *e, const ellipsoid_surroundings *surroundings,
     return ELLIPSOID_OK;
 }
 
-/* Inlined thrice below, with constants that tell the compiler what to leave
+/* Inlined below, with constants that tell the compiler what to leave
    out; e has no address taken, so that it stays in registers. */
 static inline ellipsoid_status
 evaluate(const ellipsoid_model *model,
@@ -441,9 +433,10 @@ evaluate(const ellipsoid_model *model,
         e.flow = &flow;
     }
 
-    const double conjugate[4] = {q[0], q[1], q[2], -q[3]}; /* or its minus */
+    /* the columns of R(q) are the rows of R of the opposite turn */
+    const double opposite[4] = {q[0], q[1], q[2], -q[3]};
 
-    ellipsoid_rotation_inline(conjugate, e.axis);
+    ellipsoid_rotation_inline(opposite, e.axis);
     if (drag)
     {
         status = set_free(&e, surroundings, d, blocks != NULL);

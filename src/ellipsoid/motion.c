@@ -3,66 +3,50 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    motion.c - one cell through time: step control, start and end.
+    motion.c - a group of cells through time: start, steps, end.
 */
-#include "ellipsoidInternal.h"
+#include "integrator.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-enum
-{
-    SIZE = ELLIPSOID_STATE_SIZE,
-    U = ELLIPSOID_U,
-    X = ELLIPSOID_X,
-    W = ELLIPSOID_OMEGA,
-    Q = ELLIPSOID_Q
-};
-
 /* An error that shortens the step as far as one rejection may. */
 static const double far_too_large = 1e6;
 
-/* The blocks at a point that has been evaluated without. */
-static ellipsoid_status add_blocks(const ellipsoid_problem *p,
-                                   ellipsoid_point *at)
-{
-    const ellipsoid_status status = ellipsoid_problem_evaluate(
-        p, &at->state, !p->inertial, &at->derivative, &at->contact,
-        &at->blocks);
-
-    at->has_blocks = status == ELLIPSOID_OK;
-    return status;
-}
-
 /*
-    Has a step that lets go of a wall been held back by it? The method takes the
-    contact for a spring that also pulls, so that a long step ends beside the
-    wall though the cell is free to go, which the error estimate does not show.
-    Then the velocity that the cell takes up would have led much farther along
-    the contact's push than the step did. Both are counted as the work of that
-    push, force and torque.
+    Has a step that lets go of a wall or a cell been held back by it? The method
+    takes the contact for a spring that also pulls, so that a long step ends
+    beside the wall though the cell is free to go, which the error estimate does
+    not show. Then the velocity that the cell takes up would have led much
+    farther along the contact's push than the step did. Both are counted as the
+    work of that push, force and torque.
 */
 static int was_held_back(const ellipsoid_problem *p,
                          const ellipsoid_point *start,
                          const ellipsoid_point *next, double h)
 {
-    const double *force = start->contact.force, *torque = start->contact.torque;
-    const double slight =
-        10 * p->model->options.tolerance
-        * (ellipsoid_length(force) * p->length + ellipsoid_length(torque));
+    const ellipsoid_contact *was = &start->contact, *is = &next->contact;
     const double *from = start->state.q, *to = next->state.q;
     const double back[4] = {-from[0], -from[1], -from[2], from[3]};
     const double lag = p->inertial ? 1 / fmax(1 / h, p->rate) : 0;
     const double turning_lag =
         p->inertial ? 1 / fmax(1 / h, p->rotation_rate) : 0;
-    double made = 0, coming = 0, turned[4];
+    double force[3], torque[3], slight, made = 0, coming = 0, turned[4];
 
-    if (next->contact.touching_beads >= start->contact.touching_beads
-        && next->contact.deepest >= 0.5 * start->contact.deepest)
+    if (is->touching_beads >= was->touching_beads
+        && is->touched_cell_count >= was->touched_cell_count
+        && is->deepest >= 0.5 * was->deepest
+        && is->cell_deepest >= 0.5 * was->cell_deepest)
     {
         return 0;
     }
+    ellipsoid_copy(was->force, force);
+    ellipsoid_add(force, was->cell_force);
+    ellipsoid_copy(was->torque, torque);
+    ellipsoid_add(torque, was->cell_torque);
+    slight = 10 * p->model->options.tolerance
+           * (ellipsoid_length(force) * p->length + ellipsoid_length(torque));
     /* back * to, of which twice the vector is the turn in the body */
     ellipsoid_spin(to, back, turned);
     for (int i = 0; i < 3; i++)
@@ -79,39 +63,58 @@ static int was_held_back(const ellipsoid_problem *p,
     return coming > 4 * fmax(made, 0) + slight;
 }
 
+static int is_one_held_back(ellipsoid_group *g, double h)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        if (ellipsoid_group_feels(g, cell)
+            && was_held_back(&g->cell[cell], &g->start[cell], &g->next[cell],
+                             h))
+        {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /*
     One attempt at a Rosenbrock step. A step counts only if the equations can be
     evaluated where it ends.
 */
-static ellipsoid_status try_rosenbrock(const ellipsoid_problem *p,
-                                       ellipsoid_point *start,
+static ellipsoid_status try_rosenbrock(ellipsoid_group *g,
                                        const ellipsoid_plan *planned,
-                                       ellipsoid_stages *stages,
-                                       ellipsoid_point *next, double *error)
+                                       double *error)
 {
-    ellipsoid_status status =
-        start->has_blocks ? ELLIPSOID_OK : add_blocks(p, start);
+    ellipsoid_status status = ELLIPSOID_OK;
 
-    if (status == ELLIPSOID_OK)
+    if (!g->has_blocks)
     {
-        status = ellipsoid_rosenbrock_step(p, start, planned->h, stages);
+        status = ellipsoid_group_evaluate(g, g->start, !g->inertial, 1);
+        g->has_blocks = status == ELLIPSOID_OK;
     }
     if (status == ELLIPSOID_OK)
     {
-        status = ellipsoid_judge_step(p, planned->h, stages, error);
+        status = ellipsoid_rosenbrock_step(g, planned->h);
+    }
+    if (status == ELLIPSOID_OK)
+    {
+        status = ellipsoid_judge_step(g, planned->h, error);
     }
     if (status != ELLIPSOID_OK || *error > 1)
     {
         return status;
     }
-    ellipsoid_normalise(stages->y + Q);
-    memcpy(&next->state, stages->y, sizeof(next->state));
-    next->has_blocks = !planned->last;
-    status = ellipsoid_problem_evaluate(p, &next->state, !p->inertial,
-                                        &next->derivative, &next->contact,
-                                        planned->last ? NULL : &next->blocks);
-    if (status == ELLIPSOID_OK && p->walls
-        && was_held_back(p, start, next, planned->h))
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        double *y = g->stages[cell].y;
+
+        ellipsoid_normalise(y + AT_Q);
+        memcpy(&g->next[cell].state, y, sizeof(g->next[cell].state));
+    }
+    g->next_has_blocks = !planned->last;
+    status = ellipsoid_group_evaluate(g, g->next, !g->inertial,
+                                      g->next_has_blocks);
+    if (status == ELLIPSOID_OK && is_one_held_back(g, planned->h))
     {
         *error = far_too_large;
     }
@@ -119,52 +122,72 @@ static ellipsoid_status try_rosenbrock(const ellipsoid_problem *p,
 }
 
 /*
-    One attempt at a step. Without inertia it is explicit, unless the cell
-    touches a wall in it or is turned by a dipole: both may be stiff. Sets next;
+    One attempt at a step. Without inertia it is explicit, unless a cell touches
+    something in it or is turned by a dipole: both may be stiff. Sets next;
     *error is above 1 if it is too large.
 */
-static ellipsoid_status
-try_step(const ellipsoid_problem *p, ellipsoid_point *start,
-         const ellipsoid_plan *planned, ellipsoid_stages *stages,
-         ellipsoid_point *next, double *error, int *explicitly)
+static ellipsoid_status try_step(ellipsoid_group *g,
+                                 const ellipsoid_plan *planned, double *error,
+                                 int *explicitly)
 {
-    int touched = p->aligned || start->contact.touching_beads > 0;
+    int touched = g->aligned;
     ellipsoid_status status = ELLIPSOID_OK;
 
-    if (!p->inertial && !touched)
+    for (int cell = 0; cell < g->count; cell++)
     {
-        status = ellipsoid_explicit_step(p, start, planned->h, stages, next,
-                                         &touched);
+        touched = touched || ellipsoid_touches(&g->start[cell].contact);
     }
-    *explicitly = !p->inertial && !touched;
+    if (!g->inertial && !touched)
+    {
+        status = ellipsoid_explicit_step(g, planned->h, &touched);
+    }
+    *explicitly = !g->inertial && !touched;
     if (!*explicitly)
     {
-        return try_rosenbrock(p, start, planned, stages, next, error);
+        return try_rosenbrock(g, planned, error);
     }
-    return status == ELLIPSOID_OK
-             ? ellipsoid_judge_step(p, planned->h, stages, error)
-             : status;
+    g->next_has_blocks = 0;
+    return status == ELLIPSOID_OK ? ellipsoid_judge_step(g, planned->h, error)
+                                  : status;
+}
+
+/* Tells the accepted step, of which g->step has the times. */
+static void describe_step(const ellipsoid_group *g, int explicitly)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        ellipsoid_step *step = &g->step[cell];
+
+        step->before = g->start[cell].state;
+        step->after = g->next[cell].state;
+        step->contact = g->next[cell].contact;
+        if (explicitly)
+        {
+            ellipsoid_explicit_dense(&g->stages[cell], step, step->dense);
+        }
+        else
+        {
+            ellipsoid_rosenbrock_dense(&g->stages[cell], step->dense);
+        }
+    }
 }
 
 /*
-    Takes one step from `start`, shortened until it succeeds. Sets next, step
-    and controller.
+    Takes one step from the start, shortened until it succeeds. Sets next, the
+    steps and the controller.
 */
-static ellipsoid_status take_step(const ellipsoid_problem *p,
-                                  ellipsoid_point *start, double t, double end,
+static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
                                   long *attempts,
-                                  ellipsoid_controller *controller,
-                                  ellipsoid_point *next, ellipsoid_step *step)
+                                  ellipsoid_controller *controller)
 {
-    const ellipsoid_options *o = &p->model->options;
+    const ellipsoid_options *o = &g->cell[0].model->options;
     const double shortest =
         fmax(o->minimum_step, 4 * DBL_EPSILON * fmax(fabs(t), DBL_MIN));
     double largest_factor = 5, proposal = controller->step;
 
     if (!(proposal > 0))
     {
-        const ellipsoid_status status =
-            ellipsoid_first_step(p, start, &proposal);
+        const ellipsoid_status status = ellipsoid_first_step(g, &proposal);
 
         if (status != ELLIPSOID_OK)
         {
@@ -179,18 +202,26 @@ static ellipsoid_status take_step(const ellipsoid_problem *p,
     while (*attempts < o->maximum_steps)
     {
         const ellipsoid_plan planned = ellipsoid_plan_step(proposal, t, end);
-        ellipsoid_stages stages;
         double error = 0;
         int explicitly;
         const ellipsoid_status status =
-            try_step(p, start, &planned, &stages, next, &error, &explicitly);
+            try_step(g, &planned, &error, &explicitly);
+        const int accepted = status == ELLIPSOID_OK && error <= 1;
+        const int order = g->stages[0].order;
 
         ++*attempts;
-        if (status == ELLIPSOID_OK && error <= 1)
+        for (int cell = 0; cell < g->count; cell++)
+        {
+            ellipsoid_statistics *statistics = g->cell[cell].statistics;
+
+            statistics->accepted += accepted;
+            statistics->rejected += !accepted;
+        }
+        if (accepted)
         {
             controller->step =
                 planned.h
-                * fmin(ellipsoid_step_factor(stages.order, error,
+                * fmin(ellipsoid_step_factor(order, error,
                                              controller->previous_error),
                        largest_factor);
             if (planned.shortened)
@@ -201,34 +232,24 @@ static ellipsoid_status take_step(const ellipsoid_problem *p,
             {
                 controller->previous_error = fmax(error, 1e-4);
             }
-            step->start = t;
-            step->end = planned.last ? end : t + planned.h;
-            if (p->observed)
+            for (int cell = 0; cell < g->count; cell++)
             {
-                step->before = start->state;
-                step->after = next->state;
-                step->contact = next->contact;
-                if (explicitly)
-                {
-                    ellipsoid_explicit_dense(&stages, step, step->dense);
-                }
-                else
-                {
-                    ellipsoid_rosenbrock_dense(&stages, step->dense);
-                }
+                g->step[cell].start = t;
+                g->step[cell].end = planned.last ? end : t + planned.h;
             }
-            p->statistics->accepted++;
+            if (g->observed)
+            {
+                describe_step(g, explicitly);
+            }
             return ELLIPSOID_OK;
         }
-
-        p->statistics->rejected++;
         if (status != ELLIPSOID_OK && !ellipsoid_may_recover(status))
         {
             return status;
         }
         proposal = planned.h
                  * (status == ELLIPSOID_OK
-                        ? ellipsoid_step_factor(stages.order, error, 0)
+                        ? ellipsoid_step_factor(order, error, 0)
                         : 0.25);
         largest_factor = 1;
         if (proposal < shortest)
@@ -240,147 +261,126 @@ static ellipsoid_status take_step(const ellipsoid_problem *p,
     return ELLIPSOID_TOO_MANY_STEPS;
 }
 
-/* Where the run begins. An orientation of length one is taken as it is, so
-   that a run can be continued without a change in the last digit. */
-static ellipsoid_status begin(const ellipsoid_problem *p,
-                              const ellipsoid_state *state, double t,
-                              double end, ellipsoid_point *start)
+/* An orientation of length one is taken as it is, so that a run can be
+   continued without a change in the last digit. */
+static ellipsoid_status set_start(int inertial, const ellipsoid_state *state,
+                                  ellipsoid_point *start)
 {
-    double y[SIZE], sum = 0, square = 0;
-    ellipsoid_status status;
+    double y[UNKNOWNS], sum = 0, square;
 
     memcpy(y, state, sizeof(y));
-    for (int n = 0; n < SIZE; n++)
+    for (int n = 0; n < UNKNOWNS; n++)
     {
-        const int is_rate = n < X || (n >= W && n < Q);
-
-        y[n] = is_rate && !p->inertial ? 0 : y[n]; /* not read */
+        y[n] = ellipsoid_is_rate(n) && !inertial ? 0 : y[n]; /* not read */
         sum += y[n];
     }
-    for (int n = Q; n < SIZE; n++)
-    {
-        square += y[n] * y[n];
-    }
+    square = ellipsoid_square4(y + AT_Q);
     if (!isfinite(sum) || !isfinite(square) || !(square >= DBL_MIN))
     {
         return ELLIPSOID_NON_FINITE;
     }
     if (fabs(square - 1) > 1e-14)
     {
-        ellipsoid_normalise(y + Q);
+        ellipsoid_normalise(y + AT_Q);
     }
     memcpy(&start->state, y, sizeof(start->state));
-    status = ellipsoid_cross_layer(p, t, end, &start->state);
+    return ELLIPSOID_OK;
+}
+
+/* Where the run begins. */
+static ellipsoid_status begin(ellipsoid_group *g,
+                              const ellipsoid_member members[], double t,
+                              double end)
+{
+    ellipsoid_status status = ELLIPSOID_OK;
+
+    for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
+    {
+        status =
+            set_start(g->inertial, members[cell].state, &g->start[cell]);
+        g->culprit = status == ELLIPSOID_OK ? -1 : cell;
+    }
+    if (status == ELLIPSOID_OK)
+    {
+        status = ellipsoid_cross_layer(g, t, end);
+    }
     if (status != ELLIPSOID_OK)
     {
         return status;
     }
-    start->has_blocks = p->inertial;
-    return ellipsoid_problem_evaluate(
-        p, &start->state, !p->inertial, &start->derivative, &start->contact,
-        start->has_blocks ? &start->blocks : NULL);
+    g->has_blocks = g->inertial;
+    return ellipsoid_group_evaluate(g, g->start, !g->inertial, g->has_blocks);
 }
 
-/* What the caller of an advance hands in, and how many steps it has tried. */
-typedef struct journey
+/* The step control of the group follows from those of its members. */
+static ellipsoid_controller common(const ellipsoid_group *g,
+                                   const ellipsoid_member members[])
 {
-    ellipsoid_state *state;
-    double *t;
-    ellipsoid_controller *controller;
-    ellipsoid_observer observer;
-    void *observer_context;
-    long attempts;
-} journey;
+    ellipsoid_controller all = *members[0].controller;
 
-/* Goes on to `end`, in one noise interval if there is noise. */
-static ellipsoid_status go_to(const ellipsoid_problem *p, double end,
-                              journey *j)
-{
-    ellipsoid_point points[2], *start = &points[0], *next = &points[1];
-    ellipsoid_step step;
-    ellipsoid_status status;
-
-    memset(&points[0].contact, 0, sizeof(points[0].contact));
-    points[0].contact.gap = HUGE_VAL;
-    points[1].contact = points[0].contact;
-
-    status = begin(p, j->state, *j->t, end, start);
-    while (status == ELLIPSOID_OK && *j->t < end)
+    for (int cell = 1; cell < g->count; cell++)
     {
-        ellipsoid_point *finished = start;
+        const ellipsoid_controller *own = members[cell].controller;
 
-        status = take_step(p, start, *j->t, end, &j->attempts, j->controller,
-                           next, &step);
+        all.step = fmin(all.step, own->step);
+        all.previous_error = fmax(all.previous_error, own->previous_error);
+    }
+    return all;
+}
+
+/* Hands the step to the members. Does one want to stop? */
+static int hand_over(ellipsoid_group *g, const ellipsoid_member members[],
+                     const ellipsoid_controller *controller,
+                     ellipsoid_observer observer)
+{
+    int stopped = 0;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_point *next = &g->next[cell];
+        ellipsoid_statistics *statistics = g->cell[cell].statistics;
+
+        *members[cell].state = next->state;
+        *members[cell].controller = *controller;
+        statistics->deepest =
+            fmax(statistics->deepest, next->contact.deepest);
+    }
+    for (int cell = 0; observer && cell < g->count; cell++)
+    {
+        if (observer(members[cell].observer_context, &g->step[cell])
+            && !stopped)
+        {
+            stopped = 1;
+            g->culprit = cell;
+        }
+    }
+    return stopped;
+}
+
+ellipsoid_status ellipsoid_group_advance(ellipsoid_group *g,
+                                         const ellipsoid_member members[],
+                                         double *t, double end,
+                                         ellipsoid_observer observer,
+                                         long *attempts)
+{
+    ellipsoid_controller controller = common(g, members);
+    ellipsoid_status status = begin(g, members, *t, end);
+
+    while (status == ELLIPSOID_OK && *t < end)
+    {
+        status = take_step(g, *t, end, attempts, &controller);
         if (status == ELLIPSOID_OK)
         {
-            *j->state = next->state;
-            *j->t = step.end;
-            p->statistics->deepest =
-                fmax(p->statistics->deepest, next->contact.deepest);
-            if (j->observer && j->observer(j->observer_context, &step))
+            ellipsoid_point *finished = g->start;
+
+            *t = g->step[0].end;
+            if (hand_over(g, members, &controller, observer))
             {
                 status = ELLIPSOID_STOPPED;
             }
-            start = next;
-            next = finished;
-        }
-    }
-    return status;
-}
-
-ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
-                                   const ellipsoid_surroundings *surroundings,
-                                   ellipsoid_state *state, double *t,
-                                   double end, ellipsoid_controller *controller,
-                                   ellipsoid_contact_cache *cache,
-                                   ellipsoid_observer observer,
-                                   void *observer_context,
-                                   ellipsoid_statistics *statistics)
-{
-    const double *a = model->options.semi_axes;
-    const int drag = model->options.drag && surroundings->flow != NULL;
-    const int noisy = model->options.brownian && drag;
-    ellipsoid_noise noise = {{0}, {0}, 0, 0, 0};
-    const ellipsoid_problem p = {
-        .model = model,
-        .surroundings = surroundings,
-        .cache = cache,
-        .statistics = statistics,
-        .length = fmax(a[0], fmax(a[1], a[2])),
-        .rate = drag ? 1 / model->relaxation_time : 0,
-        .rotation_rate = drag ? 1 / model->rotation_relaxation_time : 0,
-        .noise = noisy ? &noise : NULL,
-        .aligned = model->aligned,
-        .inertial = model->options.motion == ELLIPSOID_MOTION_INERTIAL,
-        .walls = ellipsoid_has_walls(model, surroundings),
-        .observed = observer != NULL,
-    };
-    journey j = {state, t, controller, observer, observer_context, 0};
-    ellipsoid_status status = ELLIPSOID_OK;
-
-    if (!isfinite(*t) || !isfinite(end))
-    {
-        return ELLIPSOID_NON_FINITE;
-    }
-    if (!p.inertial && !drag)
-    {
-        return *t < end ? ELLIPSOID_BAD_OPTION : ELLIPSOID_OK;
-    }
-    while (status == ELLIPSOID_OK && *t < end)
-    {
-        double until = end;
-
-        if (noisy)
-        {
-            status = ellipsoid_noise_at(model, surroundings, *t, &noise);
-            if (noise.end < end - noise.slack)
-            {
-                until = noise.end;
-            }
-        }
-        if (status == ELLIPSOID_OK)
-        {
-            status = go_to(&p, until, &j);
+            g->start = g->next;
+            g->next = finished;
+            g->has_blocks = g->next_has_blocks;
         }
     }
     return status;

@@ -10,7 +10,7 @@
     L-stable, stiffly accurate, of order 2 with a Jacobian that is not exact. Of four sets
     it takes the fewest steps (tests/benchmarks).
 */
-#include "ellipsoidInternal.h"
+#include "integrator.h"
 
 const ellipsoid_rosenbrock_table ellipsoid_rosenbrock_set = {
     .gamma = 0.25,

@@ -10,41 +10,16 @@
     index 1, and the method is that of section VI.4: the same with a mass matrix
     that has zeros there.
 */
-#include "ellipsoidInternal.h"
+#include "integrator.h"
 
 #include <math.h>
 #include <string.h>
 
-enum
-{
-    SIZE = ELLIPSOID_STATE_SIZE,
-    U = ELLIPSOID_U,
-    X = ELLIPSOID_X,
-    W = ELLIPSOID_OMEGA,
-    Q = ELLIPSOID_Q
-};
-
-ellipsoid_status ellipsoid_problem_evaluate(const ellipsoid_problem *problem,
-                                            ellipsoid_state *state,
-                                            int balanced,
-                                            ellipsoid_state *derivative,
-                                            ellipsoid_contact *contact,
-                                            ellipsoid_blocks *blocks)
-{
-    problem->statistics->rhs++;
-    problem->statistics->jacobians += blocks != NULL;
-    return ellipsoid_evaluate(problem->model, problem->surroundings,
-                              problem->noise, state, balanced, problem->cache,
-                              derivative, contact, blocks);
-}
-
-/* --------------------------------------------------------------- a step */
-
 /* sum_j<count weight[j] k_j; inlined with a constant count. */
-static inline void weighted_sum(double k[][SIZE], const double *weight,
-                                int count, double sum[SIZE])
+static inline void weighted_sum(double k[][UNKNOWNS], const double *weight,
+                                int count, double sum[UNKNOWNS])
 {
-    for (int n = 0; n < SIZE; n++)
+    for (int n = 0; n < UNKNOWNS; n++)
     {
         double s = weight[0] * k[0][n];
 
@@ -56,8 +31,8 @@ static inline void weighted_sum(double k[][SIZE], const double *weight,
     }
 }
 
-static inline void stage_sums(double k[][SIZE], int stage, double a[SIZE],
-                              double c[SIZE])
+static inline void stage_sums(double k[][UNKNOWNS], int stage, double a[UNKNOWNS],
+                              double c[UNKNOWNS])
 {
     const double *wa = ellipsoid_rosenbrock_set.a[stage];
     const double *wc = ellipsoid_rosenbrock_set.c[stage];
@@ -86,83 +61,107 @@ static inline void stage_sums(double k[][SIZE], int stage, double a[SIZE],
     }
 }
 
-ellipsoid_status ellipsoid_rosenbrock_step(const ellipsoid_problem *problem,
-                                           const ellipsoid_point *start,
-                                           double h, ellipsoid_stages *stages)
+/* Sets the state of a stage and, in k, what belongs to its right-hand side
+   besides the equations: sum c_ij/h K_j, where there is mass. */
+static ellipsoid_status set_stage(const ellipsoid_group *g, int cell, int stage,
+                                  double per_h)
 {
-    ellipsoid_stage_system system;
-    double y0[SIZE], r[SIZE], mass[SIZE]; /* the latter over h */
+    ellipsoid_stages *s = &g->stages[cell];
+    double y[UNKNOWNS], from[UNKNOWNS];
 
-    stages->order = 4;
-    stages->sampled = ELLIPSOID_ROSENBROCK_STAGES;
-    stages->in_time = ellipsoid_rosenbrock_set.in_time;
-    if (!ellipsoid_stage_system_prepare(&system, problem, start, h))
+    memcpy(from, &g->start[cell].state, sizeof(from));
+    stage_sums(s->k, stage, y, s->k[stage]);
+    for (int n = 0; n < UNKNOWNS; n++)
+    {
+        y[n] += from[n];
+        s->k[stage][n] *=
+            ellipsoid_is_rate(n) && !g->inertial ? 0 : per_h;
+    }
+    memcpy(&g->next[cell].state, y, sizeof(y));
+    return ellipsoid_is_pose(y + AT_X, y + AT_Q) ? ELLIPSOID_OK
+                                                 : ELLIPSOID_STEP_UNDERFLOW;
+}
+
+static void add_equations(const ellipsoid_point *at, double k[UNKNOWNS])
+{
+    double f[UNKNOWNS];
+
+    memcpy(f, &at->derivative, sizeof(f));
+    for (int n = 0; n < UNKNOWNS; n++)
+    {
+        k[n] += f[n];
+    }
+}
+
+/* The last stage is the error estimate, and leads to the result. */
+static void finish(const ellipsoid_point *at, ellipsoid_stages *s)
+{
+    const double *last = s->k[ELLIPSOID_ROSENBROCK_STAGES - 1];
+
+    memcpy(s->y, &at->state, sizeof(s->y));
+    for (int n = 0; n < UNKNOWNS; n++)
+    {
+        s->y[n] += last[n];
+        s->error[n] = last[n];
+    }
+}
+
+ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *g, double h)
+{
+    if (!ellipsoid_group_system_prepare(g, h))
     {
         return ELLIPSOID_NON_FINITE;
     }
-    for (int n = 0; n < SIZE; n++)
+    for (int cell = 0; cell < g->count; cell++)
     {
-        const int is_rate = n < X || (n >= W && n < Q);
+        ellipsoid_stages *s = &g->stages[cell];
 
-        mass[n] = is_rate && !problem->inertial ? 0 : 1 / h;
+        s->order = 4;
+        s->sampled = ELLIPSOID_ROSENBROCK_STAGES;
+        s->in_time = ellipsoid_rosenbrock_set.in_time;
+        memcpy(s->k[0], &g->start[cell].derivative, sizeof(s->k[0]));
+        if (ellipsoid_group_feels(g, cell))
+        {
+            ellipsoid_stages_sample(s, 0, &g->start[cell]);
+        }
     }
-    memcpy(y0, &start->state, sizeof(y0));
-    memcpy(r, &start->derivative, sizeof(r));
-    ellipsoid_stage_system_solve(&system, r, stages->k[0]);
-    if (problem->walls)
-    {
-        ellipsoid_stages_sample(stages, 0, &start->state, start->contact.gap);
-    }
+    ellipsoid_group_system_solve(g, 0);
 
     for (int i = 1; i < ELLIPSOID_ROSENBROCK_STAGES; i++)
     {
-        union
-        {
-            ellipsoid_state state;
-            double y[SIZE];
-        } at, rate;
-        ellipsoid_contact contact;
-        ellipsoid_status status;
-        double change[SIZE];
+        ellipsoid_status status = ELLIPSOID_OK;
 
-        stage_sums(stages->k, i, at.y, change);
-        for (int n = 0; n < SIZE; n++)
+        for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
         {
-            at.y[n] += y0[n];
+            status = set_stage(g, cell, i, 1 / h);
         }
-        if (!ellipsoid_is_pose(at.y + X, at.y + Q))
+        if (status == ELLIPSOID_OK)
         {
-            return ELLIPSOID_STEP_UNDERFLOW;
+            status = ellipsoid_group_evaluate(g, g->next, 0, 0);
         }
-        status = ellipsoid_problem_evaluate(problem, &at.state, 0, &rate.state,
-                                            &contact, NULL);
         if (status != ELLIPSOID_OK)
         {
             return status;
         }
-        if (problem->walls)
+        for (int cell = 0; cell < g->count; cell++)
         {
-            ellipsoid_stages_sample(stages, i, &at.state, contact.gap);
-        }
-        for (int n = 0; n < SIZE; n++)
-        {
-            rate.y[n] += mass[n] * change[n];
-        }
-        ellipsoid_stage_system_solve(&system, rate.y, stages->k[i]);
-        if (i == ELLIPSOID_ROSENBROCK_STAGES - 1)
-        {
-            for (int n = 0; n < SIZE; n++)
+            if (ellipsoid_group_feels(g, cell))
             {
-                stages->y[n] = at.y[n] + stages->k[i][n];
-                stages->error[n] = stages->k[i][n];
+                ellipsoid_stages_sample(&g->stages[cell], i, &g->next[cell]);
             }
+            add_equations(&g->next[cell], g->stages[cell].k[i]);
         }
+        ellipsoid_group_system_solve(g, i);
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        finish(&g->next[cell], &g->stages[cell]);
     }
     return ELLIPSOID_OK;
 }
 
 void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,
-                                double dense[3][ELLIPSOID_STATE_SIZE])
+                                double dense[3][UNKNOWNS])
 {
     for (int i = 0; i < 2; i++)
     {

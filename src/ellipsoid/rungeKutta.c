@@ -3,22 +3,17 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    rungeKutta.c - one explicit step of inertialess motion, and dense output.
+    rungeKutta.c - one explicit step of inertialess motion, and its dense output.
 
     Tsitouras, Comput. Math. Appl. 62, 770 (2011): order 5(4), the last stage
     is the first of the next step, with a continuous extension of order 4. Its
     error is half that of Dormand and Prince's method for the same work.
 */
-#include "ellipsoidInternal.h"
+#include "integrator.h"
 
 enum
 {
-    SIZE = ELLIPSOID_STATE_SIZE,
-    STAGES = 7,
-    U = ELLIPSOID_U,
-    X = ELLIPSOID_X,
-    W = ELLIPSOID_OMEGA,
-    Q = ELLIPSOID_Q
+    STAGES = 7
 };
 
 static const double table[STAGES][STAGES - 1] = {
@@ -55,23 +50,23 @@ static const double of_dense[STAGES] = {-1.0530884977290216,
 static const int in_time[STAGES] = {0, 1, 2, 3, 4, 5, 6};
 
 /* sum_j<count weight[j] k_j; inlined with a constant count. */
-static inline void weighted_sum(double k[][SIZE], const double *weight,
-                                int count, double sum[SIZE])
+static inline void weighted_sum(double k[][UNKNOWNS], const double *weight,
+                                int count, double sum[UNKNOWNS])
 {
-    for (int n = X; n < SIZE; n++)
+    for (int n = AT_X; n < UNKNOWNS; n++)
     {
         sum[n] = weight[0] * k[0][n];
     }
     for (int j = 1; j < count; j++)
     {
-        for (int n = X; n < SIZE; n++)
+        for (int n = AT_X; n < UNKNOWNS; n++)
         {
             sum[n] += weight[j] * k[j][n];
         }
     }
 }
 
-static void stage_sum(double k[][SIZE], int stage, double sum[SIZE])
+static void stage_sum(double k[][UNKNOWNS], int stage, double sum[UNKNOWNS])
 {
     switch (stage)
     {
@@ -99,85 +94,102 @@ static void stage_sum(double k[][SIZE], int stage, double sum[SIZE])
    the place of its derivative. */
 static inline void keep_slopes(const ellipsoid_state *state,
                                const ellipsoid_state *derivative,
-                               double k[SIZE])
+                               double k[UNKNOWNS])
 {
-    ellipsoid_copy(derivative->x, k + X);
-    ellipsoid_copy(state->omega, k + W);
-    memcpy(k + Q, derivative->q, sizeof(derivative->q));
+    ellipsoid_copy(derivative->x, k + AT_X);
+    ellipsoid_copy(state->omega, k + AT_OMEGA);
+    memcpy(k + AT_Q, derivative->q, sizeof(derivative->q));
 }
 
-ellipsoid_status ellipsoid_explicit_step(const ellipsoid_problem *problem,
-                                         const ellipsoid_point *start, double h,
-                                         ellipsoid_stages *stages,
-                                         ellipsoid_point *next, int *touched)
+/* Sets the state of a stage of one cell; the last one is the result. */
+static ellipsoid_status set_stage(const ellipsoid_group *g, int cell, int stage,
+                                  double h)
 {
-    union
-    {
-        ellipsoid_state state;
-        double y[SIZE];
-    } from, at = {{{0}, {0}, {0}, {0}}};
+    double change[UNKNOWNS], y[UNKNOWNS];
 
-    from.state = start->state;
-    stages->order = 5;
-    stages->sampled = STAGES;
-    stages->in_time = in_time;
-    *touched = 0;
-    keep_slopes(&start->state, &start->derivative, stages->k[0]);
-    if (problem->walls)
+    memcpy(y, &g->start[cell].state, sizeof(y));
+    stage_sum(g->stages[cell].k, stage, change);
+    for (int n = AT_X; n < UNKNOWNS; n++)
     {
-        ellipsoid_stages_sample(stages, 0, &start->state, start->contact.gap);
+        y[n] += ellipsoid_is_rate(n) ? 0 : h * change[n];
+    }
+    if (!ellipsoid_is_pose(y + AT_X, y + AT_Q))
+    {
+        return ELLIPSOID_STEP_UNDERFLOW;
+    }
+    if (stage == STAGES - 1)
+    {
+        ellipsoid_normalise(y + AT_Q);
+    }
+    memcpy(&g->next[cell].state, y, sizeof(y));
+    return ELLIPSOID_OK;
+}
+
+static void finish(const ellipsoid_point *at, double h, ellipsoid_stages *s)
+{
+    weighted_sum(s->k, of_error, STAGES, s->error);
+    for (int n = 0; n < UNKNOWNS; n++)
+    {
+        s->error[n] = ellipsoid_is_rate(n) ? 0 : h * s->error[n];
+    }
+    memcpy(s->y, &at->state, sizeof(s->y));
+}
+
+ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g, double h,
+                                         int *touched)
+{
+    *touched = 0;
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_point *start = &g->start[cell];
+        ellipsoid_stages *s = &g->stages[cell];
+
+        s->order = 5;
+        s->sampled = STAGES;
+        s->in_time = in_time;
+        keep_slopes(&start->state, &start->derivative, s->k[0]);
+        if (ellipsoid_group_feels(g, cell))
+        {
+            ellipsoid_stages_sample(s, 0, start);
+        }
     }
 
     for (int i = 1; i < STAGES; i++)
     {
-        const int last = i == STAGES - 1;
-        double change[SIZE];
-        ellipsoid_status status;
+        ellipsoid_status status = ELLIPSOID_OK;
 
-        stage_sum(stages->k, i, change);
-        for (int n = 0; n < 3; n++)
+        for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
         {
-            at.y[X + n] = from.y[X + n] + h * change[X + n];
+            status = set_stage(g, cell, i, h);
         }
-        for (int n = Q; n < SIZE; n++)
+        if (status == ELLIPSOID_OK)
         {
-            at.y[n] = from.y[n] + h * change[n];
+            status = ellipsoid_group_evaluate(g, g->next, 1, 0);
         }
-        if (!ellipsoid_is_pose(at.y + X, at.y + Q))
-        {
-            return ELLIPSOID_STEP_UNDERFLOW;
-        }
-        if (last)
-        {
-            ellipsoid_normalise(at.y + Q);
-        }
-        status = ellipsoid_problem_evaluate(
-            problem, &at.state, 1, &next->derivative, &next->contact, NULL);
         if (status != ELLIPSOID_OK)
         {
             return status;
         }
-        if (problem->walls)
+        for (int cell = 0; cell < g->count; cell++)
         {
-            if (next->contact.touching_beads > 0)
-            {
-                *touched = 1;
-                return ELLIPSOID_OK;
-            }
-            ellipsoid_stages_sample(stages, i, &at.state, next->contact.gap);
-        }
-        keep_slopes(&at.state, &next->derivative, stages->k[i]);
-    }
-    weighted_sum(stages->k, of_error, STAGES, stages->error);
-    for (int n = 0; n < SIZE; n++)
-    {
-        const int solved = (n >= X && n < W) || n >= Q;
+            const ellipsoid_point *at = &g->next[cell];
 
-        stages->error[n] = solved ? h * stages->error[n] : 0;
+            if (ellipsoid_group_feels(g, cell))
+            {
+                *touched = *touched || ellipsoid_touches(&at->contact);
+                ellipsoid_stages_sample(&g->stages[cell], i, at);
+            }
+            keep_slopes(&at->state, &at->derivative, g->stages[cell].k[i]);
+        }
+        if (*touched)
+        {
+            return ELLIPSOID_OK;
+        }
     }
-    memcpy(stages->y, at.y, sizeof(stages->y));
-    next->state = at.state;
-    next->has_blocks = 0;
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        finish(&g->next[cell], h, &g->stages[cell]);
+    }
     return ELLIPSOID_OK;
 }
 
@@ -189,19 +201,20 @@ ellipsoid_status ellipsoid_explicit_step(const ellipsoid_problem *problem,
 */
 void ellipsoid_explicit_dense(ellipsoid_stages *stages,
                               const ellipsoid_step *step,
-                              double dense[3][ELLIPSOID_STATE_SIZE])
+                              double dense[3][UNKNOWNS])
 {
     const double h = step->end - step->start;
-    double(*k)[SIZE] = stages->k;
-    double before[SIZE], after[SIZE], change[SIZE];
+    double(*k)[UNKNOWNS] = stages->k;
+    double before[UNKNOWNS], after[UNKNOWNS], change[UNKNOWNS];
 
     memcpy(before, &step->before, sizeof(before));
     memcpy(after, &step->after, sizeof(after));
     weighted_sum(k, table[STAGES - 1], STAGES - 1, change);
     weighted_sum(k, of_dense, STAGES, dense[2]);
-    for (int n = X; n < SIZE; n++)
+    for (int n = AT_X; n < UNKNOWNS; n++)
     {
-        const double d = n >= W && n < Q ? h * change[n] : after[n] - before[n];
+        const double d = ellipsoid_is_rate(n) ? h * change[n]
+                                              : after[n] - before[n];
 
         dense[0][n] = h * k[0][n] - d;
         dense[1][n] = d - h * k[STAGES - 1][n] - dense[0][n];
@@ -209,7 +222,8 @@ void ellipsoid_explicit_dense(ellipsoid_stages *stages,
     }
     for (int n = 0; n < 3; n++)
     {
-        const int of[2] = {X + n, W + n}, to[2] = {U + n, W + n};
+        const int of[2] = {AT_X + n, AT_OMEGA + n};
+        const int to[2] = {AT_U + n, AT_OMEGA + n};
 
         for (int i = 0; i < 2; i++)
         {
@@ -220,31 +234,4 @@ void ellipsoid_explicit_dense(ellipsoid_stages *stages,
             dense[2][to[i]] = 0;
         }
     }
-}
-
-/* At the ends the step's own states. */
-void ellipsoid_step_state(const ellipsoid_step *step, double t,
-                          ellipsoid_state *state)
-{
-    const double s = (t - step->start) / (step->end - step->start);
-    const double r = 1 - s;
-    double before[SIZE], after[SIZE], y[SIZE];
-
-    if (t <= step->start || t >= step->end)
-    {
-        *state = t <= step->start ? step->before : step->after;
-        return;
-    }
-    memcpy(before, &step->before, sizeof(before));
-    memcpy(after, &step->after, sizeof(after));
-    for (int n = 0; n < SIZE; n++)
-    {
-        const double *d[3] = {&step->dense[0][n], &step->dense[1][n],
-                              &step->dense[2][n]};
-        const double bend = *d[0] + s * (*d[1] + r * *d[2]);
-
-        y[n] = r * before[n] + s * (after[n] + r * bend);
-    }
-    ellipsoid_normalise(y + Q);
-    memcpy(state, y, sizeof(*state));
 }

@@ -8,31 +8,27 @@
     In a file of its own so that it is compiled once: inlined into the stages it
     makes them slower, as they outgrow the processor's cache for instructions.
 */
-#include "ellipsoidInternal.h"
+#include "integrator.h"
 
 #include <math.h>
 #include <string.h>
-
-enum
-{
-    SIZE = ELLIPSOID_STATE_SIZE,
-    U = ELLIPSOID_U,
-    X = ELLIPSOID_X,
-    W = ELLIPSOID_OMEGA,
-    Q = ELLIPSOID_Q
-};
 
 /* What is needed on the way there. */
 typedef struct elimination
 {
     const ellipsoid_state *state;
     double g, per_g;
-    double g_rates;       /* g, or 0 without inertia */
-    double per_square;    /* 1/(g^2 + |omega|^2/4) */
-    double x[6][3];       /* blocks / g, rows u then omega */
-    double q[6][4];       /* blocks (g I - Q/2)^-1 */
-    double inverse[6][6]; /* transposed */
+    double per_square; /* 1/(g^2 + |omega|^2/4) */
 } elimination;
+
+static inline elimination of_step(const ellipsoid_state *state, double h)
+{
+    const double per_g = ellipsoid_rosenbrock_set.gamma * h, g = 1 / per_g;
+    const double square = g * g
+        + 0.25 * ellipsoid_dot(state->omega, state->omega);
+
+    return (elimination){state, g, per_g, 1 / square};
+}
 
 /* By cofactors; 0 if it is singular. */
 static inline int invert3(double m[3][3], double inverse[3][3])
@@ -69,7 +65,7 @@ static inline void multiply3(double sign, double left[3][3], double right[3][3],
     Where a stiff contact couples u and omega, M loses digits, a few of sixteen,
     to the difference (test_rosenbrock.c). 0 if S or M is singular.
 */
-static inline int invert(double m[6][6])
+int ellipsoid_invert6(double m[6][6])
 {
     double a[3][3], b[3][3], c[3][3], last[3][3];
     double s[3][3], bs[3][3], sc[3][3], bsc[3][3], first[3][3];
@@ -128,38 +124,51 @@ static inline double coupling(const double row[4], const double q[4], int i,
          * (row[i] * q[3] + row[j] * q[k] - row[k] * q[j] - row[3] * q[i]);
 }
 
-/*
-    One row of the 6x6 matrix, as a column of the transposed one.
-*/
-static inline void eliminate_row(elimination *e, int row, const double of_u[3],
-                                 const double of_x[3], const double of_w[3],
-                                 const double of_q[4])
+/* One row: blocks / g, blocks (g I - Q/2)^-1, and -J; transposed. */
+static inline void reduce_row(const elimination *e, int row,
+                              const double of_u[3], const double of_x[3],
+                              const double of_w[3], const double of_q[4],
+                              ellipsoid_reduced *to)
 {
     const double *q = e->state->q;
+    double turned[4];
 
-    turn(e, -1, of_q, e->q[row]);
+    turn(e, -1, of_q, turned);
     for (int n = 0; n < 3; n++)
     {
-        e->x[row][n] = e->per_g * of_x[n];
-        e->inverse[n][row] = -(of_u[n] + e->x[row][n]);
+        to->x[n][row] = e->per_g * of_x[n];
+        to->rates[n][row] = -(of_u[n] + to->x[n][row]);
     }
-    e->inverse[3][row] = coupling(e->q[row], q, 0, 1, 2) - of_w[0];
-    e->inverse[4][row] = coupling(e->q[row], q, 1, 2, 0) - of_w[1];
-    e->inverse[5][row] = coupling(e->q[row], q, 2, 0, 1) - of_w[2];
-    e->inverse[row][row] += e->g_rates;
+    for (int n = 0; n < 4; n++)
+    {
+        to->q[n][row] = turned[n];
+    }
+    to->rates[3][row] = coupling(turned, q, 0, 1, 2) - of_w[0];
+    to->rates[4][row] = coupling(turned, q, 1, 2, 0) - of_w[1];
+    to->rates[5][row] = coupling(turned, q, 2, 0, 1) - of_w[2];
 }
 
-/* result = inverse column, column given as every stride-th number. */
-static inline void apply_inverse(const elimination *e, const double *column,
-                                 int stride, double result[6])
+static inline void reduce(const elimination *e, const ellipsoid_blocks *b,
+                          ellipsoid_reduced *to)
+{
+    for (int i = 0; i < 3; i++)
+    {
+        reduce_row(e, i, b->uu[i], b->ux[i], b->uw[i], b->uq[i], to);
+        reduce_row(e, i + 3, b->wu[i], b->wx[i], b->ww[i], b->wq[i], to);
+    }
+}
+
+/* result = inverse column; the inverse is transposed. */
+static inline void apply_inverse(double inverse[6][6], const double column[6],
+                                 double result[6])
 {
     for (int n = 0; n < 6; n++)
     {
-        double sum = e->inverse[0][n] * column[0];
+        double sum = inverse[0][n] * column[0];
 
         for (int i = 1; i < 6; i++)
         {
-            sum += e->inverse[i][n] * column[i * stride];
+            sum += inverse[i][n] * column[i];
         }
         result[n] = sum;
     }
@@ -189,48 +198,63 @@ static void fill_quaternion_part(const elimination *e,
 }
 
 int ellipsoid_stage_system_prepare(ellipsoid_stage_system *s,
-                                   const ellipsoid_problem *problem,
-                                   const ellipsoid_point *start, double h)
+                                   const ellipsoid_point *start, int inertial,
+                                   double h)
 {
-    static const double none[3] = {0, 0, 0};
-    const ellipsoid_blocks *b = &start->blocks;
-    const double *w = start->state.omega;
-    elimination e;
+    const elimination e = of_step(&start->state, h);
+    ellipsoid_reduced reduced;
 
-    e.state = &start->state;
-    e.per_g = ellipsoid_rosenbrock_set.gamma * h;
-    e.g = 1 / e.per_g;
-    e.g_rates = problem->inertial ? e.g : 0;
-    e.per_square = 1 / (e.g * e.g + 0.25 * ellipsoid_dot(w, w));
-
-    for (int i = 0; i < 3; i++)
+    reduce(&e, &start->blocks, &reduced);
+    for (int n = 0; inertial && n < 6; n++)
     {
-        eliminate_row(&e, i, b->uu[i], b->ux[i], none, b->uq[i]);
-        eliminate_row(&e, i + 3, none, b->wx[i], b->ww[i], b->wq[i]);
+        reduced.rates[n][n] += e.g;
     }
-    if (!invert(e.inverse))
+    if (!ellipsoid_invert6(reduced.rates))
     {
         return 0;
     }
     s->per_g = e.per_g;
-    memcpy(s->to_rates[U], e.inverse[0], 3 * sizeof(e.inverse[0]));
-    memcpy(s->to_rates[W], e.inverse[3], 3 * sizeof(e.inverse[0]));
+    memcpy(s->to_rates[AT_U], reduced.rates[0], sizeof(double[3][6]));
+    memcpy(s->to_rates[AT_OMEGA], reduced.rates[3], sizeof(double[3][6]));
     for (int n = 0; n < 3; n++)
     {
-        apply_inverse(&e, &e.x[0][n], 3, s->to_rates[X + n]);
+        apply_inverse(reduced.rates, reduced.x[n], s->to_rates[AT_X + n]);
     }
     for (int n = 0; n < 4; n++)
     {
-        apply_inverse(&e, &e.q[0][n], 4, s->to_rates[Q + n]);
+        apply_inverse(reduced.rates, reduced.q[n], s->to_rates[AT_Q + n]);
     }
     fill_quaternion_part(&e, s);
     return 1;
 }
 
-void ellipsoid_stage_system_solve(const ellipsoid_stage_system *s,
-                                  const double r[SIZE], double k[SIZE])
+static inline void kinematics(const ellipsoid_stage_system *s,
+                              const double a[6], const double r[UNKNOWNS],
+                              double k[UNKNOWNS])
 {
-    double a[6], q[4];
+    double q[4];
+
+    for (int n = 0; n < 4; n++)
+    {
+        q[n] = (s->q_from_q[0][n] * r[AT_Q] + s->q_from_q[1][n] * r[AT_Q + 1])
+             + (s->q_from_q[2][n] * r[AT_Q + 2]
+                + s->q_from_q[3][n] * r[AT_Q + 3])
+             + (s->q_from_w[0][n] * a[3] + s->q_from_w[1][n] * a[4]
+                + s->q_from_w[2][n] * a[5]);
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        k[AT_U + i] = a[i];
+        k[AT_X + i] = s->per_g * (r[AT_X + i] + a[i]);
+        k[AT_OMEGA + i] = a[i + 3];
+    }
+    memcpy(k + AT_Q, q, sizeof(q));
+}
+
+void ellipsoid_stage_system_solve(const ellipsoid_stage_system *s,
+                                  const double r[UNKNOWNS], double k[UNKNOWNS])
+{
+    double a[6];
 
     for (int n = 0; n < 6; n++)
     {
@@ -244,18 +268,30 @@ void ellipsoid_stage_system_solve(const ellipsoid_stage_system *s,
                 + (t[10][n] * r[10] + t[11][n] * r[11]))
              + t[12][n] * r[12];
     }
-    for (int n = 0; n < 4; n++)
-    {
-        q[n] = (s->q_from_q[0][n] * r[Q] + s->q_from_q[1][n] * r[Q + 1])
-             + (s->q_from_q[2][n] * r[Q + 2] + s->q_from_q[3][n] * r[Q + 3])
-             + (s->q_from_w[0][n] * a[3] + s->q_from_w[1][n] * a[4]
-                + s->q_from_w[2][n] * a[5]);
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        k[U + i] = a[i];
-        k[X + i] = s->per_g * (r[X + i] + a[i]);
-        k[W + i] = a[i + 3];
-    }
-    memcpy(k + Q, q, sizeof(q));
+    kinematics(s, a, r, k);
+}
+
+void ellipsoid_stage_system_reduce(const ellipsoid_blocks *blocks,
+                                   const ellipsoid_state *column, double h,
+                                   ellipsoid_reduced *reduced)
+{
+    const elimination e = of_step(column, h);
+
+    reduce(&e, blocks, reduced);
+}
+
+void ellipsoid_stage_system_kinematics(ellipsoid_stage_system *s,
+                                       const ellipsoid_state *state, double h)
+{
+    const elimination e = of_step(state, h);
+
+    s->per_g = e.per_g;
+    fill_quaternion_part(&e, s);
+}
+
+void ellipsoid_stage_system_finish(const ellipsoid_stage_system *s,
+                                   const double rates[6],
+                                   const double r[UNKNOWNS], double k[UNKNOWNS])
+{
+    kinematics(s, rates, r, k);
 }

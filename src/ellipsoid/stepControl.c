@@ -5,38 +5,29 @@
 
     stepControl.c - how long a step is, and whether it is good enough.
 */
-#include "ellipsoidInternal.h"
+#include "integrator.h"
 
 #include <float.h>
 #include <math.h>
-
-enum
-{
-    SIZE = ELLIPSOID_STATE_SIZE,
-    U = ELLIPSOID_U,
-    X = ELLIPSOID_X,
-    W = ELLIPSOID_OMEGA,
-    Q = ELLIPSOID_Q
-};
 
 /*
     The error in units of the tolerance. Errors of u and omega count by what
     they do to x and q: they last one relaxation time or one step, whichever is
     shorter. So the stiff components do not govern the step.
 */
-static double scaled_error(const ellipsoid_problem *p, const double error[SIZE],
+static double scaled_error(const ellipsoid_problem *p, const double error[UNKNOWNS],
                            double h)
 {
     const double per_h = 1 / h;
-    const double *q = error + Q;
-    const double ex = ellipsoid_length(error + X) / p->length;
-    const double eq = sqrt(ellipsoid_dot(q, q) + q[3] * q[3]);
+    const double *q = error + AT_Q;
+    const double ex = ellipsoid_length(error + AT_X) / p->length;
+    const double eq = sqrt(ellipsoid_square4(q));
     double eu = 0, ew = 0, sum;
 
     if (p->inertial)
     {
-        eu = ellipsoid_length(error + U) / (p->length * fmax(p->rate, per_h));
-        ew = ellipsoid_length(error + W) / fmax(p->rotation_rate, per_h);
+        eu = ellipsoid_length(error + AT_U) / (p->length * fmax(p->rate, per_h));
+        ew = ellipsoid_length(error + AT_OMEGA) / fmax(p->rotation_rate, per_h);
     }
     sum = ex + eu + ew + eq;
 
@@ -51,18 +42,18 @@ static double scaled_error(const ellipsoid_problem *p, const double error[SIZE],
     bead that passes through a wall between two of them unseen has to leave the
     one gap, the wall by two radii less an overlap, and the other gap. So none
     does if none travels farther than both gaps and a bead radius: the farthest
-    travel in units of that.
+    travel in units of that. Of two cells either moves half as far at most.
 */
 static double unseen_travel(const ellipsoid_problem *p,
-                            const ellipsoid_stages *stages)
+                            const ellipsoid_stages *stages, double bare)
 {
     double worst = 0;
 
     for (int n = 1; n < stages->sampled; n++)
     {
         const int i = stages->in_time[n - 1], j = stages->in_time[n];
-        const double safe = fmax(stages->gap[i], 0) + fmax(stages->gap[j], 0)
-                          + p->model->options.bead_radius;
+        const double safe = stages->gap[i] + stages->gap[j]
+                          + bare * p->model->options.bead_radius;
         double move[3], turn[4], travel;
 
         for (int l = 0; l < 3; l++)
@@ -75,8 +66,7 @@ static double unseen_travel(const ellipsoid_problem *p,
         }
         /* a change of q by d turns the body by 2 d */
         travel = ellipsoid_length(move)
-               + 2 * p->model->reach
-                     * sqrt(ellipsoid_dot(turn, turn) + turn[3] * turn[3]);
+               + 2 * p->model->reach * sqrt(ellipsoid_square4(turn));
         worst = fmax(worst, travel / safe);
     }
     return worst;
@@ -121,23 +111,33 @@ double ellipsoid_step_factor(int order, double error, double previous_error)
     return fmin(fmax(0.9 * exp(exponent / order), 0.2), 5);
 }
 
+/* What one cell says to it: `there` is a short way `ahead` along its slopes. */
+static double longest_step(const ellipsoid_problem *p,
+                           const ellipsoid_point *start, double turn,
+                           double ahead, const ellipsoid_state *there)
+{
+    double change, bend[3], curve[4];
+
+    ellipsoid_difference(there->x, start->derivative.x, bend);
+    for (int n = 0; n < 4; n++)
+    {
+        curve[n] = there->q[n] - start->derivative.q[n];
+    }
+    change = fmax(ellipsoid_length(bend) / p->length,
+                  sqrt(ellipsoid_square4(curve)));
+    return 2 * pow(p->model->options.tolerance, 0.2)
+         / fmax(turn, sqrt(change / ahead));
+}
+
 /*
     Sets *step to a first step. With inertia it resolves the relaxation.
     Without, the times in which q turns and in which the slopes change say how
     long it may be; the latter from a short way along the slopes.
 */
-ellipsoid_status ellipsoid_first_step(const ellipsoid_problem *p,
-                                      const ellipsoid_point *start,
-                                      double *step)
+ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double *step)
 {
-    const ellipsoid_options *o = &p->model->options;
-    const double *u = start->derivative.x, *q = start->derivative.q;
-    const double turn = sqrt(ellipsoid_dot(q, q) + q[3] * q[3]);
-    const double pace = fmax(turn, ellipsoid_length(u) / p->length);
-    const double h = 0.01 / pace;
-    ellipsoid_state at = start->state, there;
-    ellipsoid_contact contact;
-    double change, bend[3], curve[4];
+    const ellipsoid_options *o = &g->cell[0].model->options;
+    double pace = 0, ahead;
     ellipsoid_status status;
 
     *step = o->initial_step;
@@ -145,57 +145,84 @@ ellipsoid_status ellipsoid_first_step(const ellipsoid_problem *p,
     {
         return ELLIPSOID_OK;
     }
-    if (p->inertial)
+    *step = o->maximum_step;
+    for (int cell = 0; g->inertial && cell < g->count; cell++)
     {
-        *step = 0.25
-              * fmin(p->model->relaxation_time,
-                     p->model->rotation_relaxation_time);
+        const ellipsoid_model *m = g->cell[cell].model;
+
+        *step = fmin(*step, 0.25
+                                * fmin(m->relaxation_time,
+                                       m->rotation_relaxation_time));
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_state *slope = &g->start[cell].derivative;
+
+        pace = fmax(pace, fmax(sqrt(ellipsoid_square4(slope->q)),
+                               ellipsoid_length(slope->x)
+                                   / g->cell[cell].length));
+    }
+    if (g->inertial || !(pace > 0))
+    {
         return ELLIPSOID_OK;
     }
-    *step = pace > 0 ? h : o->maximum_step;
-    if (!(pace > 0))
+    ahead = 0.01 / pace;
+    for (int cell = 0; cell < g->count; cell++)
     {
-        return ELLIPSOID_OK;
+        const ellipsoid_state *slope = &g->start[cell].derivative;
+        ellipsoid_state *at = &g->next[cell].state;
+
+        *at = g->start[cell].state;
+        for (int i = 0; i < 3; i++)
+        {
+            at->x[i] += ahead * slope->x[i];
+        }
+        for (int n = 0; n < 4; n++)
+        {
+            at->q[n] += ahead * slope->q[n];
+        }
     }
-    for (int i = 0; i < 3; i++)
-    {
-        at.x[i] += h * u[i];
-    }
-    for (int n = 0; n < 4; n++)
-    {
-        at.q[n] += h * q[n];
-    }
-    status = ellipsoid_problem_evaluate(p, &at, 1, &there, &contact, NULL);
+    status = ellipsoid_group_evaluate(g, g->next, 1, 0);
     if (status != ELLIPSOID_OK)
     {
+        *step = ahead;
         return ellipsoid_may_recover(status) ? ELLIPSOID_OK : status;
     }
-    ellipsoid_difference(there.x, u, bend);
-    for (int n = 0; n < 4; n++)
+    for (int cell = 0; cell < g->count; cell++)
     {
-        curve[n] = there.q[n] - q[n];
+        const double turn = sqrt(ellipsoid_square4(g->start[cell].derivative.q));
+
+        *step = fmin(*step,
+                     longest_step(&g->cell[cell], &g->start[cell], turn, ahead,
+                                  &g->next[cell].derivative));
     }
-    change = fmax(ellipsoid_length(bend) / p->length,
-                  sqrt(ellipsoid_dot(curve, curve) + curve[3] * curve[3]));
-    *step = 2 * pow(o->tolerance, 0.2) / fmax(turn, sqrt(change / h));
     return ELLIPSOID_OK;
 }
 
 /* Is the error of a step, or what it may have passed unseen, acceptable? */
-ellipsoid_status ellipsoid_judge_step(const ellipsoid_problem *p, double h,
-                                      const ellipsoid_stages *stages,
+ellipsoid_status ellipsoid_judge_step(const ellipsoid_group *g, double h,
                                       double *error)
 {
-    *error = scaled_error(p, stages->error, h);
-    if (!isfinite(*error))
+    *error = 0;
+    for (int cell = 0; cell < g->count; cell++)
     {
-        return ELLIPSOID_NON_FINITE;
-    }
-    if (p->walls)
-    {
-        /* travel is proportional to the step */
-        *error =
-            fmax(*error, pow(unseen_travel(p, stages), (double)stages->order));
+        const ellipsoid_problem *p = &g->cell[cell];
+        const ellipsoid_stages *stages = &g->stages[cell];
+        const double made = scaled_error(p, stages->error, h);
+
+        if (!isfinite(made))
+        {
+            return ELLIPSOID_NON_FINITE;
+        }
+        *error = fmax(*error, made);
+        if (ellipsoid_group_feels(g, cell))
+        {
+            const double travel =
+                unseen_travel(p, stages, g->pairs ? 0.5 : 1);
+
+            /* travel is proportional to the step */
+            *error = fmax(*error, pow(travel, (double)stages->order));
+        }
     }
     return ELLIPSOID_OK;
 }

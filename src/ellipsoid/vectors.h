@@ -60,9 +60,15 @@ static inline void ellipsoid_add(double v[3], const double change[3])
     v[2] += change[2];
 }
 
+/* |q|^2 of four components */
+static inline double ellipsoid_square4(const double q[4])
+{
+    return ellipsoid_dot(q, q) + q[3] * q[3];
+}
+
 static inline void ellipsoid_normalise(double q[4])
 {
-    const double scale = 1 / sqrt(ellipsoid_dot(q, q) + q[3] * q[3]);
+    const double scale = 1 / sqrt(ellipsoid_square4(q));
 
     for (int n = 0; n < 4; n++)
     {
@@ -97,7 +103,7 @@ static inline void ellipsoid_copy(const double from[3], double to[3])
    not 1, but a stage that has left it far behind is of no use. */
 static inline int ellipsoid_is_pose(const double x[3], const double q[4])
 {
-    const double square = ellipsoid_dot(q, q) + q[3] * q[3];
+    const double square = ellipsoid_square4(q);
 
     return isfinite(x[0] + x[1] + x[2]) && square > 0.25 && square < 4;
 }

@@ -8,7 +8,7 @@
     Each set is in a copy of the core of its own, whose ellipsoid_advance() and
     table have other names (Makefile).
 */
-#include "ellipsoidInternal.h"
+#include "integrator.h"
 #include "trials.h"
 
 #include <stdio.h>

@@ -17,7 +17,7 @@
 
 #include <cmocka.h>
 
-#include "ellipsoidInternal.h"
+#include "integrator.h"
 
 static const double test_pi = 3.14159265358979323846;
 

@@ -123,8 +123,8 @@ static void compare_jacobian(const ellipsoid_model *model, test_quadratic *flow,
                              const ellipsoid_state *state)
 {
     const ellipsoid_surroundings around = without_walls(flow);
-    static const int begin[] = {ELLIPSOID_U, ELLIPSOID_X, ELLIPSOID_OMEGA,
-                                ELLIPSOID_Q, SIZE};
+    static const int begin[] = {AT_U, AT_X, AT_OMEGA,
+                                AT_Q, SIZE};
     double jacobian[SIZE][SIZE], differences[SIZE][SIZE];
     const double h = 0.01;
 
@@ -238,12 +238,12 @@ static void test_jacobian_in_contact(void **unused)
         s.x[2] = o.bead_radius - lowest - 5e-9 - 15e-9 * test_uniform(&seed);
         ellipsoid_contact_cache_clear(&cache);
         assert_ok(ellipsoid_jacobian(&model, &around, &s, &cache, jacobian));
-        for (int j = ELLIPSOID_X; j < SIZE; j++)
+        for (int j = AT_X; j < SIZE; j++)
         {
-            const double h = j < ELLIPSOID_OMEGA ? 1e-13 : 1e-8;
+            const double h = j < AT_OMEGA ? 1e-13 : 1e-8;
             double f[2][SIZE], y[SIZE];
 
-            if (j >= ELLIPSOID_OMEGA && j < ELLIPSOID_Q)
+            if (j >= AT_OMEGA && j < AT_Q)
             {
                 continue;
             }
@@ -258,7 +258,7 @@ static void test_jacobian_in_contact(void **unused)
                                         &derivative));
                 memcpy(f[p], &derivative, sizeof(derivative));
             }
-            for (int begin = 0; begin < ELLIPSOID_Q; begin += ELLIPSOID_OMEGA)
+            for (int begin = 0; begin < AT_Q; begin += AT_OMEGA)
             {
                 double size = 0, error = 0;
 

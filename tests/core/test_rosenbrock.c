@@ -226,6 +226,25 @@ static void test_dense_order_conditions(void **unused)
 
 /* ---------------------------------------------------------- observed order */
 
+/* What a group of one cell needs. */
+typedef struct lone_cell
+{
+    ellipsoid_point start, next;
+    ellipsoid_stages stages;
+    ellipsoid_stage_system system;
+} lone_cell;
+
+static ellipsoid_group group_of(ellipsoid_problem *problem, lone_cell *cell)
+{
+    return (ellipsoid_group){.count = 1,
+                             .inertial = problem->inertial,
+                             .cell = problem,
+                             .start = &cell->start,
+                             .next = &cell->next,
+                             .stages = &cell->stages,
+                             .system = &cell->system};
+}
+
 /* `count` equal steps to `end`; the last one is shown if `last` is not NULL. */
 static ellipsoid_state equal_steps(const ellipsoid_model *model,
                                    test_vortices *flow,
@@ -235,35 +254,34 @@ static ellipsoid_state equal_steps(const ellipsoid_model *model,
     const ellipsoid_surroundings around = {.flow = test_vortex_flow,
                                            .flow_context = flow};
     ellipsoid_statistics statistics = {0};
-    const ellipsoid_problem problem = {
+    ellipsoid_problem problem = {
         .model = model,
         .surroundings = &around,
         .statistics = &statistics,
         .length = model->options.semi_axes[1],
         .inertial = 1,
     };
-    ellipsoid_point p = {.state = *begin};
+    lone_cell cell;
+    ellipsoid_group g = group_of(&problem, &cell);
     const double h = end / count;
 
+    cell.start.state = *begin;
     for (int n = 0; n < count; n++)
     {
-        ellipsoid_stages stages;
-
-        assert_ok(ellipsoid_problem_evaluate(
-            &problem, &p.state, 0, &p.derivative, &p.contact, &p.blocks));
-        assert_ok(ellipsoid_rosenbrock_step(&problem, &p, h, &stages));
-        ellipsoid_normalise(stages.y + ELLIPSOID_Q);
+        assert_ok(ellipsoid_group_evaluate(&g, g.start, 0, 1));
+        assert_ok(ellipsoid_rosenbrock_step(&g, h));
+        ellipsoid_normalise(cell.stages.y + AT_Q);
         if (last)
         {
             last->start = n * h;
             last->end = (n + 1) * h;
-            last->before = p.state;
-            memcpy(&last->after, stages.y, sizeof(last->after));
-            ellipsoid_rosenbrock_dense(&stages, last->dense);
+            last->before = cell.start.state;
+            memcpy(&last->after, cell.stages.y, sizeof(last->after));
+            ellipsoid_rosenbrock_dense(&cell.stages, last->dense);
         }
-        memcpy(&p.state, stages.y, sizeof(p.state));
+        memcpy(&cell.start.state, cell.stages.y, sizeof(cell.start.state));
     }
-    return p.state;
+    return cell.start.state;
 }
 
 /* Steps far below the relaxation time: order 4 in every variable. */
@@ -362,33 +380,33 @@ static void test_block_elimination(void **unused)
     const ellipsoid_surroundings around = {.flow = test_vortex_flow,
                                            .flow_context = &flow};
     ellipsoid_statistics statistics = {0};
-    const ellipsoid_problem problem = {.model = &model,
-                                       .surroundings = &around,
-                                       .statistics = &statistics,
-                                       .length = 1.5,
-                                       .inertial = 1};
+    ellipsoid_problem problem = {.model = &model,
+                                 .surroundings = &around,
+                                 .statistics = &statistics,
+                                 .length = 1.5,
+                                 .inertial = 1};
     const double h = 0.7, g = 1 / (ellipsoid_rosenbrock_set.gamma * h);
     double jacobian[SIZE][SIZE], f[SIZE];
-    ellipsoid_stages stages;
-    ellipsoid_point p;
+    lone_cell cell;
+    ellipsoid_group group = group_of(&problem, &cell);
+    ellipsoid_state *begin = &cell.start.state;
 
     (void)unused;
-    p.state = test_vortex_state(&model, &flow);
-    p.state.omega[0] = 1;
-    p.state.omega[1] = -2;
-    p.state.omega[2] = 0.5;
-    assert_ok(ellipsoid_jacobian(&model, &around, &p.state, NULL, jacobian));
-    assert_ok(ellipsoid_problem_evaluate(&problem, &p.state, 0, &p.derivative,
-                                         &p.contact, &p.blocks));
-    assert_ok(ellipsoid_rosenbrock_step(&problem, &p, h, &stages));
-    memcpy(f, &p.derivative, sizeof(f));
+    *begin = test_vortex_state(&model, &flow);
+    begin->omega[0] = 1;
+    begin->omega[1] = -2;
+    begin->omega[2] = 0.5;
+    assert_ok(ellipsoid_jacobian(&model, &around, begin, NULL, jacobian));
+    assert_ok(ellipsoid_group_evaluate(&group, group.start, 0, 1));
+    assert_ok(ellipsoid_rosenbrock_step(&group, h));
+    memcpy(f, &cell.start.derivative, sizeof(f));
     for (int i = 0; i < SIZE; i++)
     {
-        double sum = g * stages.k[0][i];
+        double sum = g * cell.stages.k[0][i];
 
         for (int j = 0; j < SIZE; j++)
         {
-            sum -= jacobian[i][j] * stages.k[0][j];
+            sum -= jacobian[i][j] * cell.stages.k[0][j];
         }
         assert_near(sum, f[i], 1e-13);
     }
@@ -425,46 +443,47 @@ static void test_elimination_in_contact(void **unused)
         const double h = pow(10, -9 + n % 10),
                      modulus = pow(10, 5 + n / 10 % 5);
         double jacobian[SIZE][SIZE], f[SIZE], r[3][3], lowest = 0;
-        ellipsoid_stages stages;
-        ellipsoid_point p = {.has_blocks = 1};
+        lone_cell cell;
+        ellipsoid_state *state = &cell.start.state;
         ellipsoid_model model;
 
         o.contact_modulus = modulus;
         model = test_model(&o);
-        const ellipsoid_problem problem = {.model = &model,
-                                           .surroundings = &around,
-                                           .cache = &cache,
-                                           .statistics = &statistics,
-                                           .length = 2e-6,
-                                           .inertial = 1,
-                                           .walls = 1};
+        ellipsoid_problem problem = {.model = &model,
+                                     .surroundings = &around,
+                                     .cache = &cache,
+                                     .statistics = &statistics,
+                                     .length = 2e-6,
+                                     .inertial = 1,
+                                     .walls = 1};
+        ellipsoid_group group = group_of(&problem, &cell);
 
-        test_orientation(&seed, p.state.q);
-        ellipsoid_rotation(p.state.q, r);
+        memset(state, 0, sizeof(*state));
+        test_orientation(&seed, state->q);
+        ellipsoid_rotation(state->q, r);
         for (int b = 0; b < model.bead_count; b++)
         {
             lowest = fmin(lowest, ellipsoid_dot(r[2], model.bead[b]));
         }
-        p.state.x[2] = o.bead_radius - lowest - 2e-8 * test_uniform(&seed);
-        p.state.omega[0] = 100 * test_signed(&seed);
+        state->x[2] = o.bead_radius - lowest - 2e-8 * test_uniform(&seed);
+        state->omega[0] = 100 * test_signed(&seed);
         ellipsoid_contact_cache_clear(&cache);
         assert_ok(
-            ellipsoid_jacobian(&model, &around, &p.state, &cache, jacobian));
-        assert_ok(ellipsoid_problem_evaluate(
-            &problem, &p.state, 0, &p.derivative, &p.contact, &p.blocks));
-        assert_true(p.contact.touching_beads > 0);
+            ellipsoid_jacobian(&model, &around, state, &cache, jacobian));
+        assert_ok(ellipsoid_group_evaluate(&group, group.start, 0, 1));
+        assert_true(cell.start.contact.touching_beads > 0);
         /* later stages may lie in the wall: the first is of interest */
-        (void)ellipsoid_rosenbrock_step(&problem, &p, h, &stages);
-        memcpy(f, &p.derivative, sizeof(f));
+        (void)ellipsoid_rosenbrock_step(&group, h);
+        memcpy(f, &cell.start.derivative, sizeof(f));
         for (int i = 0; i < SIZE; i++)
         {
-            double sum = stages.k[0][i] / (ellipsoid_rosenbrock_set.gamma * h) - f[i];
+            double sum = cell.stages.k[0][i] / (ellipsoid_rosenbrock_set.gamma * h) - f[i];
             double size = fabs(sum) + fabs(f[i]);
 
             for (int j = 0; j < SIZE; j++)
             {
-                sum -= jacobian[i][j] * stages.k[0][j];
-                size += fabs(jacobian[i][j] * stages.k[0][j]);
+                sum -= jacobian[i][j] * cell.stages.k[0][j];
+                size += fabs(jacobian[i][j] * cell.stages.k[0][j]);
             }
             assert_near(sum / size, 0, modulus > 1e7 ? 1e-6 : 1e-9);
         }

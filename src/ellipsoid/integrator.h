@@ -1,0 +1,298 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    integrator.h - what the integrator's files share.
+
+    Everything advances a group of cells in common steps; mostly it is a group
+    of one. Not for users; tests may include it.
+*/
+#ifndef ELLIPSOID_INTEGRATOR_H
+#define ELLIPSOID_INTEGRATOR_H
+
+#include "ellipsoidInternal.h"
+
+/* Where the unknowns are in a vector of thirteen. */
+enum
+{
+    UNKNOWNS = ELLIPSOID_STATE_SIZE,
+    AT_U = 0,
+    AT_X = 3,
+    AT_OMEGA = 6,
+    AT_Q = 9
+};
+
+/* Is the n-th unknown one of u and omega? */
+static inline int ellipsoid_is_rate(int n)
+{
+    return n < AT_X || (n >= AT_OMEGA && n < AT_Q);
+}
+
+/*
+    The Rosenbrock coefficients as in Hairer & Wanner II, eq. (IV.7.25):
+    (1/(gamma h) - J) K_i = f(y0 + sum a_ij K_j) + sum c_ij/h K_j,
+    y1 = y0 + sum m_j K_j; the error estimate is K_6, and
+    y(s) = y0 (1-s) + s (y1 + (1-s) (d_0 + s d_1)), d_i = sum_j dense_ij K_j.
+*/
+#define ELLIPSOID_ROSENBROCK_STAGES 6
+
+typedef struct ellipsoid_rosenbrock_table
+{
+    double gamma;
+    double a[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
+    double c[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
+    double dense[2][ELLIPSOID_ROSENBROCK_STAGES];
+    int in_time[ELLIPSOID_ROSENBROCK_STAGES]; /* stages by their time */
+} ellipsoid_rosenbrock_table;
+
+extern const ellipsoid_rosenbrock_table ellipsoid_rosenbrock_set; /* rodas4p2.c */
+
+/* --------------------------------------------------------------- a cell */
+
+/* One cell's surroundings, and what an advance does not change. */
+typedef struct ellipsoid_problem
+{
+    const ellipsoid_model *model;
+    const ellipsoid_surroundings *surroundings;
+    ellipsoid_contact_cache *cache;
+    ellipsoid_statistics *statistics;
+    double length;        /* [m] largest semi-axis */
+    double rate;          /* [1/s] 1/tau of u, 0 in vacuum */
+    double rotation_rate; /* [1/s] 1/tau of omega, 0 in vacuum */
+    const ellipsoid_noise *noise; /* NULL: none */
+    int inertial;
+    int walls;
+} ellipsoid_problem;
+
+/* The equations in one state; at the start of a step kept while steps are
+   rejected. */
+typedef struct ellipsoid_point
+{
+    ellipsoid_state state;
+    ellipsoid_state derivative;
+    ellipsoid_blocks blocks;
+    ellipsoid_contact contact;
+} ellipsoid_point;
+
+#define ELLIPSOID_MAX_STAGES 7
+
+/* The stages of one step. */
+typedef struct ellipsoid_stages
+{
+    double k[ELLIPSOID_MAX_STAGES][UNKNOWNS];
+    double y[UNKNOWNS]; /* result */
+    double error[UNKNOWNS];
+    int order;          /* of the error estimate in the step */
+    /* Where contact is felt: poses, in the order of their time, and the gap [m]
+       that a bead may cross there with nothing in its way */
+    int sampled;
+    const int *in_time;
+    double x[ELLIPSOID_MAX_STAGES][3], q[ELLIPSOID_MAX_STAGES][4];
+    double gap[ELLIPSOID_MAX_STAGES];
+} ellipsoid_stages;
+
+/*
+    (g M - J) k = r with g = 1/(gamma h), M = I but for inertialess motion.
+    As dx/dt = u, k_x = (r_x + k_u)/g. As Q^2 = -|omega|^2 I,
+        (g I - Q/2)^-1 = (g I + Q/2)/(g^2 + |omega|^2/4)
+    gives k_q from k_omega. A dense 6x6 system in (k_u, k_omega) is left. The
+    solution is wanted six times, hence explicit matrices instead of
+    substitutions, in which each number waits for the one before.
+*/
+typedef struct ellipsoid_stage_system
+{
+    double per_g;
+    double to_rates[UNKNOWNS][6]; /* transposed: (k_u, k_omega) from r; of a
+                                     cell of a group: their part in its row */
+    double q_from_q[4][4];        /* transposed: k_q from r_q */
+    double q_from_w[3][4];        /* transposed: k_q from k_omega */
+} ellipsoid_stage_system;
+
+/* Rows (u, omega) of one cell by the unknowns of one, its own or another's,
+   once x and q are eliminated: -J is left in `rates`, and what multiplies r_x
+   and r_q; both transposed. */
+typedef struct ellipsoid_reduced
+{
+    double x[3][6], q[4][6];
+    double rates[6][6];
+} ellipsoid_reduced;
+
+/* Returns 0 if the step is so long that the matrix is singular
+   (stageSystem.c). */
+int ellipsoid_stage_system_prepare(ellipsoid_stage_system *system,
+                                   const ellipsoid_point *start, int inertial,
+                                   double h);
+
+/* r and k may be the same. */
+void ellipsoid_stage_system_solve(const ellipsoid_stage_system *system,
+                                  const double r[UNKNOWNS],
+                                  double k[UNKNOWNS]);
+
+/* The same by parts, for a group: rows against the unknowns of `column`; what
+   the cell needs for k_x and k_q; these from r and (k_u, k_omega). */
+void ellipsoid_stage_system_reduce(const ellipsoid_blocks *blocks,
+                                   const ellipsoid_state *column, double h,
+                                   ellipsoid_reduced *reduced);
+void ellipsoid_stage_system_kinematics(ellipsoid_stage_system *system,
+                                       const ellipsoid_state *state, double h);
+void ellipsoid_stage_system_finish(const ellipsoid_stage_system *system,
+                                   const double rates[6],
+                                   const double r[UNKNOWNS],
+                                   double k[UNKNOWNS]);
+
+/* In place, by blocks of 3x3; 0 if one of them is singular. */
+int ellipsoid_invert6(double matrix[6][6]);
+
+/* -------------------------------------------------------------- a group */
+
+/* How the rows of one cell depend on the pose of another that it touches. */
+typedef struct ellipsoid_coupling
+{
+    int row, column;
+    ellipsoid_blocks blocks;
+    ellipsoid_reduced reduced;
+} ellipsoid_coupling;
+
+/* What a group of several needs; arrays in the caller's memory. */
+typedef struct ellipsoid_pairs
+{
+    int capacity, count; /* of couplings, at the start of a step */
+    ellipsoid_coupling *coupling;
+    double (*bead)[ELLIPSOID_MAX_BEADS][3]; /* [m] lab, where needed */
+    int *placed;                            /* are they up to date? */
+    int *block;             /* [count][count]: number of a 6x6 block, or -1 */
+    double (*blocks)[6][6]; /* of the factorised matrix */
+    double (*rates)[6];     /* right-hand sides, solutions */
+} ellipsoid_pairs;
+
+/* A group of cells at the start of a step and on the way to its end. */
+typedef struct ellipsoid_group
+{
+    int count;
+    int inertial; /* all or none */
+    int aligned;  /* is one by a dipole? */
+    int observed; /* is the whole of ellipsoid_step asked for? */
+    ellipsoid_problem *cell;
+    ellipsoid_point *start, *next; /* next serves the stages, too */
+    ellipsoid_stages *stages;
+    ellipsoid_stage_system *system;
+    ellipsoid_step *step;
+    ellipsoid_pairs *pairs; /* NULL: alone */
+    int has_blocks, next_has_blocks;
+    int culprit;            /* who failed last, or -1 */
+} ellipsoid_group;
+
+/* Does it feel anything? */
+static inline int ellipsoid_group_feels(const ellipsoid_group *g, int cell)
+{
+    return g->pairs != NULL || g->cell[cell].walls;
+}
+
+/* Does a cell touch anything there? */
+static inline int ellipsoid_touches(const ellipsoid_contact *contact)
+{
+    return contact->touching_beads > 0 || contact->touched_cell_count > 0;
+}
+
+/* A stage's pose and the gap there [m], for the guard against tunnelling: two
+   cells may both move, each by half the gap between them. */
+static inline void ellipsoid_stages_sample(ellipsoid_stages *stages, int stage,
+                                           const ellipsoid_point *at)
+{
+    memcpy(stages->x[stage], at->state.x, sizeof(at->state.x));
+    memcpy(stages->q[stage], at->state.q, sizeof(at->state.q));
+    stages->gap[stage] =
+        fmin(fmax(at->contact.gap, 0), 0.5 * fmax(at->contact.cell_gap, 0));
+}
+
+/*
+    Evaluates the equations in the states of all points; of a group with
+    contacts between its cells. balanced says whether u and omega are set first.
+    with_blocks: and the Jacobian, couplings included.
+*/
+ellipsoid_status ellipsoid_group_evaluate(ellipsoid_group *group,
+                                          ellipsoid_point *points, int balanced,
+                                          int with_blocks);
+
+/* Adds the forces between the cells to points that have been evaluated
+   without (pairContact.c). */
+ellipsoid_status ellipsoid_add_pairs(ellipsoid_group *group,
+                                     ellipsoid_point *points, int balanced,
+                                     int with_blocks);
+
+/*
+    The linear system of all cells: that of each, coupled by contacts. Returns 0
+    if it is singular. Solves for stages k_i in place (groupSystem.c).
+*/
+int ellipsoid_group_system_prepare(ellipsoid_group *group, double h);
+void ellipsoid_group_system_solve(const ellipsoid_group *group, int stage);
+
+/*
+    One Rosenbrock step of length h [s] from a start that has its blocks; y has
+    a q not yet of length one. Returns STEP_UNDERFLOW or NON_FINITE where a
+    shorter step may succeed.
+*/
+ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *group, double h);
+
+/* The continuous extension of such a step. */
+void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,
+                                double dense[3][UNKNOWNS]);
+
+/*
+    One explicit step of inertialess motion (rungeKutta.c). Its last stage is
+    `next`, the end of the step. *touched is set, and the step not finished,
+    where a stage touches something: the equations are stiff there.
+*/
+ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *group, double h,
+                                         int *touched);
+
+/* The continuous extension of such a step. */
+void ellipsoid_explicit_dense(ellipsoid_stages *stages,
+                              const ellipsoid_step *step,
+                              double dense[3][UNKNOWNS]);
+
+/* At the start of a noise interval that lasts many relaxation times: takes the
+   start to where they have passed, in no time (brownian.c). */
+ellipsoid_status ellipsoid_cross_layer(ellipsoid_group *group, double t,
+                                       double until);
+
+/* -------------------------------------------------------- step control */
+
+/* A step as planned. */
+typedef struct ellipsoid_plan
+{
+    double h;
+    int last;      /* ends at `end` */
+    int shortened; /* less than proposed, to land on `end` */
+} ellipsoid_plan;
+
+/* The next step from t towards end (stepControl.c). */
+ellipsoid_plan ellipsoid_plan_step(double proposal, double t, double end);
+
+/* Sets *step to a first step from the start. */
+ellipsoid_status ellipsoid_first_step(ellipsoid_group *group, double *step);
+
+/* Sets *error to what the step has made, above 1 if it is too much. NON_FINITE
+   if it is not finite. */
+ellipsoid_status ellipsoid_judge_step(const ellipsoid_group *group, double h,
+                                      double *error);
+
+/* The factor by which the next step differs from one that made that error. */
+double ellipsoid_step_factor(int order, double error, double previous_error);
+
+/* Is it a failure that a shorter step may cure? */
+static inline int ellipsoid_may_recover(ellipsoid_status status)
+{
+    return status == ELLIPSOID_STEP_UNDERFLOW || status == ELLIPSOID_NON_FINITE;
+}
+
+/* Takes a group from *t to `end` [s]; the observer may stop it (motion.c).
+   Controllers and observers are the members'; *attempts counts on. */
+ellipsoid_status ellipsoid_group_advance(ellipsoid_group *group,
+                                         const ellipsoid_member members[],
+                                         double *t, double end,
+                                         ellipsoid_observer observer,
+                                         long *attempts);
+
+#endif
