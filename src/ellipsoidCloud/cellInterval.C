@@ -249,7 +249,7 @@ Foam::List<Foam::cellInterval::unit> Foam::cellInterval::joined
     const labelList lowest(cellNeighbours::connected(units.size(), pairs));
 
     // Of those that are joined, by the lowest of them
-    scalarList travel(units.size(), -1);
+    scalarList travel(units.size(), scalar(-1));
     for (const meeting& m : meetings)
     {
         scalar& longest = travel[lowest[m.units.first()]];

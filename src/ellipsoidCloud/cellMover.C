@@ -134,7 +134,7 @@ ellipsoid_contact_cache& Foam::cellMover::cache(const label id)
 {
     if (!caches_.found(id))
     {
-        caches_.insert(id, new ellipsoid_contact_cache);
+        caches_.set(id, new ellipsoid_contact_cache);
         ellipsoid_contact_cache_clear(caches_[id]);
     }
 
