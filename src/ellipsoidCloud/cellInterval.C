@@ -84,7 +84,7 @@ Foam::List<Foam::cellInterval::unit> Foam::cellInterval::unitsOf
         }
     }
 
-    List<bool> stays(here.size(), false);
+    boolList stays(here.size(), false);
     DynamicList<labelPair> close;
 
     if (pushing_)
