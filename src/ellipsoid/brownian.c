@@ -128,9 +128,9 @@ static void displace(const ellipsoid_model *m, const ellipsoid_state *before,
 /*
     Leading order of matched asymptotics. u_b being the balanced velocity,
         m du/dt = mu R K^ R^T (u_b - u)
-    leaves x displaced by R m (mu K^)^-1 R^T (u - u_b), and u = u_b; and likewise
-    the rotation. A cell that touches is not displaced: a stiff wall does not
-    let it drift on.
+    leaves x displaced by R m (mu K^)^-1 R^T (u - u_b), and u = u_b; and
+   likewise the rotation. A cell that touches is not displaced: a stiff wall
+   does not let it drift on.
 */
 ellipsoid_status ellipsoid_cross_layer(ellipsoid_group *g, double t,
                                        double until)

@@ -12,41 +12,36 @@
 #include <stdalign.h>
 #include <string.h>
 
-/* Pairs that touch at once: more than twelve neighbours each do not fit. */
-static const int couplings_each = 16;
+/* Memory for as many neighbours of a cell, in the mean: touching, and near.
+   Twelve fit around it. */
+static const int touching_each = 16, near_each = 32;
 
 static ellipsoid_status evaluate(ellipsoid_group *g, ellipsoid_point *points,
                                  int balanced, int with_blocks)
 {
-    ellipsoid_status status = ELLIPSOID_OK;
-
-    for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
+    for (int cell = 0; cell < g->count; cell++)
     {
-        const ellipsoid_problem *p = &g->cell[cell];
-        ellipsoid_point *at = &points[cell];
+        const ellipsoid_status status = ellipsoid_problem_evaluate(
+            &g->cell[cell], &points[cell], balanced, with_blocks);
 
-        p->statistics->rhs++;
-        p->statistics->jacobians += with_blocks;
-        status = ellipsoid_evaluate(p->model, p->surroundings, p->noise,
-                                    &at->state, balanced, p->cache,
-                                    &at->derivative, &at->contact,
-                                    with_blocks ? &at->blocks : NULL);
-        g->culprit = status == ELLIPSOID_OK ? -1 : cell;
+        if (status != ELLIPSOID_OK)
+        {
+            g->culprit = cell;
+            return status;
+        }
     }
-    return status == ELLIPSOID_OK && g->pairs
-             ? ellipsoid_add_pairs(g, points, balanced, with_blocks)
-             : status;
+    return ellipsoid_add_pairs(g, points, balanced, with_blocks);
 }
 
-/* Balanced, the derivatives depend on velocities that all contacts decide: these
-   come first. */
-ellipsoid_status ellipsoid_group_evaluate(ellipsoid_group *g,
-                                          ellipsoid_point *points, int balanced,
-                                          int with_blocks)
+/* Balanced, the derivatives depend on velocities that all contacts decide:
+   these come first. */
+ellipsoid_status ellipsoid_several_evaluate(ellipsoid_group *g,
+                                            ellipsoid_point *points,
+                                            int balanced, int with_blocks)
 {
     ellipsoid_status status;
 
-    if (!g->pairs || !balanced || !with_blocks)
+    if (!balanced || !with_blocks)
     {
         return evaluate(g, points, balanced, with_blocks);
     }
@@ -107,12 +102,12 @@ static ellipsoid_status check(const ellipsoid_group *g)
     return ELLIPSOID_OK;
 }
 
-/* From noise interval to noise interval, to the end. noise: of each cell. */
+/* From noise interval to noise interval, to the end. */
 static ellipsoid_status advance(ellipsoid_group *g,
-                                const ellipsoid_member members[],
-                                ellipsoid_noise *noise, double *t, double end,
-                                ellipsoid_observer observer)
+                                const ellipsoid_member members[], double *t,
+                                double end, ellipsoid_observer observer)
 {
+    ellipsoid_noise *noise = g->noise;
     const ellipsoid_contact nothing = {.gap = HUGE_VAL, .cell_gap = HUGE_VAL};
     ellipsoid_status status;
     long attempts = 0;
@@ -144,10 +139,9 @@ static ellipsoid_status advance(ellipsoid_group *g,
         {
             if (status == ELLIPSOID_OK)
             {
-                status =
-                    ellipsoid_noise_at(members[cell].model,
-                                       members[cell].surroundings, *t,
-                                       &noise[cell]);
+                status = ellipsoid_noise_at(members[cell].model,
+                                            members[cell].surroundings, *t,
+                                            &noise[cell]);
             }
             if (noise[cell].end < end - noise[cell].slack)
             {
@@ -172,9 +166,9 @@ ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
                                    void *observer_context,
                                    ellipsoid_statistics *statistics)
 {
-    const ellipsoid_member member = {
-        model, surroundings,     state,     controller,
-        cache, observer_context, statistics};
+    const ellipsoid_member member = {model,      surroundings, state,
+                                     controller, cache,        observer_context,
+                                     statistics};
     ellipsoid_problem cell;
     ellipsoid_point start, next;
     ellipsoid_stages stages;
@@ -189,9 +183,10 @@ ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
         .stages = &stages,
         .system = &system,
         .step = &step,
+        .noise = &noise,
     };
 
-    return advance(&g, &member, &noise, t, end, observer);
+    return advance(&g, &member, t, end, observer);
 }
 
 /* ---------------------------------------------------------------- memory */
@@ -206,11 +201,11 @@ static void *take(unsigned char *memory, size_t *used, size_t size, int count)
     return at;
 }
 
-/* Lays a group out in memory, which may be NULL; returns the bytes it takes. */
-static size_t lay_out(int count, unsigned char *memory, ellipsoid_group *g,
-                      ellipsoid_pairs *pairs, ellipsoid_noise **noise)
+size_t ellipsoid_group_lay_out(int count, void *memory, ellipsoid_group *g,
+                               ellipsoid_pairs *pairs)
 {
     const int squared = count * count;
+    double(*bead)[ELLIPSOID_MAX_BEADS][3];
     size_t used = 0;
 
     memset(g, 0, sizeof(*g));
@@ -223,12 +218,21 @@ static size_t lay_out(int count, unsigned char *memory, ellipsoid_group *g,
     g->stages = take(memory, &used, sizeof(*g->stages), count);
     g->system = take(memory, &used, sizeof(*g->system), count);
     g->step = take(memory, &used, sizeof(*g->step), count);
-    *noise = take(memory, &used, sizeof(**noise), count);
-    pairs->capacity = couplings_each * count;
+    g->noise = take(memory, &used, sizeof(*g->noise), count);
+    pairs->capacity = touching_each * count;
     pairs->coupling =
         take(memory, &used, sizeof(*pairs->coupling), pairs->capacity);
-    pairs->bead = take(memory, &used, sizeof(*pairs->bead), count);
-    pairs->placed = take(memory, &used, sizeof(*pairs->placed), count);
+    pairs->near_capacity = near_each * count;
+    /* one more, where the next is tried */
+    pairs->near =
+        take(memory, &used, sizeof(*pairs->near), pairs->near_capacity + 1);
+    pairs->listed_at = take(memory, &used, sizeof(*pairs->listed_at), count);
+    pairs->body = take(memory, &used, sizeof(*pairs->body), count);
+    bead = take(memory, &used, sizeof(*bead), count);
+    for (int cell = 0; memory && cell < count; cell++)
+    {
+        pairs->body[cell].bead = bead[cell];
+    }
     pairs->block = take(memory, &used, sizeof(*pairs->block), squared);
     pairs->blocks = take(memory, &used, sizeof(*pairs->blocks), squared);
     pairs->rates = take(memory, &used, sizeof(*pairs->rates), count);
@@ -239,9 +243,8 @@ size_t ellipsoid_group_size(int count)
 {
     ellipsoid_group g;
     ellipsoid_pairs pairs;
-    ellipsoid_noise *noise;
 
-    return lay_out(count, NULL, &g, &pairs, &noise);
+    return ellipsoid_group_lay_out(count, NULL, &g, &pairs);
 }
 
 ellipsoid_status ellipsoid_advance_group(int count,
@@ -252,7 +255,6 @@ ellipsoid_status ellipsoid_advance_group(int count,
 {
     ellipsoid_group g;
     ellipsoid_pairs pairs;
-    ellipsoid_noise *noise;
     ellipsoid_status status;
 
     *which = -1;
@@ -260,12 +262,12 @@ ellipsoid_status ellipsoid_advance_group(int count,
     {
         return ELLIPSOID_BAD_OPTION;
     }
-    lay_out(count, memory, &g, &pairs, &noise);
+    ellipsoid_group_lay_out(count, memory, &g, &pairs);
     if (count == 1)
     {
         g.pairs = NULL;
     }
-    status = advance(&g, members, noise, t, end, observer);
+    status = advance(&g, members, t, end, observer);
     *which = status == ELLIPSOID_OK ? -1 : g.culprit;
     return status;
 }

@@ -122,17 +122,12 @@ static int factorise(const ellipsoid_group *g, int *used)
     return 1;
 }
 
-int ellipsoid_group_system_prepare(ellipsoid_group *g, double h)
+int ellipsoid_coupled_prepare(ellipsoid_group *g, double h)
 {
     ellipsoid_pairs *pairs = g->pairs;
     const double per_g = ellipsoid_rosenbrock_set.gamma * h;
     int used = 0;
 
-    if (!pairs)
-    {
-        return ellipsoid_stage_system_prepare(g->system, g->start, g->inertial,
-                                              h);
-    }
     for (int n = 0; n < g->count * g->count; n++)
     {
         pairs->block[n] = -1;
@@ -199,18 +194,10 @@ static void set_rates(const ellipsoid_group *g, int stage)
     }
 }
 
-void ellipsoid_group_system_solve(const ellipsoid_group *g, int stage)
+void ellipsoid_coupled_solve(const ellipsoid_group *g, int stage)
 {
-    double(*rates)[6];
+    double(*rates)[6] = g->pairs->rates;
 
-    if (!g->pairs)
-    {
-        double *k = g->stages->k[stage];
-
-        ellipsoid_stage_system_solve(g->system, k, k);
-        return;
-    }
-    rates = g->pairs->rates;
     set_rates(g, stage);
     for (int row = 0; row < g->count; row++)
     {

@@ -46,7 +46,8 @@ typedef struct ellipsoid_rosenbrock_table
     int in_time[ELLIPSOID_ROSENBROCK_STAGES]; /* stages by their time */
 } ellipsoid_rosenbrock_table;
 
-extern const ellipsoid_rosenbrock_table ellipsoid_rosenbrock_set; /* rodas4p2.c */
+extern const ellipsoid_rosenbrock_table
+    ellipsoid_rosenbrock_set; /* rodas4p2.c */
 
 /* --------------------------------------------------------------- a cell */
 
@@ -57,9 +58,9 @@ typedef struct ellipsoid_problem
     const ellipsoid_surroundings *surroundings;
     ellipsoid_contact_cache *cache;
     ellipsoid_statistics *statistics;
-    double length;        /* [m] largest semi-axis */
-    double rate;          /* [1/s] 1/tau of u, 0 in vacuum */
-    double rotation_rate; /* [1/s] 1/tau of omega, 0 in vacuum */
+    double length;                /* [m] largest semi-axis */
+    double rate;                  /* [1/s] 1/tau of u, 0 in vacuum */
+    double rotation_rate;         /* [1/s] 1/tau of omega, 0 in vacuum */
     const ellipsoid_noise *noise; /* NULL: none */
     int inertial;
     int walls;
@@ -69,8 +70,16 @@ typedef struct ellipsoid_problem
    rejected. */
 typedef struct ellipsoid_point
 {
-    ellipsoid_state state;
-    ellipsoid_state derivative;
+    union
+    {
+        ellipsoid_state state;
+        double y[UNKNOWNS];
+    };
+    union
+    {
+        ellipsoid_state derivative;
+        double slope[UNKNOWNS];
+    };
     ellipsoid_blocks blocks;
     ellipsoid_contact contact;
 } ellipsoid_point;
@@ -83,7 +92,7 @@ typedef struct ellipsoid_stages
     double k[ELLIPSOID_MAX_STAGES][UNKNOWNS];
     double y[UNKNOWNS]; /* result */
     double error[UNKNOWNS];
-    int order;          /* of the error estimate in the step */
+    int order; /* of the error estimate in the step */
     /* Where contact is felt: poses, in the order of their time, and the gap [m]
        that a bead may cross there with nothing in its way */
     int sampled;
@@ -126,8 +135,7 @@ int ellipsoid_stage_system_prepare(ellipsoid_stage_system *system,
 
 /* r and k may be the same. */
 void ellipsoid_stage_system_solve(const ellipsoid_stage_system *system,
-                                  const double r[UNKNOWNS],
-                                  double k[UNKNOWNS]);
+                                  const double r[UNKNOWNS], double k[UNKNOWNS]);
 
 /* The same by parts, for a group: rows against the unknowns of `column`; what
    the cell needs for k_x and k_q; these from r and (k_u, k_omega). */
@@ -154,13 +162,35 @@ typedef struct ellipsoid_coupling
     ellipsoid_reduced reduced;
 } ellipsoid_coupling;
 
+/* A cell in a pose. */
+typedef struct ellipsoid_body
+{
+    const ellipsoid_model *model; /* NULL: not placed yet */
+    const double *x, *q;
+    double r[3][3];
+    double (*bead)[3]; /* [m] lab, from the centre */
+} ellipsoid_body;
+
+#define ELLIPSOID_NEAR_BEADS 200
+
+/* Two cells of a group, a < b, and the beads that may touch. */
+typedef struct ellipsoid_near_pair
+{
+    int a, b;
+    int listed; /* -1: too many, all may */
+    unsigned char bead[ELLIPSOID_NEAR_BEADS][2];
+} ellipsoid_near_pair;
+
 /* What a group of several needs; arrays in the caller's memory. */
 typedef struct ellipsoid_pairs
 {
     int capacity, count; /* of couplings, at the start of a step */
     ellipsoid_coupling *coupling;
-    double (*bead)[ELLIPSOID_MAX_BEADS][3]; /* [m] lab, where needed */
-    int *placed;                            /* are they up to date? */
+    int near_capacity, near_count;
+    ellipsoid_near_pair *near;
+    int is_listed;
+    ellipsoid_state *listed_at; /* where the near pairs were listed */
+    ellipsoid_body *body;       /* in the poses of an evaluation */
     int *block;             /* [count][count]: number of a 6x6 block, or -1 */
     double (*blocks)[6][6]; /* of the factorised matrix */
     double (*rates)[6];     /* right-hand sides, solutions */
@@ -178,10 +208,16 @@ typedef struct ellipsoid_group
     ellipsoid_stages *stages;
     ellipsoid_stage_system *system;
     ellipsoid_step *step;
+    ellipsoid_noise *noise;
     ellipsoid_pairs *pairs; /* NULL: alone */
     int has_blocks, next_has_blocks;
-    int culprit;            /* who failed last, or -1 */
+    int culprit; /* who failed last, or -1 */
 } ellipsoid_group;
+
+/* Lays a group of several out in memory, which may be NULL; returns the bytes
+   it takes (group.c). */
+size_t ellipsoid_group_lay_out(int count, void *memory, ellipsoid_group *group,
+                               ellipsoid_pairs *pairs);
 
 /* Does it feel anything? */
 static inline int ellipsoid_group_feels(const ellipsoid_group *g, int cell)
@@ -206,14 +242,66 @@ static inline void ellipsoid_stages_sample(ellipsoid_stages *stages, int stage,
         fmin(fmax(at->contact.gap, 0), 0.5 * fmax(at->contact.cell_gap, 0));
 }
 
+/* ellipsoid_evaluate() for one cell, counted. */
+static inline ellipsoid_status
+ellipsoid_problem_evaluate(const ellipsoid_problem *p, ellipsoid_point *at,
+                           int balanced, int with_blocks)
+{
+    p->statistics->rhs++;
+    p->statistics->jacobians += with_blocks;
+    return ellipsoid_evaluate(p->model, p->surroundings, p->noise, &at->state,
+                              balanced, p->cache, &at->derivative, &at->contact,
+                              with_blocks ? &at->blocks : NULL);
+}
+
+/* For several cells, contacts between them included (group.c). */
+ellipsoid_status ellipsoid_several_evaluate(ellipsoid_group *group,
+                                            ellipsoid_point *points,
+                                            int balanced, int with_blocks);
+
 /*
-    Evaluates the equations in the states of all points; of a group with
-    contacts between its cells. balanced says whether u and omega are set first.
-    with_blocks: and the Jacobian, couplings included.
+    Evaluates the equations in the states of all points. balanced says whether u
+    and omega are set first. with_blocks: and the Jacobian, with couplings.
 */
-ellipsoid_status ellipsoid_group_evaluate(ellipsoid_group *group,
-                                          ellipsoid_point *points, int balanced,
-                                          int with_blocks);
+static inline ellipsoid_status ellipsoid_group_evaluate(ellipsoid_group *g,
+                                                        ellipsoid_point *points,
+                                                        int balanced,
+                                                        int with_blocks)
+{
+    if (g->pairs)
+    {
+        return ellipsoid_several_evaluate(g, points, balanced, with_blocks);
+    }
+    g->culprit = 0;
+    return ellipsoid_problem_evaluate(g->cell, points, balanced, with_blocks);
+}
+
+/* How far beyond beads of two cells gaps are measured [m] (nearPairs.c). */
+double ellipsoid_pair_horizon(const ellipsoid_model *a,
+                              const ellipsoid_model *b);
+
+/* Are two cells farther apart than `far` [m]? Errs towards 0. */
+int ellipsoid_are_apart(const ellipsoid_model *a, const double x_a[3],
+                        const ellipsoid_model *b, const double x_b[3],
+                        double far);
+
+/* Sets all but the array for the beads, and fills that. */
+void ellipsoid_place_body(ellipsoid_body *body, const ellipsoid_model *model,
+                          const double x[3], const double q[4]);
+
+/* A cell of the group where the points are, placed at most once. */
+const ellipsoid_body *ellipsoid_placed_body(ellipsoid_group *group,
+                                            const ellipsoid_point *points,
+                                            int cell);
+
+/* Lists beads with gaps below `far` [m]. */
+void ellipsoid_list_beads(ellipsoid_body *a, ellipsoid_body *b, double far,
+                          ellipsoid_near_pair *near);
+
+/* Sees to it that all pairs that may touch in these states are listed.
+   TOO_MANY_CELLS: there is no memory for so many. */
+ellipsoid_status ellipsoid_near_pairs_collect(ellipsoid_group *group,
+                                              const ellipsoid_point *points);
 
 /* Adds the forces between the cells to points that have been evaluated
    without (pairContact.c). */
@@ -222,11 +310,31 @@ ellipsoid_status ellipsoid_add_pairs(ellipsoid_group *group,
                                      int with_blocks);
 
 /*
-    The linear system of all cells: that of each, coupled by contacts. Returns 0
-    if it is singular. Solves for stages k_i in place (groupSystem.c).
+    The linear system of several cells: that of each, coupled by contacts. It is
+    solved for stages k_i in place. 0 if it is singular (groupSystem.c).
 */
-int ellipsoid_group_system_prepare(ellipsoid_group *group, double h);
-void ellipsoid_group_system_solve(const ellipsoid_group *group, int stage);
+int ellipsoid_coupled_prepare(ellipsoid_group *group, double h);
+void ellipsoid_coupled_solve(const ellipsoid_group *group, int stage);
+
+static inline int ellipsoid_group_prepare(ellipsoid_group *g, double h)
+{
+    return g->pairs ? ellipsoid_coupled_prepare(g, h)
+                    : ellipsoid_stage_system_prepare(g->system, g->start,
+                                                     g->inertial, h);
+}
+
+static inline void ellipsoid_group_solve(const ellipsoid_group *g, int stage)
+{
+    if (g->pairs)
+    {
+        ellipsoid_coupled_solve(g, stage);
+        return;
+    }
+
+    double *k = g->stages->k[stage];
+
+    ellipsoid_stage_system_solve(g->system, k, k);
+}
 
 /*
     One Rosenbrock step of length h [s] from a start that has its blocks; y has

@@ -31,15 +31,16 @@ static void turned_by(const double q[4], int n, const double body[3],
     ellipsoid_cross(axis, body, cross);
     for (int i = 0; i < 3; i++)
     {
-        v[i] = 2 * (q[i] * body[n] - q[n] * body[i] + q[3] * cross[i]
-                    + axis[i] * along);
+        v[i] = 2
+             * (q[i] * body[n] - q[n] * body[i] + q[3] * cross[i]
+                + axis[i] * along);
     }
 }
 
 void ellipsoid_add_derivatives(const double arm[3], const double q[4],
-                            double r[3][3], const double force[3],
-                            double force_x[3][3],
-                            ellipsoid_contact_jacobian *jacobian)
+                               double r[3][3], const double force[3],
+                               double force_x[3][3],
+                               ellipsoid_contact_jacobian *jacobian)
 {
     const double conjugate[4] = {-q[0], -q[1], -q[2], q[3]};
     double column[3], body[3], torque[3];
@@ -114,8 +115,8 @@ void ellipsoid_add_other_derivatives(const double arm[3], double r[3][3],
         ellipsoid_cross(arm, body, torque);
         for (int i = 0; i < 3; i++)
         {
-            *(n < 3 ? &jacobian->force_x[i][n] : &jacobian->force_q[i][n - 3])
-                += column[i];
+            *(n < 3 ? &jacobian->force_x[i][n]
+                    : &jacobian->force_q[i][n - 3]) += column[i];
             *(n < 3 ? &jacobian->torque_x[i][n]
                     : &jacobian->torque_q[i][n - 3]) += torque[i];
         }

@@ -81,9 +81,8 @@ static int is_one_held_back(ellipsoid_group *g, double h)
     One attempt at a Rosenbrock step. A step counts only if the equations can be
     evaluated where it ends.
 */
-static ellipsoid_status try_rosenbrock(ellipsoid_group *g,
-                                       const ellipsoid_plan *planned,
-                                       double *error)
+static ellipsoid_status
+try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
 {
     ellipsoid_status status = ELLIPSOID_OK;
 
@@ -112,8 +111,8 @@ static ellipsoid_status try_rosenbrock(ellipsoid_group *g,
         memcpy(&g->next[cell].state, y, sizeof(g->next[cell].state));
     }
     g->next_has_blocks = !planned->last;
-    status = ellipsoid_group_evaluate(g, g->next, !g->inertial,
-                                      g->next_has_blocks);
+    status =
+        ellipsoid_group_evaluate(g, g->next, !g->inertial, g->next_has_blocks);
     if (status == ELLIPSOID_OK && is_one_held_back(g, planned->h))
     {
         *error = far_too_large;
@@ -247,10 +246,10 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
         {
             return status;
         }
-        proposal = planned.h
-                 * (status == ELLIPSOID_OK
-                        ? ellipsoid_step_factor(order, error, 0)
-                        : 0.25);
+        proposal =
+            planned.h
+            * (status == ELLIPSOID_OK ? ellipsoid_step_factor(order, error, 0)
+                                      : 0.25);
         largest_factor = 1;
         if (proposal < shortest)
         {
@@ -296,8 +295,7 @@ static ellipsoid_status begin(ellipsoid_group *g,
 
     for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
-        status =
-            set_start(g->inertial, members[cell].state, &g->start[cell]);
+        status = set_start(g->inertial, members[cell].state, &g->start[cell]);
         g->culprit = status == ELLIPSOID_OK ? -1 : cell;
     }
     if (status == ELLIPSOID_OK)
@@ -342,8 +340,7 @@ static int hand_over(ellipsoid_group *g, const ellipsoid_member members[],
 
         *members[cell].state = next->state;
         *members[cell].controller = *controller;
-        statistics->deepest =
-            fmax(statistics->deepest, next->contact.deepest);
+        statistics->deepest = fmax(statistics->deepest, next->contact.deepest);
     }
     for (int cell = 0; observer && cell < g->count; cell++)
     {

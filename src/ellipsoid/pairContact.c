@@ -14,56 +14,6 @@
 
 #include <math.h>
 
-/* How far beyond a bead's surface a gap is measured, in bead radii. */
-static const double gap_horizon = 1;
-
-/* A cell in a pose. */
-typedef struct body
-{
-    const ellipsoid_model *model;
-    const double *x, *q;
-    double r[3][3];
-    double (*bead)[3]; /* [m] lab, from the centre */
-} body;
-
-/* Places the beads in the array if `anew`; else they are there. */
-static body place(const ellipsoid_model *model, const double x[3],
-                  const double q[4], double bead[][3], int anew)
-{
-    body b = {.model = model, .x = x, .q = q, .bead = bead};
-
-    ellipsoid_rotation_inline(q, b.r);
-    for (int n = 0; anew && n < model->bead_count; n++)
-    {
-        ellipsoid_product(b.r, model->bead[n], bead[n]);
-    }
-    return b;
-}
-
-/* Lies a point [m, lab, from the body's centre] outside the box that holds what
-   is nearer than `far` to the centre of a bead? */
-static int is_beyond(body *b, const double point[3], double far)
-{
-    const double *a = b->model->options.semi_axes;
-    double at[3];
-
-    ellipsoid_to_body(b->r, point, at);
-    return fabs(at[0]) >= a[0] + far || fabs(at[1]) >= a[1] + far
-        || fabs(at[2]) >= a[2] + far;
-}
-
-/* Are two cells farther apart than `far` [m]? */
-static int are_apart(const ellipsoid_model *a, const double x_a[3],
-                     const ellipsoid_model *b, const double x_b[3], double far)
-{
-    /* beads of a stage are placed with a q that is not of length one */
-    const double reach = 1.1 * (a->reach + b->reach) + far;
-    double line[3];
-
-    ellipsoid_difference(x_a, x_b, line);
-    return ellipsoid_dot(line, line) > reach * reach;
-}
-
 /* ------------------------------------------------------- beads that touch */
 
 /* What one cell feels of the other, and its derivatives. */
@@ -75,7 +25,7 @@ typedef struct side
 
 typedef struct meeting
 {
-    body a, b;
+    const ellipsoid_body *a, *b;
     double stiffness; /* [N/m^1.5] 4/3 E* sqrt(R) */
     double gap;       /* [m] the smallest found */
     int touching;     /* beads */
@@ -117,17 +67,33 @@ static void push_apart(const meeting *m, const double line[3], double distance,
     }
 }
 
+static void begin_side(const meeting *m, side *s)
+{
+    memset(s->force, 0, sizeof(s->force));
+    memset(s->torque, 0, sizeof(s->torque));
+    if (m->derivatives)
+    {
+        memset(&s->own, 0, sizeof(s->own));
+        memset(&s->other, 0, sizeof(s->other));
+    }
+}
+
 static void add_touch(meeting *m, int bead_a, int bead_b, double force[3],
                       double force_x[3][3])
 {
-    const double *arm_a = m->a.model->bead[bead_a];
-    const double *arm_b = m->b.model->bead[bead_b];
+    const double *arm_a = m->a->model->bead[bead_a];
+    const double *arm_b = m->b->model->bead[bead_b];
     const double back[3] = {-force[0], -force[1], -force[2]};
+    ellipsoid_body a = *m->a, b = *m->b;
     double across[3][3];
 
-    ellipsoid_add_force_at(arm_a, m->a.r, force, m->of_a.force, m->of_a.torque);
-    ellipsoid_add_force_at(arm_b, m->b.r, back, m->of_b.force, m->of_b.torque);
-    m->touching++;
+    if (m->touching++ == 0)
+    {
+        begin_side(m, &m->of_a);
+        begin_side(m, &m->of_b);
+    }
+    ellipsoid_add_force_at(arm_a, a.r, force, m->of_a.force, m->of_a.torque);
+    ellipsoid_add_force_at(arm_b, b.r, back, m->of_b.force, m->of_b.torque);
     if (!m->derivatives)
     {
         return;
@@ -136,59 +102,58 @@ static void add_touch(meeting *m, int bead_a, int bead_b, double force[3],
     {
         across[n / 3][n % 3] = -force_x[n / 3][n % 3];
     }
-    ellipsoid_add_derivatives(arm_a, m->a.q, m->a.r, force, force_x,
-                              &m->of_a.own);
-    ellipsoid_add_derivatives(arm_b, m->b.q, m->b.r, back, force_x,
-                              &m->of_b.own);
-    ellipsoid_add_other_derivatives(arm_a, m->a.r, arm_b, m->b.q, across,
+    ellipsoid_add_derivatives(arm_a, a.q, a.r, force, force_x, &m->of_a.own);
+    ellipsoid_add_derivatives(arm_b, b.q, b.r, back, force_x, &m->of_b.own);
+    ellipsoid_add_other_derivatives(arm_a, a.r, arm_b, b.q, across,
                                     &m->of_a.other);
-    ellipsoid_add_other_derivatives(arm_b, m->b.r, arm_a, m->a.q, across,
+    ellipsoid_add_other_derivatives(arm_b, b.r, arm_a, a.q, across,
                                     &m->of_b.other);
 }
 
-/* One bead of a against all of b; `from` is it seen from b's centre. */
-static void meet_bead(meeting *m, int bead_a, const double from[3])
+/* A bead of each; `line` is between the centres of the cells. */
+static inline void meet(meeting *m, const double line[3], int bead_a,
+                        int bead_b)
 {
-    const double both = m->a.model->options.bead_radius
-                      + m->b.model->options.bead_radius;
+    const double both =
+        m->a->model->options.bead_radius + m->b->model->options.bead_radius;
+    const double far = both + fmax(m->gap, 0);
+    double between[3], distance, force[3], force_x[3][3];
 
-    for (int n = 0; n < m->b.model->bead_count; n++)
+    ellipsoid_difference(m->a->bead[bead_a], m->b->bead[bead_b], between);
+    ellipsoid_add(between, line);
+    distance = ellipsoid_dot(between, between);
+    if (distance >= far * far)
     {
-        double line[3], distance, force[3], force_x[3][3];
-
-        ellipsoid_difference(from, m->b.bead[n], line);
-        distance = ellipsoid_dot(line, line);
-        if (distance >= (both + m->gap) * (both + m->gap)
-            && distance >= both * both)
-        {
-            continue;
-        }
-        distance = sqrt(distance);
-        m->gap = fmin(m->gap, distance - both);
-        if (distance < both && distance > 0)
-        {
-            push_apart(m, line, distance, both - distance, force, force_x);
-            add_touch(m, bead_a, n, force, force_x);
-        }
+        return;
+    }
+    distance = sqrt(distance);
+    m->gap = fmin(m->gap, distance - both);
+    if (distance < both && distance > 0)
+    {
+        push_apart(m, between, distance, both - distance, force, force_x);
+        add_touch(m, bead_a, bead_b, force, force_x);
     }
 }
 
-static void meet(meeting *m)
+/* All beads that may; their number is listed < 0 if they are too many to list.
+ */
+static void meet_all(meeting *m, const ellipsoid_near_pair *near)
 {
-    const double both = m->a.model->options.bead_radius
-                      + m->b.model->options.bead_radius;
+    const int all_b = m->b->model->bead_count;
+    const int count =
+        near->listed < 0 ? m->a->model->bead_count * all_b : near->listed;
     double line[3];
 
-    ellipsoid_difference(m->a.x, m->b.x, line);
-    for (int n = 0; n < m->a.model->bead_count; n++)
+    ellipsoid_difference(m->a->x, m->b->x, line);
+    for (int n = 0; n < count; n++)
     {
-        double from[3];
-
-        ellipsoid_copy(line, from);
-        ellipsoid_add(from, m->a.bead[n]);
-        if (!is_beyond(&m->b, from, both + fmax(m->gap, 0)))
+        if (near->listed < 0)
         {
-            meet_bead(m, n, from);
+            meet(m, line, n / all_b, n % all_b);
+        }
+        else
+        {
+            meet(m, line, near->bead[n][0], near->bead[n][1]);
         }
     }
 }
@@ -272,47 +237,28 @@ static void keep(ellipsoid_group *g, ellipsoid_point *points, const meeting *m,
     }
 }
 
-/* The body of a cell of the group, its beads placed at most once. */
-static body place_cell(ellipsoid_group *g, const ellipsoid_point *points,
-                       int cell)
-{
-    const int anew = !g->pairs->placed[cell];
-
-    g->pairs->placed[cell] = 1;
-    return place(g->cell[cell].model, points[cell].state.x,
-                 points[cell].state.q, g->pairs->bead[cell], anew);
-}
-
-static double horizon_between(const ellipsoid_model *a,
-                              const ellipsoid_model *b)
-{
-    return gap_horizon * fmin(a->options.bead_radius, b->options.bead_radius);
-}
-
 static ellipsoid_status add_pair(ellipsoid_group *g, ellipsoid_point *points,
-                                 int a, int b, int with_blocks)
+                                 const ellipsoid_near_pair *near,
+                                 int with_blocks)
 {
-    const ellipsoid_model *of_a = g->cell[a].model, *of_b = g->cell[b].model;
-    const double horizon = horizon_between(of_a, of_b);
+    const int a = near->a, b = near->b;
+    const ellipsoid_options *of_a = &g->cell[a].model->options;
+    const ellipsoid_options *of_b = &g->cell[b].model->options;
     meeting m;
 
-    if (are_apart(of_a, points[a].state.x, of_b, points[b].state.x, horizon))
-    {
-        return ELLIPSOID_OK;
-    }
-    if (g->pairs->count + 2 > g->pairs->capacity)
-    {
-        return ELLIPSOID_TOO_MANY_CELLS;
-    }
-    memset(&m.of_a, 0, sizeof(m.of_a));
-    memset(&m.of_b, 0, sizeof(m.of_b));
-    m.a = place_cell(g, points, a);
-    m.b = place_cell(g, points, b);
-    m.stiffness = stiffness_between(&of_a->options, &of_b->options);
-    m.gap = horizon;
+    m.a = ellipsoid_placed_body(g, points, a);
+    m.b = ellipsoid_placed_body(g, points, b);
+    m.stiffness = stiffness_between(of_a, of_b);
+    m.gap = ellipsoid_pair_horizon(g->cell[a].model, g->cell[b].model);
     m.touching = 0;
     m.derivatives = with_blocks;
-    meet(&m);
+    meet_all(&m, near);
+    if (m.touching > 0 && with_blocks
+        && g->pairs->count + 2 > g->pairs->capacity)
+    {
+        g->culprit = b;
+        return ELLIPSOID_TOO_MANY_CELLS;
+    }
     keep(g, points, &m, &m.of_a, a, b);
     keep(g, points, &m, &m.of_b, b, a);
     return ELLIPSOID_OK;
@@ -322,28 +268,24 @@ ellipsoid_status ellipsoid_add_pairs(ellipsoid_group *g,
                                      ellipsoid_point *points, int balanced,
                                      int with_blocks)
 {
-    ellipsoid_status status = ELLIPSOID_OK;
+    ellipsoid_status status = ellipsoid_near_pairs_collect(g, points);
 
     g->pairs->count = with_blocks ? 0 : g->pairs->count;
     for (int cell = 0; cell < g->count; cell++)
     {
+        const ellipsoid_model *model = g->cell[cell].model;
         ellipsoid_contact *c = &points[cell].contact;
 
         memset(c->cell_force, 0, sizeof(c->cell_force));
         memset(c->cell_torque, 0, sizeof(c->cell_torque));
-        c->cell_gap =
-            gap_horizon * g->cell[cell].model->options.bead_radius;
+        c->cell_gap = ellipsoid_pair_horizon(model, model);
         c->cell_deepest = 0;
         c->touched_cell_count = 0;
-        g->pairs->placed[cell] = 0;
+        g->pairs->body[cell].model = NULL;
     }
-    for (int a = 0; a < g->count; a++)
+    for (int n = 0; status == ELLIPSOID_OK && n < g->pairs->near_count; n++)
     {
-        for (int b = a + 1; status == ELLIPSOID_OK && b < g->count; b++)
-        {
-            status = add_pair(g, points, a, b, with_blocks);
-            g->culprit = status == ELLIPSOID_OK ? -1 : b;
-        }
+        status = add_pair(g, points, &g->pairs->near[n], with_blocks);
     }
     for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
@@ -361,14 +303,17 @@ double ellipsoid_cell_gap(const ellipsoid_model *a, const double x_a[3],
                           double horizon)
 {
     double bead_a[ELLIPSOID_MAX_BEADS][3], bead_b[ELLIPSOID_MAX_BEADS][3];
-    meeting m = {.stiffness = 0, .gap = horizon};
+    ellipsoid_body of_a = {.bead = bead_a}, of_b = {.bead = bead_b};
+    ellipsoid_near_pair near;
+    meeting m = {.a = &of_a, .b = &of_b, .stiffness = 0, .gap = horizon};
 
-    if (are_apart(a, x_a, b, x_b, horizon))
+    if (ellipsoid_are_apart(a, x_a, b, x_b, horizon))
     {
         return horizon;
     }
-    m.a = place(a, x_a, q_a, bead_a, 1);
-    m.b = place(b, x_b, q_b, bead_b, 1);
-    meet(&m);
+    ellipsoid_place_body(&of_a, a, x_a, q_a);
+    ellipsoid_place_body(&of_b, b, x_b, q_b);
+    ellipsoid_list_beads(&of_a, &of_b, horizon, &near);
+    meet_all(&m, &near);
     return m.gap;
 }

@@ -31,8 +31,8 @@ static inline void weighted_sum(double k[][UNKNOWNS], const double *weight,
     }
 }
 
-static inline void stage_sums(double k[][UNKNOWNS], int stage, double a[UNKNOWNS],
-                              double c[UNKNOWNS])
+static inline void stage_sums(double k[][UNKNOWNS], int stage,
+                              double a[UNKNOWNS], double c[UNKNOWNS])
 {
     const double *wa = ellipsoid_rosenbrock_set.a[stage];
     const double *wc = ellipsoid_rosenbrock_set.c[stage];
@@ -63,101 +63,98 @@ static inline void stage_sums(double k[][UNKNOWNS], int stage, double a[UNKNOWNS
 
 /* Sets the state of a stage and, in k, what belongs to its right-hand side
    besides the equations: sum c_ij/h K_j, where there is mass. */
-static ellipsoid_status set_stage(const ellipsoid_group *g, int cell, int stage,
-                                  double per_h)
+static inline int set_stage(const ellipsoid_point *start, int stage,
+                            const double mass[UNKNOWNS], ellipsoid_stages *s,
+                            ellipsoid_point *at)
 {
-    ellipsoid_stages *s = &g->stages[cell];
-    double y[UNKNOWNS], from[UNKNOWNS];
+    double change[UNKNOWNS], *k = s->k[stage];
 
-    memcpy(from, &g->start[cell].state, sizeof(from));
-    stage_sums(s->k, stage, y, s->k[stage]);
+    stage_sums(s->k, stage, change, k);
     for (int n = 0; n < UNKNOWNS; n++)
     {
-        y[n] += from[n];
-        s->k[stage][n] *=
-            ellipsoid_is_rate(n) && !g->inertial ? 0 : per_h;
+        at->y[n] = start->y[n] + change[n];
+        k[n] *= mass[n];
     }
-    memcpy(&g->next[cell].state, y, sizeof(y));
-    return ellipsoid_is_pose(y + AT_X, y + AT_Q) ? ELLIPSOID_OK
-                                                 : ELLIPSOID_STEP_UNDERFLOW;
+    return ellipsoid_is_pose(at->state.x, at->state.q);
 }
 
-static void add_equations(const ellipsoid_point *at, double k[UNKNOWNS])
+/* All of the step for `count` cells; inlined for one and for several. */
+static inline ellipsoid_status take(ellipsoid_group *g, int count, double h)
 {
-    double f[UNKNOWNS];
+    double mass[UNKNOWNS]; /* over h */
 
-    memcpy(f, &at->derivative, sizeof(f));
     for (int n = 0; n < UNKNOWNS; n++)
     {
-        k[n] += f[n];
+        mass[n] = ellipsoid_is_rate(n) && !g->inertial ? 0 : 1 / h;
     }
-}
-
-/* The last stage is the error estimate, and leads to the result. */
-static void finish(const ellipsoid_point *at, ellipsoid_stages *s)
-{
-    const double *last = s->k[ELLIPSOID_ROSENBROCK_STAGES - 1];
-
-    memcpy(s->y, &at->state, sizeof(s->y));
-    for (int n = 0; n < UNKNOWNS; n++)
-    {
-        s->y[n] += last[n];
-        s->error[n] = last[n];
-    }
-}
-
-ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *g, double h)
-{
-    if (!ellipsoid_group_system_prepare(g, h))
-    {
-        return ELLIPSOID_NON_FINITE;
-    }
-    for (int cell = 0; cell < g->count; cell++)
+    for (int cell = 0; cell < count; cell++)
     {
         ellipsoid_stages *s = &g->stages[cell];
 
         s->order = 4;
         s->sampled = ELLIPSOID_ROSENBROCK_STAGES;
         s->in_time = ellipsoid_rosenbrock_set.in_time;
-        memcpy(s->k[0], &g->start[cell].derivative, sizeof(s->k[0]));
+        memcpy(s->k[0], g->start[cell].slope, sizeof(s->k[0]));
         if (ellipsoid_group_feels(g, cell))
         {
             ellipsoid_stages_sample(s, 0, &g->start[cell]);
         }
     }
-    ellipsoid_group_system_solve(g, 0);
+    ellipsoid_group_solve(g, 0);
 
     for (int i = 1; i < ELLIPSOID_ROSENBROCK_STAGES; i++)
     {
-        ellipsoid_status status = ELLIPSOID_OK;
+        ellipsoid_status status;
 
-        for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
+        for (int cell = 0; cell < count; cell++)
         {
-            status = set_stage(g, cell, i, 1 / h);
+            if (!set_stage(&g->start[cell], i, mass, &g->stages[cell],
+                           &g->next[cell]))
+            {
+                return ELLIPSOID_STEP_UNDERFLOW;
+            }
         }
-        if (status == ELLIPSOID_OK)
-        {
-            status = ellipsoid_group_evaluate(g, g->next, 0, 0);
-        }
+        status = ellipsoid_group_evaluate(g, g->next, 0, 0);
         if (status != ELLIPSOID_OK)
         {
             return status;
         }
-        for (int cell = 0; cell < g->count; cell++)
+        for (int cell = 0; cell < count; cell++)
         {
+            ellipsoid_stages *s = &g->stages[cell];
+
             if (ellipsoid_group_feels(g, cell))
             {
-                ellipsoid_stages_sample(&g->stages[cell], i, &g->next[cell]);
+                ellipsoid_stages_sample(s, i, &g->next[cell]);
             }
-            add_equations(&g->next[cell], g->stages[cell].k[i]);
+            for (int n = 0; n < UNKNOWNS; n++)
+            {
+                s->k[i][n] += g->next[cell].slope[n];
+            }
         }
-        ellipsoid_group_system_solve(g, i);
+        ellipsoid_group_solve(g, i);
     }
-    for (int cell = 0; cell < g->count; cell++)
+    /* the last stage is the error estimate, and leads to the result */
+    for (int cell = 0; cell < count; cell++)
     {
-        finish(&g->next[cell], &g->stages[cell]);
+        ellipsoid_stages *s = &g->stages[cell];
+
+        for (int n = 0; n < UNKNOWNS; n++)
+        {
+            s->error[n] = s->k[ELLIPSOID_ROSENBROCK_STAGES - 1][n];
+            s->y[n] = g->next[cell].y[n] + s->error[n];
+        }
     }
     return ELLIPSOID_OK;
+}
+
+ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *g, double h)
+{
+    if (!ellipsoid_group_prepare(g, h))
+    {
+        return ELLIPSOID_NON_FINITE;
+    }
+    return g->count == 1 ? take(g, 1, h) : take(g, g->count, h);
 }
 
 void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,

@@ -3,7 +3,8 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    rungeKutta.c - one explicit step of inertialess motion, and its dense output.
+    rungeKutta.c - one explicit step of inertialess motion, and its dense
+   output.
 
     Tsitouras, Comput. Math. Appl. 62, 770 (2011): order 5(4), the last stage
     is the first of the next step, with a continuous extension of order 4. Its
@@ -101,45 +102,34 @@ static inline void keep_slopes(const ellipsoid_state *state,
     memcpy(k + AT_Q, derivative->q, sizeof(derivative->q));
 }
 
-/* Sets the state of a stage of one cell; the last one is the result. */
-static ellipsoid_status set_stage(const ellipsoid_group *g, int cell, int stage,
-                                  double h)
+/* Sets the state of a stage; the last one is the result. */
+static inline int set_stage(const ellipsoid_point *start, int stage, double h,
+                            ellipsoid_stages *s, ellipsoid_point *at)
 {
-    double change[UNKNOWNS], y[UNKNOWNS];
+    double change[UNKNOWNS];
 
-    memcpy(y, &g->start[cell].state, sizeof(y));
-    stage_sum(g->stages[cell].k, stage, change);
+    stage_sum(s->k, stage, change);
     for (int n = AT_X; n < UNKNOWNS; n++)
     {
-        y[n] += ellipsoid_is_rate(n) ? 0 : h * change[n];
+        at->y[n] = start->y[n] + (ellipsoid_is_rate(n) ? 0 : h * change[n]);
     }
-    if (!ellipsoid_is_pose(y + AT_X, y + AT_Q))
+    if (!ellipsoid_is_pose(at->state.x, at->state.q))
     {
-        return ELLIPSOID_STEP_UNDERFLOW;
+        return 0;
     }
     if (stage == STAGES - 1)
     {
-        ellipsoid_normalise(y + AT_Q);
+        ellipsoid_normalise(at->state.q);
     }
-    memcpy(&g->next[cell].state, y, sizeof(y));
-    return ELLIPSOID_OK;
+    return 1;
 }
 
-static void finish(const ellipsoid_point *at, double h, ellipsoid_stages *s)
-{
-    weighted_sum(s->k, of_error, STAGES, s->error);
-    for (int n = 0; n < UNKNOWNS; n++)
-    {
-        s->error[n] = ellipsoid_is_rate(n) ? 0 : h * s->error[n];
-    }
-    memcpy(s->y, &at->state, sizeof(s->y));
-}
-
-ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g, double h,
-                                         int *touched)
+/* All of the step for `count` cells; inlined for one and for several. */
+static inline ellipsoid_status take(ellipsoid_group *g, int count, double h,
+                                    int *touched)
 {
     *touched = 0;
-    for (int cell = 0; cell < g->count; cell++)
+    for (int cell = 0; cell < count; cell++)
     {
         const ellipsoid_point *start = &g->start[cell];
         ellipsoid_stages *s = &g->stages[cell];
@@ -156,41 +146,57 @@ ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g, double h,
 
     for (int i = 1; i < STAGES; i++)
     {
-        ellipsoid_status status = ELLIPSOID_OK;
+        ellipsoid_status status;
 
-        for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
+        for (int cell = 0; cell < count; cell++)
         {
-            status = set_stage(g, cell, i, h);
+            if (!set_stage(&g->start[cell], i, h, &g->stages[cell],
+                           &g->next[cell]))
+            {
+                return ELLIPSOID_STEP_UNDERFLOW;
+            }
         }
-        if (status == ELLIPSOID_OK)
-        {
-            status = ellipsoid_group_evaluate(g, g->next, 1, 0);
-        }
+        status = ellipsoid_group_evaluate(g, g->next, 1, 0);
         if (status != ELLIPSOID_OK)
         {
             return status;
         }
-        for (int cell = 0; cell < g->count; cell++)
+        for (int cell = 0; cell < count; cell++)
         {
             const ellipsoid_point *at = &g->next[cell];
+            ellipsoid_stages *s = &g->stages[cell];
 
             if (ellipsoid_group_feels(g, cell))
             {
                 *touched = *touched || ellipsoid_touches(&at->contact);
-                ellipsoid_stages_sample(&g->stages[cell], i, at);
+                ellipsoid_stages_sample(s, i, at);
             }
-            keep_slopes(&at->state, &at->derivative, g->stages[cell].k[i]);
+            keep_slopes(&at->state, &at->derivative, s->k[i]);
         }
         if (*touched)
         {
             return ELLIPSOID_OK;
         }
     }
-    for (int cell = 0; cell < g->count; cell++)
+    for (int cell = 0; cell < count; cell++)
     {
-        finish(&g->next[cell], h, &g->stages[cell]);
+        ellipsoid_stages *s = &g->stages[cell];
+
+        weighted_sum(s->k, of_error, STAGES, s->error);
+        for (int n = 0; n < UNKNOWNS; n++)
+        {
+            s->error[n] = ellipsoid_is_rate(n) ? 0 : h * s->error[n];
+        }
+        memcpy(s->y, g->next[cell].y, sizeof(s->y));
     }
     return ELLIPSOID_OK;
+}
+
+ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g, double h,
+                                         int *touched)
+{
+    return g->count == 1 ? take(g, 1, h, touched)
+                         : take(g, g->count, h, touched);
 }
 
 /*
@@ -213,8 +219,8 @@ void ellipsoid_explicit_dense(ellipsoid_stages *stages,
     weighted_sum(k, of_dense, STAGES, dense[2]);
     for (int n = AT_X; n < UNKNOWNS; n++)
     {
-        const double d = ellipsoid_is_rate(n) ? h * change[n]
-                                              : after[n] - before[n];
+        const double d =
+            ellipsoid_is_rate(n) ? h * change[n] : after[n] - before[n];
 
         dense[0][n] = h * k[0][n] - d;
         dense[1][n] = d - h * k[STAGES - 1][n] - dense[0][n];

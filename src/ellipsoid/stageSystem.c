@@ -24,8 +24,8 @@ typedef struct elimination
 static inline elimination of_step(const ellipsoid_state *state, double h)
 {
     const double per_g = ellipsoid_rosenbrock_set.gamma * h, g = 1 / per_g;
-    const double square = g * g
-        + 0.25 * ellipsoid_dot(state->omega, state->omega);
+    const double square =
+        g * g + 0.25 * ellipsoid_dot(state->omega, state->omega);
 
     return (elimination){state, g, per_g, 1 / square};
 }

@@ -15,8 +15,8 @@
     they do to x and q: they last one relaxation time or one step, whichever is
     shorter. So the stiff components do not govern the step.
 */
-static double scaled_error(const ellipsoid_problem *p, const double error[UNKNOWNS],
-                           double h)
+static double scaled_error(const ellipsoid_problem *p,
+                           const double error[UNKNOWNS], double h)
 {
     const double per_h = 1 / h;
     const double *q = error + AT_Q;
@@ -26,7 +26,8 @@ static double scaled_error(const ellipsoid_problem *p, const double error[UNKNOW
 
     if (p->inertial)
     {
-        eu = ellipsoid_length(error + AT_U) / (p->length * fmax(p->rate, per_h));
+        eu =
+            ellipsoid_length(error + AT_U) / (p->length * fmax(p->rate, per_h));
         ew = ellipsoid_length(error + AT_OMEGA) / fmax(p->rotation_rate, per_h);
     }
     sum = ex + eu + ew + eq;
@@ -150,17 +151,17 @@ ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double *step)
     {
         const ellipsoid_model *m = g->cell[cell].model;
 
-        *step = fmin(*step, 0.25
-                                * fmin(m->relaxation_time,
-                                       m->rotation_relaxation_time));
+        *step =
+            fmin(*step,
+                 0.25 * fmin(m->relaxation_time, m->rotation_relaxation_time));
     }
     for (int cell = 0; cell < g->count; cell++)
     {
         const ellipsoid_state *slope = &g->start[cell].derivative;
 
-        pace = fmax(pace, fmax(sqrt(ellipsoid_square4(slope->q)),
-                               ellipsoid_length(slope->x)
-                                   / g->cell[cell].length));
+        pace =
+            fmax(pace, fmax(sqrt(ellipsoid_square4(slope->q)),
+                            ellipsoid_length(slope->x) / g->cell[cell].length));
     }
     if (g->inertial || !(pace > 0))
     {
@@ -190,11 +191,11 @@ ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double *step)
     }
     for (int cell = 0; cell < g->count; cell++)
     {
-        const double turn = sqrt(ellipsoid_square4(g->start[cell].derivative.q));
+        const double turn =
+            sqrt(ellipsoid_square4(g->start[cell].derivative.q));
 
-        *step = fmin(*step,
-                     longest_step(&g->cell[cell], &g->start[cell], turn, ahead,
-                                  &g->next[cell].derivative));
+        *step = fmin(*step, longest_step(&g->cell[cell], &g->start[cell], turn,
+                                         ahead, &g->next[cell].derivative));
     }
     return ELLIPSOID_OK;
 }
@@ -217,8 +218,7 @@ ellipsoid_status ellipsoid_judge_step(const ellipsoid_group *g, double h,
         *error = fmax(*error, made);
         if (ellipsoid_group_feels(g, cell))
         {
-            const double travel =
-                unseen_travel(p, stages, g->pairs ? 0.5 : 1);
+            const double travel = unseen_travel(p, stages, g->pairs ? 0.5 : 1);
 
             /* travel is proportional to the step */
             *error = fmax(*error, pow(travel, (double)stages->order));

@@ -468,8 +468,7 @@ static void test_elimination_in_contact(void **unused)
         state->x[2] = o.bead_radius - lowest - 2e-8 * test_uniform(&seed);
         state->omega[0] = 100 * test_signed(&seed);
         ellipsoid_contact_cache_clear(&cache);
-        assert_ok(
-            ellipsoid_jacobian(&model, &around, state, &cache, jacobian));
+        assert_ok(ellipsoid_jacobian(&model, &around, state, &cache, jacobian));
         assert_ok(ellipsoid_group_evaluate(&group, group.start, 0, 1));
         assert_true(cell.start.contact.touching_beads > 0);
         /* later stages may lie in the wall: the first is of interest */
@@ -477,7 +476,9 @@ static void test_elimination_in_contact(void **unused)
         memcpy(f, &cell.start.derivative, sizeof(f));
         for (int i = 0; i < SIZE; i++)
         {
-            double sum = cell.stages.k[0][i] / (ellipsoid_rosenbrock_set.gamma * h) - f[i];
+            double sum =
+                cell.stages.k[0][i] / (ellipsoid_rosenbrock_set.gamma * h)
+                - f[i];
             double size = fabs(sum) + fabs(f[i]);
 
             for (int j = 0; j < SIZE; j++)

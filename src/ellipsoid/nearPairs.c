@@ -1,0 +1,203 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    nearPairs.c - which beads of which cells of a group may touch.
+
+    The list holds all beads of two cells with gaps below the horizon and a
+    margin, and is good until a bead can have moved half the margin. What is
+    summed is then the same, in the same order, whenever it was made.
+*/
+#include "integrator.h"
+
+#include <math.h>
+
+/* How far beyond a bead's surface a gap is measured, and how far two beads may
+   come nearer before the list is made anew, in bead radii. */
+static const double gap_horizon = 1, margin = 0.5;
+
+double ellipsoid_pair_horizon(const ellipsoid_model *a,
+                              const ellipsoid_model *b)
+{
+    return gap_horizon * fmin(a->options.bead_radius, b->options.bead_radius);
+}
+
+int ellipsoid_are_apart(const ellipsoid_model *a, const double x_a[3],
+                        const ellipsoid_model *b, const double x_b[3],
+                        double far)
+{
+    /* beads of a stage are placed with a q that is not of length one */
+    const double reach = 1.1 * (a->reach + b->reach) + far;
+    double line[3];
+
+    ellipsoid_difference(x_a, x_b, line);
+    return ellipsoid_dot(line, line) > reach * reach;
+}
+
+void ellipsoid_place_body(ellipsoid_body *b, const ellipsoid_model *model,
+                          const double x[3], const double q[4])
+{
+    b->model = model;
+    b->x = x;
+    b->q = q;
+    ellipsoid_rotation_inline(q, b->r);
+    for (int n = 0; n < model->bead_count; n++)
+    {
+        ellipsoid_product(b->r, model->bead[n], b->bead[n]);
+    }
+}
+
+const ellipsoid_body *ellipsoid_placed_body(ellipsoid_group *g,
+                                            const ellipsoid_point *points,
+                                            int cell)
+{
+    ellipsoid_body *b = &g->pairs->body[cell];
+
+    if (!b->model)
+    {
+        ellipsoid_place_body(b, g->cell[cell].model, points[cell].state.x,
+                             points[cell].state.q);
+    }
+    return b;
+}
+
+/* Lies a point [m, lab, from the body's centre] outside the box that holds what
+   is nearer than `far` to the centre of a bead? */
+static int is_beyond(ellipsoid_body *b, const double point[3], double far)
+{
+    const double *a = b->model->options.semi_axes;
+    /* R(q) of a stage stretches by |q|^2 */
+    const double stretch = ellipsoid_square4(b->q);
+    double at[3];
+
+    ellipsoid_to_body(b->r, point, at);
+    for (int i = 0; i < 3; i++)
+    {
+        if (fabs(at[i]) >= stretch * (stretch * a[i] + far))
+        {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+void ellipsoid_list_beads(ellipsoid_body *a, ellipsoid_body *b, double far,
+                          ellipsoid_near_pair *near)
+{
+    const double both =
+        a->model->options.bead_radius + b->model->options.bead_radius + far;
+    double line[3];
+
+    near->listed = 0;
+    ellipsoid_difference(a->x, b->x, line);
+    for (int n = 0; n < a->model->bead_count; n++)
+    {
+        double from[3];
+
+        ellipsoid_copy(line, from);
+        ellipsoid_add(from, a->bead[n]);
+        for (int l = 0; l < b->model->bead_count && !is_beyond(b, from, both);
+             l++)
+        {
+            double between[3];
+
+            ellipsoid_difference(from, b->bead[l], between);
+            if (ellipsoid_dot(between, between) >= both * both)
+            {
+                continue;
+            }
+            if (near->listed == ELLIPSOID_NEAR_BEADS)
+            {
+                near->listed = -1;
+                return;
+            }
+            near->bead[near->listed][0] = (unsigned char)n;
+            near->bead[near->listed++][1] = (unsigned char)l;
+        }
+    }
+}
+
+/* Has a bead of this cell moved so far that the list may lack something? */
+static int has_left(const ellipsoid_pairs *pairs, const ellipsoid_model *model,
+                    const ellipsoid_state *now, int cell)
+{
+    const ellipsoid_state *then = &pairs->listed_at[cell];
+    double move[3], turn[4];
+
+    ellipsoid_difference(now->x, then->x, move);
+    for (int n = 0; n < 4; n++)
+    {
+        turn[n] = now->q[n] - then->q[n];
+    }
+    /* |dR s| <= 2 |dq| |s| and a little for |q| that are not one */
+    return ellipsoid_length(move)
+             + 2.5 * model->reach * sqrt(ellipsoid_square4(turn))
+         > 0.5 * margin * model->options.bead_radius;
+}
+
+static ellipsoid_status collect(ellipsoid_group *g,
+                                const ellipsoid_point *points)
+{
+    ellipsoid_pairs *pairs = g->pairs;
+
+    pairs->near_count = 0;
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        pairs->body[cell].model = NULL;
+    }
+    for (int a = 0; a < g->count; a++)
+    {
+        for (int b = a + 1; b < g->count; b++)
+        {
+            const ellipsoid_model *of_a = g->cell[a].model;
+            const ellipsoid_model *of_b = g->cell[b].model;
+            const double far = ellipsoid_pair_horizon(of_a, of_b)
+                             + margin
+                                   * fmax(of_a->options.bead_radius,
+                                          of_b->options.bead_radius);
+            ellipsoid_near_pair *near = &pairs->near[pairs->near_count];
+
+            if (ellipsoid_are_apart(of_a, points[a].state.x, of_b,
+                                    points[b].state.x, far))
+            {
+                continue;
+            }
+            if (pairs->near_count == pairs->near_capacity)
+            {
+                g->culprit = b;
+                return ELLIPSOID_TOO_MANY_CELLS;
+            }
+            ellipsoid_placed_body(g, points, a);
+            ellipsoid_placed_body(g, points, b);
+            ellipsoid_list_beads(&pairs->body[a], &pairs->body[b], far, near);
+            near->a = a;
+            near->b = b;
+            pairs->near_count += near->listed != 0;
+        }
+    }
+    return ELLIPSOID_OK;
+}
+
+ellipsoid_status ellipsoid_near_pairs_collect(ellipsoid_group *g,
+                                              const ellipsoid_point *points)
+{
+    ellipsoid_pairs *pairs = g->pairs;
+    int current = pairs->is_listed;
+
+    for (int cell = 0; current && cell < g->count; cell++)
+    {
+        current =
+            !has_left(pairs, g->cell[cell].model, &points[cell].state, cell);
+    }
+    if (current)
+    {
+        return ELLIPSOID_OK;
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        pairs->listed_at[cell] = points[cell].state;
+    }
+    pairs->is_listed = 1;
+    return collect(g, points);
+}

@@ -1,0 +1,586 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    test_group.c - several cells as one system: contact between them, its
+    derivatives, the coupled linear system, piles.
+*/
+#include "flowTest.h"
+
+#include <stdlib.h>
+
+/* What an advance of several cells is called with. */
+typedef struct crowd
+{
+    int count;
+    ellipsoid_model model;
+    test_quadratic flow;
+    ellipsoid_surroundings *around;
+    ellipsoid_state *state;
+    ellipsoid_controller *controller;
+    ellipsoid_statistics *statistics;
+    ellipsoid_member *member;
+    void *memory;
+} crowd;
+
+static void *zeros(size_t count, size_t size)
+{
+    void *memory = calloc(count, size);
+
+    assert_non_null(memory);
+    return memory;
+}
+
+static void crowd_init(crowd *c, int count, const ellipsoid_options *options,
+                       const test_quadratic *flow)
+{
+    const size_t n = (size_t)count;
+
+    c->count = count;
+    c->model = test_model(options);
+    c->around = zeros(n, sizeof(*c->around));
+    c->state = zeros(n, sizeof(*c->state));
+    c->controller = zeros(n, sizeof(*c->controller));
+    c->statistics = zeros(n, sizeof(*c->statistics));
+    c->member = zeros(n, sizeof(*c->member));
+    c->memory = zeros(1, ellipsoid_group_size(count));
+    if (flow)
+    {
+        c->flow = *flow;
+    }
+    for (int i = 0; i < count; i++)
+    {
+        c->around[i].flow = flow ? test_quadratic_flow : NULL;
+        c->around[i].flow_context = &c->flow;
+        c->around[i].id = 100 + (uint32_t)i;
+        c->state[i].q[3] = 1;
+        c->member[i] = (ellipsoid_member){
+            &c->model, &c->around[i], &c->state[i],     &c->controller[i],
+            NULL,      NULL,          &c->statistics[i]};
+    }
+}
+
+static void crowd_free(crowd *c)
+{
+    free(c->around);
+    free(c->state);
+    free(c->controller);
+    free(c->statistics);
+    free(c->member);
+    free(c->memory);
+}
+
+static void crowd_advance(crowd *c, double *t, double end,
+                          ellipsoid_observer observer)
+{
+    int which = -2;
+
+    assert_ok(ellipsoid_advance_group(c->count, c->member, t, end, observer,
+                                      c->memory, &which));
+    assert_int_equal(which, -1);
+}
+
+/* The paper's cell, weightless, that touches. */
+static ellipsoid_options touching_cell(void)
+{
+    ellipsoid_options o = test_free_cell();
+
+    o.contact = 1;
+    return o;
+}
+
+/* A flow from everywhere to the origin. */
+static test_quadratic towards_origin(double rate)
+{
+    test_quadratic flow = {.answer = 0};
+
+    for (int i = 0; i < 3; i++)
+    {
+        flow.g[i][i] = -rate;
+    }
+    return flow;
+}
+
+/* Two cells that overlap by some nanometres, moving and turning; a group laid
+   out over them. */
+static void overlapping(crowd *c, ellipsoid_group *g, ellipsoid_pairs *pairs,
+                        double depth, uint64_t *seed)
+{
+    double way[3] = {0, 0, 0}, gap;
+
+    for (int i = 0; i < 2; i++)
+    {
+        ellipsoid_state *s = &c->state[i];
+
+        test_orientation(seed, s->q);
+        for (int l = 0; l < 3; l++)
+        {
+            s->x[l] = 1e-6 * test_signed(seed);
+            s->u[l] = 1e-3 * test_signed(seed);
+            s->omega[l] = 100 * test_signed(seed);
+        }
+    }
+    /* pulls the second one away until the depth is as asked for */
+    for (int l = 0; l < 3; l++)
+    {
+        way[l] = test_signed(seed);
+    }
+    for (double near = 0, far = 10e-6; far - near > 1e-14;)
+    {
+        const double middle = 0.5 * (near + far);
+
+        for (int l = 0; l < 3; l++)
+        {
+            c->state[1].x[l] =
+                c->state[0].x[l] + middle * way[l] / ellipsoid_length(way);
+        }
+        gap = ellipsoid_cell_gap(&c->model, c->state[0].x, c->state[0].q,
+                                 &c->model, c->state[1].x, c->state[1].q, 1e-7);
+        *(gap < -depth ? &near : &far) = middle;
+    }
+
+    ellipsoid_group_lay_out(2, c->memory, g, pairs);
+    g->inertial = 1;
+    for (int i = 0; i < 2; i++)
+    {
+        g->cell[i] = (ellipsoid_problem){
+            .model = &c->model,
+            .surroundings = &c->around[i],
+            .statistics = &c->statistics[i],
+            .length = 2e-6,
+            .rate = 1 / c->model.relaxation_time,
+            .rotation_rate = 1 / c->model.rotation_relaxation_time,
+            .inertial = 1,
+        };
+        g->start[i].state = c->state[i];
+    }
+}
+
+/* -------------------------------------------------------------- forces */
+
+/* One force, two signs: to the last bit; and one line of action, so that the
+   moment about any point is rounding. */
+static void test_equal_and_opposite(void **unused)
+{
+    const ellipsoid_options o = touching_cell();
+    uint64_t seed = 5;
+    int touching = 0;
+    crowd c;
+
+    (void)unused;
+    crowd_init(&c, 2, &o, NULL);
+    for (int n = 0; n < 200; n++)
+    {
+        ellipsoid_group g;
+        ellipsoid_pairs pairs;
+        double moment[3] = {0, 0, 0}, size = 0;
+
+        overlapping(&c, &g, &pairs, 2e-8, &seed);
+        assert_ok(ellipsoid_group_evaluate(&g, g.start, 0, 0));
+        for (int i = 0; i < 2; i++)
+        {
+            const ellipsoid_contact *contact = &g.start[i].contact;
+            double r[3][3], arm[3], lab[3];
+
+            ellipsoid_rotation(c.state[i].q, r);
+            ellipsoid_product(r, contact->cell_torque, lab);
+            ellipsoid_cross(c.state[i].x, contact->cell_force, arm);
+            ellipsoid_add(moment, lab);
+            ellipsoid_add(moment, arm);
+            size += ellipsoid_length(lab) + ellipsoid_length(arm);
+            assert_int_equal(contact->touched_cell_count, 1);
+            assert_int_equal(contact->touched_cell[0], 101 - i);
+            assert_near(contact->cell_deepest, 2e-8, 1e-12);
+            touching++;
+        }
+        for (int l = 0; l < 3; l++)
+        {
+            assert_true(g.start[0].contact.cell_force[l]
+                        == -g.start[1].contact.cell_force[l]);
+        }
+        assert_near(ellipsoid_length(moment) / size, 0, 1e-14);
+    }
+    assert_int_equal(touching, 400);
+    crowd_free(&c);
+}
+
+/* Two spheres of one bead each: Hertz with half the radius, half the modulus.
+ */
+static void test_two_spheres(void **unused)
+{
+    const double r = 0.5e-6, depth = 1e-8;
+    ellipsoid_options o = touching_cell();
+    ellipsoid_contact *contact;
+    ellipsoid_group g;
+    ellipsoid_pairs pairs;
+    uint64_t seed = 1;
+    crowd c;
+
+    (void)unused;
+    for (int i = 0; i < 3; i++)
+    {
+        o.semi_axes[i] = r * (1 + 1e-9);
+    }
+    o.bead_count = 1;
+    o.bead_radius = r;
+    crowd_init(&c, 2, &o, NULL);
+    overlapping(&c, &g, &pairs, depth, &seed);
+    assert_ok(ellipsoid_group_evaluate(&g, g.start, 0, 0));
+    contact = &g.start[0].contact;
+    /* the depth is set to 1e-14 m */
+    assert_relative(ellipsoid_length(contact->cell_force),
+                    4.0 / 3 * (o.contact_modulus / 2) * sqrt(r / 2)
+                        * pow(depth, 1.5),
+                    3e-6);
+    assert_near(ellipsoid_length(contact->cell_torque), 0, 1e-30);
+    crowd_free(&c);
+}
+
+/* --------------------------------------------------------- derivatives */
+
+/* The 26 derivatives at a state of two cells. */
+static void slopes(ellipsoid_group *g, double f[26])
+{
+    assert_ok(ellipsoid_group_evaluate(g, g->next, 0, 0));
+    memcpy(f, g->next[0].slope, sizeof(g->next[0].slope));
+    memcpy(f + 13, g->next[1].slope, sizeof(g->next[1].slope));
+}
+
+static int is_coupled(int n, const ellipsoid_blocks *b, int row, double *value)
+{
+    const int i = row % 3;
+    const int of_omega = row >= AT_OMEGA;
+
+    if (row >= AT_Q || (row >= AT_X && row < AT_OMEGA))
+    {
+        return 0;
+    }
+    if (n < AT_X)
+    {
+        *value = of_omega ? b->wu[i][n] : b->uu[i][n];
+    }
+    else if (n < AT_OMEGA)
+    {
+        *value = of_omega ? b->wx[i][n - AT_X] : b->ux[i][n - AT_X];
+    }
+    else if (n < AT_Q)
+    {
+        *value = of_omega ? b->ww[i][n - AT_OMEGA] : b->uw[i][n - AT_OMEGA];
+    }
+    else
+    {
+        *value = of_omega ? b->wq[i][n - AT_Q] : b->uq[i][n - AT_Q];
+    }
+    return 1;
+}
+
+/* The whole Jacobian of a pair against central differences, relative to the
+   largest of its block of rows and columns. Differences of 1e-12 m and 1e-7 in
+   q leave 1e-6: the force's third derivative, (h/depth)^2 / 24, and rounding.
+ */
+static void test_jacobian(void **unused)
+{
+    const ellipsoid_options o = touching_cell();
+    const test_quadratic flow = towards_origin(100);
+    uint64_t seed = 11;
+    crowd c;
+
+    (void)unused;
+    crowd_init(&c, 2, &o, &flow);
+    for (int n = 0; n < 40; n++)
+    {
+        ellipsoid_group g;
+        ellipsoid_pairs pairs;
+        double largest[4][4][2] = {{{0}}};
+
+        overlapping(&c, &g, &pairs, 3e-8, &seed);
+        assert_ok(ellipsoid_group_evaluate(&g, g.start, 0, 1));
+        assert_int_equal(pairs.count, 2);
+        for (int column = 0; column < 26; column++)
+        {
+            const int of = column / 13, m = column % 13;
+            const double h = m < AT_X     ? 1e-9
+                           : m < AT_OMEGA ? 1e-12
+                           : m < AT_Q     ? 1e-3
+                                          : 1e-7;
+            double up[26], down[26];
+
+            g.next[0] = g.start[0];
+            g.next[1] = g.start[1];
+            g.next[of].y[m] += h;
+            slopes(&g, up);
+            g.next[of].y[m] -= 2 * h;
+            slopes(&g, down);
+            for (int row = 0; row < 26; row++)
+            {
+                const int cell = row / 13, k = row % 13;
+                const int rows = k < 3 ? 0 : k < 6 ? 1 : k < 9 ? 2 : 3;
+                const int columns = m < 3 ? 0 : m < 6 ? 1 : m < 9 ? 2 : 3;
+                const ellipsoid_blocks *b = cell == of
+                                              ? &g.start[cell].blocks
+                                              : &pairs.coupling[cell].blocks;
+                const double difference = (up[row] - down[row]) / (2 * h);
+                double value;
+
+                if (is_coupled(m, b, k, &value))
+                {
+                    double *worst = largest[rows][columns];
+
+                    worst[0] = fmax(worst[0], fabs(difference));
+                    worst[1] = fmax(worst[1], fabs(difference - value));
+                }
+            }
+        }
+        for (int rows = 0; rows < 4; rows += 2)
+        {
+            for (int columns = 0; columns < 4; columns++)
+            {
+                const double *worst = largest[rows][columns];
+
+                assert_near(worst[1], 0, 1e-6 * worst[0] + 1e-30);
+            }
+        }
+    }
+    crowd_free(&c);
+}
+
+/* Stages solve (I/(gamma h) - J) k = r with J of all 26 unknowns. Of the terms
+   that cancel in a row 1e-9 may be left, as for a wall (test_rosenbrock.c). */
+static void test_coupled_system(void **unused)
+{
+    const ellipsoid_options o = touching_cell();
+    const test_quadratic flow = towards_origin(100);
+    uint64_t seed = 17;
+    crowd c;
+
+    (void)unused;
+    crowd_init(&c, 2, &o, &flow);
+    for (int n = 0; n < 100; n++)
+    {
+        const double h = pow(10, -9 + n % 8);
+        const double g_h = 1 / (ellipsoid_rosenbrock_set.gamma * h);
+        ellipsoid_group g;
+        ellipsoid_pairs pairs;
+
+        overlapping(&c, &g, &pairs, 1e-8, &seed);
+        assert_ok(ellipsoid_group_evaluate(&g, g.start, 0, 1));
+        assert_true(ellipsoid_group_prepare(&g, h));
+        for (int cell = 0; cell < 2; cell++)
+        {
+            memcpy(g.stages[cell].k[0], g.start[cell].slope,
+                   sizeof(g.start[cell].slope));
+        }
+        ellipsoid_group_solve(&g, 0);
+        for (int row = 0; row < 26; row++)
+        {
+            const int cell = row / 13, k = row % 13;
+            const double *own = g.stages[cell].k[0];
+            double sum = g_h * own[k] - g.start[cell].slope[k];
+            double size = fabs(sum) + fabs(g.start[cell].slope[k]);
+
+            for (int column = 0; column < 26; column++)
+            {
+                const int of = column / 13, m = column % 13;
+                const ellipsoid_blocks *b = cell == of
+                                              ? &g.start[cell].blocks
+                                              : &pairs.coupling[cell].blocks;
+                double value;
+
+                if (is_coupled(m, b, k, &value))
+                {
+                    sum -= value * g.stages[of].k[0][m];
+                    size += fabs(value * g.stages[of].k[0][m]);
+                }
+            }
+            if (ellipsoid_is_rate(k))
+            {
+                assert_near(sum / size, 0, 1e-9);
+            }
+            else if (k < AT_OMEGA)
+            {
+                assert_relative(g_h * own[k],
+                                own[k - AT_X] + g.start[cell].slope[k], 1e-13);
+            }
+        }
+    }
+    crowd_free(&c);
+}
+
+/* -------------------------------------------------------------- motion */
+
+/* A group of one is a cell alone, to the last bit. */
+static void test_group_of_one(void **unused)
+{
+    const ellipsoid_options o = touching_cell();
+    const test_quadratic flow = towards_origin(100);
+    ellipsoid_controller controller = {0, 0};
+    ellipsoid_statistics statistics = {0};
+    ellipsoid_state alone;
+    uint64_t seed = 3;
+    double t = 0, t_alone = 0;
+    crowd c;
+
+    (void)unused;
+    crowd_init(&c, 1, &o, &flow);
+    test_orientation(&seed, c.state[0].q);
+    c.state[0].x[1] = 5e-6;
+    alone = c.state[0];
+    crowd_advance(&c, &t, 0.01, NULL);
+    assert_ok(ellipsoid_advance(&c.model, &c.around[0], &alone, &t_alone, 0.01,
+                                &controller, NULL, NULL, NULL, &statistics));
+    assert_memory_equal(&alone, &c.state[0], sizeof(alone));
+    assert_memory_equal(&controller, &c.controller[0], sizeof(controller));
+    crowd_free(&c);
+}
+
+/* Two cells pressed together by the flow, at a tight tolerance and at two that
+   are looser: what they differ by follows the tolerance. */
+static void test_converges(void **unused)
+{
+    const test_quadratic flow = towards_origin(50);
+    const double tolerance[3] = {1e-10, 1e-5, 1e-7};
+    double x[3][3], error[3];
+
+    (void)unused;
+    for (int n = 0; n < 3; n++)
+    {
+        ellipsoid_options o = touching_cell();
+        double t = 0;
+        crowd c;
+
+        o.tolerance = tolerance[n];
+        crowd_init(&c, 2, &o, &flow);
+        c.state[0].x[0] = -2e-6;
+        c.state[1].x[0] = 2e-6;
+        c.state[1].x[1] = 0.7e-6;
+        ellipsoid_quaternion_from_axis((const double[]){0.3, 1, 0.2}, 0.1,
+                                       c.state[1].q);
+        crowd_advance(&c, &t, 0.05, NULL);
+        memcpy(x[n], c.state[1].x, sizeof(x[n]));
+        error[n] = test_distance(x[n], x[0], 3) / 2e-6;
+        crowd_free(&c);
+    }
+    assert_true(error[1] < 100 * tolerance[1]);
+    assert_true(error[2] < 100 * tolerance[2]);
+    assert_true(error[2] < error[1]);
+}
+
+/* Without inertia the same, but for relaxation times of 1e-7 s. */
+static void test_inertialess(void **unused)
+{
+    const test_quadratic flow = towards_origin(50);
+    double x[2][3];
+
+    (void)unused;
+    for (int n = 0; n < 2; n++)
+    {
+        ellipsoid_options o = touching_cell();
+        double t = 0;
+        crowd c;
+
+        o.tolerance = 1e-8;
+        o.motion = n ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL;
+        crowd_init(&c, 2, &o, &flow);
+        c.state[0].x[0] = -2e-6;
+        c.state[1].x[0] = 2e-6;
+        c.state[1].x[1] = 0.7e-6;
+        crowd_advance(&c, &t, 0.02, NULL);
+        memcpy(x[n], c.state[1].x, sizeof(x[n]));
+        crowd_free(&c);
+    }
+    assert_near(test_distance(x[0], x[1], 3), 0, 1e-11);
+}
+
+static double deepest;
+
+static int note_deepest(void *context, const ellipsoid_step *step)
+{
+    (void)context;
+    deepest = fmax(deepest, step->contact.cell_deepest);
+    return 0;
+}
+
+/* Cells on a grid, turned at random, in a flow that presses them into a heap:
+   0.4 pN on each, a tenth of what a sieve's flow does. */
+static void crowd_heap(crowd *c, int count)
+{
+    const test_quadratic flow = towards_origin(20);
+    ellipsoid_options o = touching_cell();
+    uint64_t seed = 8;
+
+    o.tolerance = 1e-5;
+    crowd_init(c, count, &o, &flow);
+    for (int i = 0; i < count; i++)
+    {
+        test_orientation(&seed, c->state[i].q);
+        c->state[i].x[0] = 5e-6 * (i % 4 - 1.5);
+        c->state[i].x[1] = 5e-6 * (i / 4 % 4 - 1.5);
+        c->state[i].x[2] = 5e-6 * (i / 16 - 1.5);
+    }
+    deepest = 0;
+}
+
+static long crowd_steps(const crowd *c)
+{
+    return c->statistics[0].accepted + c->statistics[0].rejected;
+}
+
+/* Fifty run through the collision without deep overlaps; their heap has the
+   size of a dense one: within a ball of 5 um they would fill 40 %. */
+static void test_fifty(void **unused)
+{
+    double t = 0, far = 0;
+    crowd c;
+
+    (void)unused;
+    crowd_heap(&c, 50);
+    crowd_advance(&c, &t, 0.15, note_deepest);
+    for (int i = 0; i < 50; i++)
+    {
+        far = fmax(far, ellipsoid_length(c.state[i].x));
+    }
+    print_message("# fifty: %ld steps in 150 ms, deepest %.2g r_b, centres "
+                  "within %.2g m\n",
+                  crowd_steps(&c), deepest / c.model.options.bead_radius, far);
+    assert_true(deepest > 0 && deepest < 0.05 * c.model.options.bead_radius);
+    assert_true(far < 5e-6);
+    crowd_free(&c);
+}
+
+/* A heap of twelve settles in a second, and then costs next to nothing: steps
+   of ten milliseconds, 1e5 relaxation times. */
+static void test_heap_at_rest(void **unused)
+{
+    double t = 0;
+    long before;
+    crowd c;
+
+    (void)unused;
+    crowd_heap(&c, 12);
+    crowd_advance(&c, &t, 1.2, note_deepest);
+    before = crowd_steps(&c);
+    crowd_advance(&c, &t, 1.3, NULL);
+    print_message("# heap: %ld steps to rest, %ld in 100 ms at rest\n", before,
+                  crowd_steps(&c) - before);
+    assert_true(deepest > 0 && deepest < 0.05 * c.model.options.bead_radius);
+    assert_true(crowd_steps(&c) - before < 40);
+    crowd_free(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_equal_and_opposite),
+        cmocka_unit_test(test_two_spheres),
+        cmocka_unit_test(test_jacobian),
+        cmocka_unit_test(test_coupled_system),
+        cmocka_unit_test(test_group_of_one),
+        cmocka_unit_test(test_converges),
+        cmocka_unit_test(test_inertialess),
+        cmocka_unit_test(test_fifty),
+        cmocka_unit_test(test_heap_at_rest),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
