@@ -215,7 +215,9 @@ void Foam::captureStatistics::write(Ostream& os) const
         std::sort(times.begin(), times.end());
 
         std::ostringstream list;
-        list.precision(4);
+        // No time lies halfway between two that are printed, as multiples of
+        // 5 ms may with fewer digits: the log rounds them to twelve
+        list.precision(6);
         for (const scalar t : times)
         {
             list << ' ' << t;

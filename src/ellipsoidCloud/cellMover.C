@@ -30,7 +30,7 @@ namespace Foam
         cellMove& cell;
         const cellTracks& tracks;
         DynamicList<cellTracks::row>& rows;
-        const scalar reach;
+        const ellipsoid_model& model;
         frozenFlow::placeType place;
         ellipsoid_step last;
 
@@ -41,14 +41,14 @@ namespace Foam
             cellMove& move,
             const cellTracks& to,
             DynamicList<cellTracks::row>& buffer,
-            const scalar farthest
+            const ellipsoid_model& of
         )
         :
             here(flow, walls, frozenFlow::probe{move.state.tet, -1}),
             cell(move),
             tracks(to),
             rows(buffer),
-            reach(farthest),
+            model(of),
             place(frozenFlow::pInside),
             last()
         {}
@@ -74,9 +74,9 @@ namespace Foam
             (
                 step, step->start + i*(step->end - step->start)/nParts, &body
             );
-            journey.cell.sweep(body, journey.reach);
+            journey.cell.sweep(body, journey.model);
         }
-        journey.cell.sweep(step->after, journey.reach);
+        journey.cell.sweep(step->after, journey.model);
 
         if (journey.place == frozenFlow::pInside)
         {
@@ -237,7 +237,7 @@ bool Foam::cellMover::move
         journeys.set
         (
             i,
-            new cellJourney(flow_, walls_, cell, tracks_, rows, model_.reach)
+            new cellJourney(flow_, walls_, cell, tracks_, rows, model_)
         );
         around[i] = journeys[i].here.core();
         around[i].seed = seed_;
