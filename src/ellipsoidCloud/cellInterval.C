@@ -9,6 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 #include "cellInterval.H"
 #include "cellNeighbours.H"
+#include "HashSet.H"
 #include "plainLists.H"
 
 #include <algorithm>
@@ -84,7 +85,7 @@ Foam::List<Foam::cellInterval::unit> Foam::cellInterval::unitsOf
         }
     }
 
-    boolList stays(here.size(), false);
+    labelHashSet stay;
     DynamicList<labelPair> close;
 
     if (pushing_)
@@ -120,16 +121,18 @@ Foam::List<Foam::cellInterval::unit> Foam::cellInterval::unitsOf
             for (const label k : {pair.first(), pair.second()})
             {
                 const label other = pair.first() + pair.second() - k;
-                stays[k] =
-                    stays[k]
-                 || (waits(cells[here[k]]) && !waits(cells[here[other]]));
+
+                if (waits(cells[here[k]]) && !waits(cells[here[other]]))
+                {
+                    stay.insert(k);
+                }
             }
         }
         for (const labelPair& pair : overlapping)
         {
-            if (!stays[pair.first()] && waits(cells[here[pair.first()]]))
+            if (!stay.found(pair.first()) && waits(cells[here[pair.first()]]))
             {
-                stays[pair.second()] = true;
+                stay.insert(pair.second());
             }
         }
     }
@@ -137,7 +140,7 @@ Foam::List<Foam::cellInterval::unit> Foam::cellInterval::unitsOf
     DynamicList<labelPair> bonds;
     for (const labelPair& pair : close)
     {
-        if (!stays[pair.first()] && !stays[pair.second()])
+        if (!stay.found(pair.first()) && !stay.found(pair.second()))
         {
             bonds.append(pair);
         }
@@ -158,7 +161,7 @@ Foam::List<Foam::cellInterval::unit> Foam::cellInterval::unitsOf
 
     forAll(here, k)
     {
-        if (!stays[k])
+        if (!stay.found(k))
         {
             label& to = unitOf[lowest[k]];
             if (to < 0)
