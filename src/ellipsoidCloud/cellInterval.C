@@ -29,6 +29,9 @@ namespace Foam
     static const scalar unseenGap = 0.1;
     static const scalar shortTravel = 2;
 
+    //- Steps to be expected of a cell that has taken none
+    static const scalar newSteps = 100;
+
     static inline bool waits(const cellMove& cell)
     {
         return cell.state.fate == cellState::waiting;
@@ -371,11 +374,61 @@ void Foam::cellInterval::move
 }
 
 
+Foam::labelList Foam::cellInterval::dealt
+(
+    const List<unit>& units,
+    const labelUList& listed,
+    const span& time
+)
+{
+    labelList ranks(listed.size(), 0);
+
+    if (!time.shared || !Pstream::parRun())
+    {
+        return ranks;
+    }
+
+    // By the steps to be expected; all of a group go with the shortest
+    scalarList work(listed.size());
+    forAll(listed, k)
+    {
+        scalar steps = 1;
+        for (const cellMove& cell : units[listed[k]].before)
+        {
+            const scalar step = cell.state.controller.step;
+            steps = max
+            (
+                steps, step > 0 ? (time.end - time.start)/step : newSteps
+            );
+        }
+        work[k] = steps*units[listed[k]].cells.size();
+    }
+
+    labelList order(identity(listed.size()));
+    std::stable_sort
+    (
+        order.begin(),
+        order.end(),
+        [&](const label a, const label b) { return work[a] > work[b]; }
+    );
+
+    scalarList load(Pstream::nProcs(), Zero);
+    for (const label k : order)
+    {
+        ranks[k] = findMin(load);
+        load[ranks[k]] += work[k];
+    }
+
+    return ranks;
+}
+
+
 void Foam::cellInterval::exchange
 (
     List<cellMove>& cells,
     const List<unit>& units,
-    const labelUList& listed
+    const labelUList& listed,
+    const labelUList& ranks
 )
 {
     if (!Pstream::parRun())
@@ -384,16 +437,14 @@ void Foam::cellInterval::exchange
     }
 
     DynamicList<cellMove> mine;
-    for
-    (
-        label k = Pstream::myProcNo();
-        k < listed.size();
-        k += Pstream::nProcs()
-    )
+    forAll(listed, k)
     {
-        for (const label i : units[listed[k]].cells)
+        if (ranks[k] == Pstream::myProcNo())
         {
-            mine.append(cells[i]);
+            for (const label i : units[listed[k]].cells)
+            {
+                mine.append(cells[i]);
+            }
         }
     }
 
@@ -402,11 +453,9 @@ void Foam::cellInterval::exchange
 
     forAll(listed, k)
     {
-        const label ranki = k % Pstream::nProcs();
-
         for (const label i : units[listed[k]].cells)
         {
-            cells[i] = all[ranki][next[ranki]++];
+            cells[i] = all[ranks[k]][next[ranks[k]]++];
         }
     }
 }
@@ -430,9 +479,11 @@ void Foam::cellInterval::advance
 
     while (todo.size())
     {
+        const labelList ranks(dealt(units, todo, time));
+
         forAll(todo, k)
         {
-            if (!time.shared || k % Pstream::nProcs() == Pstream::myProcNo())
+            if (!time.shared || ranks[k] == Pstream::myProcNo())
             {
                 move(cells, units[todo[k]], time);
             }
@@ -440,7 +491,7 @@ void Foam::cellInterval::advance
 
         if (time.shared)
         {
-            exchange(cells, units, todo);
+            exchange(cells, units, todo, ranks);
         }
 
         units = joined
