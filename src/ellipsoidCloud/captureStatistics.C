@@ -8,16 +8,11 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "captureStatistics.H"
-#include "wholeFile.H"
 #include "polyBoundaryMesh.H"
 #include "wallPolyPatch.H"
 #include "wordRes.H"
-#include "OFstream.H"
-#include "IOmanip.H"
 
 #include <algorithm>
-#include <cstdlib>
-#include <sstream>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -29,7 +24,8 @@ Foam::captureStatistics::eventNames
     { eventType::released, "released" },
     { eventType::stalled, "stalled" },
     { eventType::escaped, "escaped" },
-    { eventType::lost, "lost" }
+    { eventType::lost, "lost" },
+    { eventType::waiting, "waiting" }
 });
 
 
@@ -46,6 +42,7 @@ Foam::cellState::fateType Foam::captureStatistics::fateAfter
         case stalled: return cellState::stalled;
         case escaped: return cellState::escaped;
         case lost: return cellState::lost;
+        case waiting: return cellState::waiting;
         case injected:
         case released: break;
     }
@@ -66,7 +63,7 @@ void Foam::captureStatistics::count(const packedEvent& event)
 
     if (!cells_.found(id))
     {
-        cells_.insert(id, record{event, event, -1, -1, 0});
+        cells_.insert(id, record{event, event, event[0], -1, -1, 0, 0});
     }
     else
     {
@@ -78,7 +75,12 @@ void Foam::captureStatistics::count(const packedEvent& event)
     record& cell = cells_[id];
     ++counts_[fateAfter(event)];
     cell.deepest = event[11];
+    cell.deepestCell = event[12];
 
+    if (eventType(label(event[2])) == injected)
+    {
+        cell.injection = event;
+    }
     if (fateAfter(event) == cellState::caught && cell.firstSieve < 0)
     {
         cell.firstCatch = event[0];
@@ -87,47 +89,123 @@ void Foam::captureStatistics::count(const packedEvent& event)
 }
 
 
-void Foam::captureStatistics::readLog()
+void Foam::captureStatistics::note(const eventType what, const cellState& cell)
 {
-    std::ifstream log(log_.name());
-    std::string line;
-    std::getline(log, line);
-
-    // What came after the time to go on from is about to be cut off
-    while
-    (
-        scalar(log.tellg()) < log_.earlier()
-     && std::getline(log, line)
-    )
+    if (!Pstream::master())
     {
-        std::istringstream fields(line);
-        std::string field;
-        packedEvent event;
+        return;
+    }
 
-        forAll(event, i)
+    packedEvent event;
+    event[0] = cell.time;
+    event[1] = cell.id;
+    event[2] = what;
+    event[3] = cell.patch;
+    std::copy_n(cell.body.x, 3, event.begin() + 4);
+    std::copy_n(cell.body.q, 4, event.begin() + 7);
+    event[11] = cell.deepest;
+    event[12] = cell.deepestCell;
+
+    pending_.append(event);
+}
+
+
+void Foam::captureStatistics::judgeSpeed
+(
+    cellState& cell,
+    const scalar dt,
+    const scalar meanSpeed
+)
+{
+    if (meanSpeed < slowSpeed_)
+    {
+        cell.slowTime += dt;
+        return;
+    }
+
+    cell.slowTime = 0;
+
+    if (cell.fate == cellState::caught || cell.fate == cellState::stalled)
+    {
+        note(released, cell);
+        cell.fate = cellState::inFlight;
+        cell.patch = -1;
+    }
+}
+
+
+void Foam::captureStatistics::judgeHeld(List<cellMove>& moves)
+{
+    // Held, and not yet caught
+    DynamicList<label> open;
+    Map<label> place;
+
+    forAll(moves, i)
+    {
+        const cellState& cell = moves[i].state;
+        place.insert(cell.id, i);
+
+        if
+        (
+            (cell.fate == cellState::inFlight || cell.fate == cellState::stalled)
+         && cell.slowTime >= holdTime_
+        )
         {
-            std::getline(fields, field, ',');
+            open.append(i);
+        }
+    }
 
-            event[i] =
-                i == 2 ? scalar(eventNames[word(field)])
-              : i == 3 ? scalar(patchNames_.find(field))
-              : std::atof(field.c_str());
+    const auto settle =
+        [&](const label i, const cellState::fateType fate, const label patchi)
+        {
+            moves[i].state.fate = fate;
+            moves[i].state.patch = patchi;
+            note(fate == cellState::caught ? caught : stalled, moves[i].state);
+        };
 
-            if (i == 3 && event[i] < 0 && field != patchName(-1))
+    const auto isCaught =
+        [&](const label i) { return moves[i].state.fate == cellState::caught; };
+
+    for (const label i : open)
+    {
+        for (label w = 0; w < moves[i].nWalls && !isCaught(i); ++w)
+        {
+            if (sieves_.found(moves[i].walls[w]))
             {
-                // Of another mesh
-                fields.setstate(std::ios::failbit);
+                settle(i, cellState::caught, moves[i].walls[w]);
             }
         }
+    }
 
-        if (!fields)
+    // By a cell that is caught, which another may have to be first
+    for (bool changed = true; changed;)
+    {
+        changed = false;
+
+        for (const label i : open)
         {
-            FatalErrorInFunction
-                << log_.name() << ": cannot read the line" << nl << line.c_str()
-                << exit(FatalError);
-        }
+            for (label c = 0; c < moves[i].nCells && !isCaught(i); ++c)
+            {
+                const auto other = place.cfind(moves[i].cells[c]);
 
-        count(event);
+                if (other.found() && isCaught(*other))
+                {
+                    settle(i, cellState::caught, moves[*other].state.patch);
+                    changed = true;
+                }
+            }
+        }
+    }
+
+    for (const label i : open)
+    {
+        if (moves[i].state.fate == cellState::inFlight)
+        {
+            settle
+            (
+                i, cellState::stalled, moves[i].nWalls ? moves[i].walls[0] : -1
+            );
+        }
     }
 }
 
@@ -215,7 +293,7 @@ Foam::captureStatistics::captureStatistics
     log_
     (
         folder/"events.csv",
-        "t,id,event,patch,x1,x2,x3,eps1,eps2,eps3,eta,deepest",
+        "t,id,event,patch,x1,x2,x3,eps1,eps2,eps3,eta,deepest,deepestCell",
         12,
         earlierLog
     )
@@ -229,121 +307,50 @@ Foam::captureStatistics::captureStatistics
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::captureStatistics::note(const eventType what, const cellState& cell)
-{
-    packedEvent event;
-    event[0] = cell.time;
-    event[1] = cell.id;
-    event[2] = what;
-    event[3] = cell.patch;
-    std::copy_n(cell.body.x, 3, event.begin() + 4);
-    std::copy_n(cell.body.q, 4, event.begin() + 7);
-    event[11] = cell.deepest;
-
-    pending_.append(event);
-}
-
-
 void Foam::captureStatistics::judge
 (
-    cellState& cell,
-    const scalar dt,
-    const scalar meanSpeed,
-    const UList<label>& touched
+    const UList<cellState>& before,
+    List<cellMove>& moves,
+    const scalar end
 )
 {
-    if (meanSpeed >= slowSpeed_)
+    forAll(moves, i)
     {
-        cell.slowTime = 0;
+        const cellState& was = before[i];
+        cellState& cell = moves[i].state;
 
-        if (cell.fate == cellState::caught || cell.fate == cellState::stalled)
+        if (cell.fate == cellState::waiting)
         {
-            note(released, cell);
-            cell.fate = cellState::inFlight;
-            cell.patch = -1;
+            // Once, at the first attempt
+            if (cell.time == cell.planned)
+            {
+                note(waiting, cell);
+            }
+            continue;
         }
-        return;
-    }
-
-    cell.slowTime += dt;
-
-    if (cell.slowTime < holdTime_ || cell.fate == cellState::caught)
-    {
-        return;
-    }
-
-    for (const label patchi : touched)
-    {
-        if (sieves_.found(patchi))
+        if (was.fate == cellState::waiting)
         {
-            cell.fate = cellState::caught;
-            cell.patch = patchi;
-            note(caught, cell);
-            return;
+            note(injected, was);
         }
-    }
 
-    if (cell.fate != cellState::stalled)
-    {
-        cell.fate = cellState::stalled;
-        cell.patch = touched.empty() ? -1 : touched[0];
-        note(stalled, cell);
-    }
-}
-
-
-void Foam::captureStatistics::gather()
-{
-    if (!returnReduce(pending_.size(), sumOp<label>()))
-    {
-        return;
-    }
-
-    List<List<packedEvent>> all(Pstream::nProcs());
-    all[Pstream::myProcNo()] = pending_;
-    pending_.clear();
-    Pstream::gatherList(all);
-
-    if (!Pstream::master())
-    {
-        return;
-    }
-
-    DynamicList<packedEvent> events;
-    for (const List<packedEvent>& some : all)
-    {
-        events.append(some);
-    }
-
-    // By time and cell, whatever rank they come from
-    std::stable_sort
-    (
-        events.begin(),
-        events.end(),
-        [](const packedEvent& a, const packedEvent& b)
+        if (cell.fate == cellState::escaped || cell.fate == cellState::lost)
         {
-            return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
+            note
+            (
+                cell.fate == cellState::escaped ? escaped : lost, cell
+            );
         }
-    );
-
-    for (const packedEvent& event : events)
-    {
-        count(event);
-
-        std::ostream& os = log_.stream();
-
-        os  << event[0] << ',' << label(event[1]) << ','
-            << eventNames[eventType(label(event[2]))] << ','
-            << patchName(label(event[3]));
-
-        for (label i = 4; i < event.size(); ++i)
+        else
         {
-            os << ',' << event[i];
+            const scalar dt = end - was.time;
+            const point from(was.body.x[0], was.body.x[1], was.body.x[2]);
+            const point to(cell.body.x[0], cell.body.x[1], cell.body.x[2]);
+
+            judgeSpeed(cell, dt, mag(to - from)/dt);
         }
-        os << '\n';
     }
 
-    log_.flush();
+    judgeHeld(moves);
 }
 
 
@@ -375,117 +382,16 @@ Foam::labelList Foam::captureStatistics::cellsInside() const
 }
 
 
-void Foam::captureStatistics::report(Ostream& os) const
+void Foam::captureStatistics::update(const UList<cellState>& cells)
 {
-    os  << "cells: " << cells_.size() << " injected, "
-        << counts_[cellState::caught] << " caught, "
-        << counts_[cellState::escaped] << " escaped, "
-        << counts_[cellState::stalled] << " stalled, "
-        << counts_[cellState::inFlight] << " in flight, "
-        << counts_[cellState::lost] << " lost";
-}
-
-
-void Foam::captureStatistics::update(const Map<scalar>& deepest)
-{
-    forAllConstIters(deepest, iter)
+    for (const cellState& cell : cells)
     {
-        cells_[iter.key()].deepest = iter.val();
-    }
-}
-
-
-Foam::scalar Foam::captureStatistics::deepest() const
-{
-    scalar value = 0;
-    forAllConstIters(cells_, iter)
-    {
-        value = max(value, iter.val().deepest);
-    }
-
-    return value;
-}
-
-
-void Foam::captureStatistics::write(Ostream& os) const
-{
-    OFstream cells(folder_/"cells.csv");
-    cells.precision(12);
-    cells
-        << "id,tInjected,x1,x2,x3,eps1,eps2,eps3,eta,fate,patch,tFate,"
-        << "firstSieve,tFirstCatch,deepest" << nl;
-
-    Map<DynamicList<scalar>> held;
-
-    for (const label id : cells_.sortedToc())
-    {
-        const record& cell = cells_[id];
-        const cellState::fateType fate = fateAfter(cell.last);
-
-        cells << id << ',' << cell.injection[0];
-        for (label i = 4; i < 11; ++i)
+        if (cell.fate != cellState::waiting)
         {
-            cells << ',' << cell.injection[i];
-        }
-        cells
-            << ',' << cellState::fateNames[fate] << ','
-            << patchName
-               (
-                   fate == cellState::inFlight ? -1 : label(cell.last[3])
-               )
-            << ',' << cell.last[0] << ',' << patchName(cell.firstSieve) << ',';
-
-        if (cell.firstSieve >= 0)
-        {
-            cells << cell.firstCatch;
-        }
-        cells << ',' << cell.deepest << nl;
-
-        if (fate == cellState::caught)
-        {
-            held(label(cell.last[3])).append(cell.last[0]);
+            cells_[cell.id].deepest = cell.deepest;
+            cells_[cell.id].deepestCell = cell.deepestCell;
         }
     }
-
-    OFstream captures(folder_/"captures.csv");
-    captures << "sieve,cells,t" << nl;
-
-    if (sieves_.size())
-    {
-        os << nl << "sieve   cells   caught at [s]" << nl;
-    }
-
-    for (const label patchi : sieves_)
-    {
-        DynamicList<scalar> times(held.lookup(patchi, DynamicList<scalar>()));
-        std::sort(times.begin(), times.end());
-
-        std::ostringstream list;
-        list.precision(4);
-        for (const scalar t : times)
-        {
-            list << ' ' << t;
-        }
-
-        os  << setw(5) << patchNames_[patchi].c_str()
-            << setw(8) << times.size() << "  " << list.str().c_str() << nl;
-
-        captures
-            << patchNames_[patchi] << ',' << times.size() << ','
-            << list.str().c_str() << nl;
-    }
-
-    for (OFstream* table : {&cells, &captures})
-    {
-        if (!table->stdStream().flush())
-        {
-            cannotWrite(table->name());
-        }
-    }
-
-    os << nl;
-    report(os);
-    os << endl;
 }
 
 

@@ -25,7 +25,8 @@ void Foam::cellTracks::append
 (
     cellState& cell,
     const scalar t,
-    const ellipsoid_state& body
+    const ellipsoid_state& body,
+    DynamicList<row>& rows
 )
 {
     row r;
@@ -37,7 +38,7 @@ void Foam::cellTracks::append
     std::copy_n(body.omega, 3, r.begin() + 12);
     r[15] = cell.fate;
     r[16] = cell.patch;
-    rows_.append(r);
+    rows.append(r);
 
     cell.lastRow[0] = t;
     std::copy_n(body.x, 3, cell.lastRow + 1);
@@ -96,15 +97,20 @@ Foam::cellTracks::cellTracks
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::cellTracks::start(cellState& cell)
+void Foam::cellTracks::start(cellState& cell, DynamicList<row>& rows) const
 {
-    append(cell, cell.time, cell.body);
+    append(cell, cell.time, cell.body, rows);
     cell.nextRow =
         (std::floor(cell.time/setting_.interval) + 1)*setting_.interval;
 }
 
 
-void Foam::cellTracks::add(cellState& cell, const ellipsoid_step& step)
+void Foam::cellTracks::add
+(
+    cellState& cell,
+    const ellipsoid_step& step,
+    DynamicList<row>& rows
+) const
 {
     while (cell.nextRow <= step.end)
     {
@@ -137,7 +143,7 @@ void Foam::cellTracks::add(cellState& cell, const ellipsoid_step& step)
 
         if (due && moved)
         {
-            append(cell, cell.nextRow, body);
+            append(cell, cell.nextRow, body, rows);
         }
 
         cell.nextRow =
@@ -147,11 +153,11 @@ void Foam::cellTracks::add(cellState& cell, const ellipsoid_step& step)
 }
 
 
-void Foam::cellTracks::finish(cellState& cell)
+void Foam::cellTracks::finish(cellState& cell, DynamicList<row>& rows) const
 {
     if (cell.time - cell.lastRow[0] > 1e-6*setting_.interval)
     {
-        append(cell, cell.time, cell.body);
+        append(cell, cell.time, cell.body, rows);
     }
 }
 

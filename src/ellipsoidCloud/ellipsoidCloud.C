@@ -8,55 +8,12 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "ellipsoidCloud.H"
-#include "cellSurroundings.H"
 #include "masterFirst.H"
 #include "throughFlow.H"
-#include "PstreamBuffers.H"
 #include "clockTime.H"
 
 #include <algorithm>
-#include <cfenv>
 #include <cmath>
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-    static inline point pointOf(const scalar x[3])
-    {
-        return point(x[0], x[1], x[2]);
-    }
-
-    //- What the observer of a cell's steps needs
-    struct cellJourney
-    {
-        cellSurroundings& here;
-        cellTracks& tracks;
-        cellState& cell;
-        frozenFlow::placeType place;
-        ellipsoid_step last;
-    };
-
-    //- An ellipsoid_observer: stops a cell that has left the mesh
-    static int observe(void* context, const ellipsoid_step* step)
-    {
-        cellJourney& journey = *static_cast<cellJourney*>(context);
-
-        journey.last = *step;
-        journey.cell.deepest =
-            max(journey.cell.deepest, step->contact.deepest);
-        journey.place = journey.here.settle(pointOf(step->after.x));
-
-        if (journey.place == frozenFlow::pInside)
-        {
-            journey.tracks.add(journey.cell, *step);
-            return 0;
-        }
-
-        return 1;
-    }
-}
-
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -94,31 +51,25 @@ Foam::scalar Foam::ellipsoidCloud::presentTime(const Time& time)
 }
 
 
-void Foam::ellipsoidCloud::inject(const scalar start, const scalar end)
+void Foam::ellipsoidCloud::addNew(const scalar start, const scalar end)
 {
-    DynamicList<cellInjection::newCell> cells;
+    DynamicList<cellInjection::newCell> newCells;
 
     for (const cellInjection& injection : injections_)
     {
-        injection.append(start, end, cells);
+        injection.append(start, end, newCells);
     }
 
-    for (const cellInjection::newCell& cell : cells)
+    for (const cellInjection::newCell& cell : newCells)
     {
-        const label celli = flow_->cell(cell.at);
-
-        if (cellRank_[celli] != Pstream::myProcNo())
-        {
-            continue;
-        }
-
         cellState state = cellState();
         std::copy_n(cell.x, 3, state.body.x);
         std::copy_n(cell.q, 4, state.body.q);
         state.time = cell.time;
+        state.planned = cell.time;
         state.id = cell.id;
         state.tet = cell.at.tet;
-        state.fate = cellState::inFlight;
+        state.fate = cellState::waiting;
         state.patch = -1;
 
         ellipsoid_flow_sample sample;
@@ -126,215 +77,86 @@ void Foam::ellipsoidCloud::inject(const scalar start, const scalar end)
         flow_->sample(cell.x, at, false, sample);
         std::copy_n(sample.velocity, 3, state.body.u);
 
-        tracks_->start(state);
-        statistics_->note(captureStatistics::injected, state);
-        addParticle(new ellipsoidParcel(mesh_, cellLocal_[celli], state));
+        cells_.append(state);
+    }
+
+    if (newCells.size())
+    {
+        sortCells();
     }
 }
 
 
-Foam::label Foam::ellipsoidCloud::stopAtPatch
-(
-    const frozenFlow& flow,
-    const ellipsoid_step& step,
-    frozenFlow::probe at,
-    cellState& cell
-)
+void Foam::ellipsoidCloud::sortCells()
 {
-    // Bisection: inside at the start of the step, beyond at its end
-    scalar inside = step.start;
-    scalar beyond = step.end;
-    label patchi = -1;
-
-    for (label i = 0; i < 40; ++i)
-    {
-        const scalar middle = 0.5*(inside + beyond);
-        ellipsoid_step_state(&step, middle, &cell.body);
-
-        const frozenFlow::placeType place =
-            flow.place(pointOf(cell.body.x), at);
-
-        if (place == frozenFlow::pInside)
-        {
-            inside = middle;
-        }
-        else
-        {
-            beyond = middle;
-            patchi = at.patch;
-        }
-    }
-
-    ellipsoid_step_state(&step, inside, &cell.body);
-    cell.time = inside;
-
-    return patchi;
-}
-
-
-bool Foam::ellipsoidCloud::move(ellipsoidParcel& parcel, const scalar end)
-{
-    cellState& cell = parcel.state();
-    const frozenFlow::probe at{cell.tet, -1};
-
-    cellSurroundings here(*flow_, *walls_, at);
-    ellipsoid_surroundings around(here.core());
-    around.seed = properties_.seed();
-    around.id = cell.id;
-
-    cellJourney journey
-    {
-        here, *tracks_, cell, frozenFlow::pInside, ellipsoid_step()
-    };
-
-    const point from(pointOf(cell.body.x));
-    const scalar start = cell.time;
-
-    // The core answers what is not finite by a shorter step; OpenFOAM's traps
-    // would end the run
-    std::fenv_t traps;
-    std::feholdexcept(&traps);
-
-    const ellipsoid_status status = ellipsoid_advance
+    std::sort
     (
-        &model_,
-        &around,
-        &cell.body,
-        &cell.time,
-        end,
-        &cell.controller,
-        &parcel.cache(),
-        observe,
-        &journey,
-        &totals_
+        cells_.begin(),
+        cells_.end(),
+        [](const cellState& a, const cellState& b) { return a.id < b.id; }
     );
-
-    std::fesetenv(&traps);
-
-    cell.tet = here.home().tet;
-
-    const ellipsoid_contact& contact = journey.last.contact;
-
-    if (status == ELLIPSOID_OK)
-    {
-        statistics_->judge
-        (
-            cell,
-            end - start,
-            mag(pointOf(cell.body.x) - from)/(end - start),
-            UList<label>
-            (
-                const_cast<label*>(contact.touched), contact.touched_count
-            )
-        );
-        return true;
-    }
-
-    if
-    (
-        status == ELLIPSOID_STOPPED
-     && journey.place == frozenFlow::pBeyondOpen
-    )
-    {
-        cell.patch = stopAtPatch(*flow_, journey.last, here.home(), cell);
-        cell.fate = cellState::escaped;
-        statistics_->note(captureStatistics::escaped, cell);
-    }
-    else
-    {
-        cell.fate = cellState::lost;
-        cell.patch = -1;
-        statistics_->note(captureStatistics::lost, cell);
-
-        Pout<< "ellipsoidCloud: cell " << cell.id << " is lost at t = "
-            << cell.time << " s, " << pointOf(cell.body.x) << " m: "
-            << ellipsoid_status_text(status);
-
-        if (here.refused() == frozenFlow::pBeyondCoupled)
-        {
-            Pout<< " at a cyclic or symmetry patch, which it must not reach";
-        }
-        Pout<< endl;
-    }
-
-    tracks_->finish(cell);
-
-    return false;
 }
 
 
-void Foam::ellipsoidCloud::handOver()
+void Foam::ellipsoidCloud::reportLost(const cellMove& cell)
 {
-    List<DynamicList<cellState>> leaving(Pstream::nProcs());
+    const scalar* x = cell.state.body.x;
+
+    Info<< "ellipsoidCloud: cell " << cell.state.id << " is lost at t = "
+        << cell.state.time << " s, " << point(x[0], x[1], x[2]) << " m: "
+        << ellipsoid_status_text(ellipsoid_status(cell.status));
+
+    if (cell.refused == frozenFlow::pBeyondCoupled)
+    {
+        Info<< " at a cyclic or symmetry patch, which it must not reach";
+    }
+    Info<< endl;
+}
+
+
+void Foam::ellipsoidCloud::updateParticles()
+{
+    Map<label> mine;
+
+    const auto cellOf =
+        [&](const cellState& cell)
+        {
+            return flow_->cell(frozenFlow::probe{cell.tet, -1});
+        };
+
+    forAll(cells_, i)
+    {
+        if (cellRank_[cellOf(cells_[i])] == Pstream::myProcNo())
+        {
+            mine.insert(cells_[i].id, i);
+        }
+    }
 
     for (ellipsoidParcel& parcel : *this)
     {
-        const frozenFlow::probe at{parcel.state().tet, -1};
-        const label celli = flow_->cell(at);
-        const label ranki = cellRank_[celli];
+        const auto found = mine.cfind(parcel.state().id);
 
-        if (ranki == Pstream::myProcNo())
+        if (found.found())
         {
-            parcel.settle(cellLocal_[celli]);
+            const cellState& cell = cells_[*found];
+            parcel.state() = cell;
+            parcel.settle(cellLocal_[cellOf(cell)]);
+            mine.erase(cell.id);
         }
         else
         {
-            leaving[ranki].append(parcel.state());
             deleteParticle(parcel);
         }
     }
 
-    if (!Pstream::parRun())
+    for (const label id : mine.sortedToc())
     {
-        return;
-    }
+        const cellState& cell = cells_[mine[id]];
 
-    PstreamBuffers buffers(Pstream::commsTypes::nonBlocking);
-
-    forAll(leaving, ranki)
-    {
-        if (leaving[ranki].size())
-        {
-            UOPstream os(ranki, buffers);
-            os << leaving[ranki].size();
-            os.write
-            (
-                reinterpret_cast<const char*>(leaving[ranki].cdata()),
-                leaving[ranki].size()*sizeof(cellState)
-            );
-        }
-    }
-
-    labelList nBytes(Pstream::nProcs());
-    buffers.finishedSends(nBytes);
-
-    forAll(nBytes, ranki)
-    {
-        if (!nBytes[ranki])
-        {
-            continue;
-        }
-
-        UIPstream is(ranki, buffers);
-        List<cellState> arriving(readLabel(is));
-        is.read
+        addParticle
         (
-            reinterpret_cast<char*>(arriving.data()),
-            arriving.size()*sizeof(cellState)
+            new ellipsoidParcel(mesh_, cellLocal_[cellOf(cell)], cell)
         );
-
-        for (const cellState& state : arriving)
-        {
-            const frozenFlow::probe at{state.tet, -1};
-
-            addParticle
-            (
-                new ellipsoidParcel
-                (
-                    mesh_, cellLocal_[flow_->cell(at)], state
-                )
-            );
-        }
     }
 }
 
@@ -360,14 +182,14 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
     cellRank_(whole_->cellRank()),
     cellLocal_(whole_->cellLocal()),
     injections_(),
+    cells_(),
     statistics_(),
     tracks_(),
+    interval_(),
     meshNotes_(),
     time_(presentTime(mesh.time())),
     firstTime_(mesh.time().timeName()),
-    totals_(),
     trackingTime_(0),
-    movingTime_(0),
     reportTime_(0)
 {
     const ellipsoid_options& options = properties_.options();
@@ -437,6 +259,11 @@ void Foam::ellipsoidCloud::setFlow
     makeInjections();
     whole_.clear();
 
+    interval_.reset
+    (
+        new cellInterval(model_, *flow_, *walls_, *tracks_, properties_)
+    );
+
     // Nothing on the disk is touched before all is known to be sound
     statistics_->open();
     tracks_->open();
@@ -452,22 +279,44 @@ void Foam::ellipsoidCloud::evolve()
     const clockTime timer;
     const scalar end = presentTime(mesh_.time());
 
-    inject(time_, end);
+    addNew(time_, end);
 
-    const scalar begun = timer.elapsedTime();
-
-    for (ellipsoidParcel& parcel : *this)
+    List<cellMove> moves(cells_.size());
+    forAll(cells_, i)
     {
-        if (!move(parcel, end))
+        cellState& cell = cells_[i];
+
+        // One that had no room tries again
+        if (cell.fate == cellState::waiting)
         {
-            deleteParticle(parcel);
+            cell.time = max(cell.time, time_);
         }
+        moves[i] = cellMove();
+        moves[i].state = cell;
     }
 
-    movingTime_ += timer.elapsedTime() - begun;
+    DynamicList<cellTracks::row> rows;
+    interval_->advance(moves, time_, end, rows);
+    tracks_->take(rows);
 
-    handOver();
-    statistics_->gather();
+    statistics_->judge(cells_, moves, end);
+    statistics_->writeEvents();
+
+    label nStay = 0;
+    for (const cellMove& cell : moves)
+    {
+        if (!cell.gone())
+        {
+            cells_[nStay++] = cell.state;
+        }
+        else if (cell.state.fate == cellState::lost)
+        {
+            reportLost(cell);
+        }
+    }
+    cells_.setSize(nStay);
+
+    updateParticles();
     time_ = end;
 
     trackingTime_ += timer.elapsedTime();

@@ -14,6 +14,7 @@ Description
 
 #include "ellipsoidCloud.H"
 #include "masterFirst.H"
+#include "plainLists.H"
 #include "HashSet.H"
 #include "IOPosition.H"
 #include "StringStream.H"
@@ -86,6 +87,18 @@ void Foam::ellipsoidCloud::readCells()
     }
 
     ellipsoidParcel::readFields(*this);
+
+    DynamicList<cellState> mine(size());
+    for (const ellipsoidParcel& parcel : *this)
+    {
+        mine.append(parcel.state());
+    }
+
+    for (const List<cellState>& some : fromAllRanks(mine))
+    {
+        cells_.append(some);
+    }
+    sortCells();
 }
 
 
@@ -229,13 +242,42 @@ void Foam::ellipsoidCloud::report()
 }
 
 
+void Foam::ellipsoidCloud::reportWork() const
+{
+    const cellMover::account& done = interval_->done();
+
+    // Counts may pass a label's range
+    const int64_t accepted =
+        returnReduce(int64_t(done.steps.accepted), sumOp<int64_t>());
+    const int64_t rejected =
+        returnReduce(int64_t(done.steps.rejected), sumOp<int64_t>());
+    const int64_t nGroups = returnReduce(int64_t(done.nGroups), sumOp<int64_t>());
+    const label largest = returnReduce(done.largest, maxOp<label>());
+    const scalar inGroups = returnReduce(done.groupTime, sumOp<scalar>());
+    const scalar inAll = returnReduce(done.time, sumOp<scalar>());
+
+    Info<< nl << "tracking: " << returnReduce(trackingTime_, maxOp<scalar>())
+        << " s, " << accepted << " steps, " << rejected << " rejected" << nl
+        << "groups of cells: " << nGroups << " moved, " << largest
+        << " cells in the largest, "
+        << 100*inGroups/max(inAll, VSMALL) << " % of the time" << endl;
+
+    if (Pstream::parRun())
+    {
+        reportLoad();
+    }
+}
+
+
 void Foam::ellipsoidCloud::reportLoad() const
 {
     List<scalar> moving(Pstream::nProcs(), Zero);
     List<int64_t> steps(Pstream::nProcs(), int64_t(0));
 
-    moving[Pstream::myProcNo()] = movingTime_;
-    steps[Pstream::myProcNo()] = totals_.accepted + totals_.rejected;
+    const cellMover::account& done = interval_->done();
+
+    moving[Pstream::myProcNo()] = done.time;
+    steps[Pstream::myProcNo()] = done.steps.accepted + done.steps.rejected;
     Pstream::gatherList(moving);
     Pstream::gatherList(steps);
 
@@ -281,44 +323,26 @@ void Foam::ellipsoidCloud::writeFields() const
 
 void Foam::ellipsoidCloud::finish()
 {
-    for (ellipsoidParcel& parcel : *this)
+    if (Pstream::master())
     {
-        tracks_->finish(parcel.state());
+        DynamicList<cellTracks::row> rows;
+        for (cellState& cell : cells_)
+        {
+            if (cell.fate != cellState::waiting)
+            {
+                tracks_->finish(cell, rows);
+            }
+        }
+        tracks_->take(rows);
     }
     tracks_->flush();
 
-    Map<scalar> deepest;
-    for (const ellipsoidParcel& parcel : *this)
-    {
-        deepest.insert(parcel.state().id, parcel.state().deepest);
-    }
-    Pstream::mapCombineGather(deepest, maxEqOp<scalar>());
-
-    const scalar longest = returnReduce(trackingTime_, maxOp<scalar>());
-
-    // Counts may pass a label's range
-    const int64_t accepted =
-        returnReduce(int64_t(totals_.accepted), sumOp<int64_t>());
-    const int64_t rejected =
-        returnReduce(int64_t(totals_.rejected), sumOp<int64_t>());
-
-    Info<< nl << "tracking: " << longest << " s, " << accepted
-        << " steps, " << rejected << " rejected" << endl;
-
-    if (Pstream::parRun())
-    {
-        reportLoad();
-    }
+    reportWork();
 
     if (Pstream::master())
     {
-        statistics_->update(deepest);
-
-        Info<< "deepest overlap of a bead with a wall: "
-            << statistics_->deepest()*1e9 << " nm, "
-            << 100*statistics_->deepest()/model_.options.bead_radius
-            << " % of its radius" << nl;
-
+        statistics_->update(cells_);
+        statistics_->reportContact(Info, model_.options.bead_radius);
         statistics_->write(Info);
         tracks_->writeVTP();
     }

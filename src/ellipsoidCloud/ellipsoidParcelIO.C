@@ -28,7 +28,8 @@ const Foam::Enum<Foam::cellState::fateType> Foam::cellState::fateNames
     { fateType::caught, "caught" },
     { fateType::stalled, "stalled" },
     { fateType::escaped, "escaped" },
-    { fateType::lost, "lost" }
+    { fateType::lost, "lost" },
+    { fateType::waiting, "waiting" }
 });
 
 
@@ -54,10 +55,12 @@ namespace Foam
         { "step", offsetof(cellState, controller.step), 1 },
         { "previousError", offsetof(cellState, controller.previous_error), 1 },
         { "time", offsetof(cellState, time), 1 },
+        { "planned", offsetof(cellState, planned), 1 },
         { "slowTime", offsetof(cellState, slowTime), 1 },
         { "nextRow", offsetof(cellState, nextRow), 1 },
         { "lastRow", offsetof(cellState, lastRow), 8 },
         { "deepest", offsetof(cellState, deepest), 1 },
+        { "deepestCell", offsetof(cellState, deepestCell), 1 },
         { "id", offsetof(cellState, id), 0 },
         { "tet", offsetof(cellState, tet), 0 },
         { "fate", offsetof(cellState, fate), 0 },
@@ -139,8 +142,7 @@ Foam::ellipsoidParcel::ellipsoidParcel
 )
 :
     particle(mesh, is, readFields, newFormat),
-    state_(),
-    cache_()
+    state_()
 {
     if (readFields)
     {

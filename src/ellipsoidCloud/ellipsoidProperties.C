@@ -219,11 +219,13 @@ void Foam::ellipsoidProperties::readOptions()
     (
         contact,
         {
-            "active", "beadLayout", "beads", "beadRadius", "modulus",
+            "active", "cells", "beadLayout", "beads", "beadRadius", "modulus",
             "friction", "slipSpeed", "damping"
         }
     );
     options_.contact = contact.getOrDefault("active", Switch(options_.contact));
+    pushing_ = contact.getOrDefault("cells", Switch(true));
+    pushing_ = pushing_ && options_.contact;
     options_.bead_layout =
         layoutNames_.getOrDefault("beadLayout", contact, options_.bead_layout);
     options_.bead_count = contact.getOrDefault("beads", options_.bead_count);
@@ -410,6 +412,7 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     options_(ellipsoid_options_default()),
     scheme_(frozenFlow::stCellPoint),
     seed_(1),
+    pushing_(true),
     empty_()
 {
     options_.kinematic_viscosity = readViscosity(mesh).value();

@@ -212,10 +212,11 @@ class Case:
 
     @cached_property
     def events(self):
-        """t, id, event, patch of all that happened, by time."""
+        """t, id, event, patch of all that happened to cells that entered, by time."""
         types = [("t", float), ("id", int), ("event", "U16"), ("patch", "U128")]
         file = os.path.join(self.results, "events.csv")
         events = read_csv(file, types)
+        events = events[events["event"] != "waiting"]
         unknown = set(events["event"]) - set(FATES)
         if unknown:
             raise CaseError(f"{file}: unknown event {unknown.pop()}")

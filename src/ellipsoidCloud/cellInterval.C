@@ -1,0 +1,555 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "cellInterval.H"
+#include "cellNeighbours.H"
+#include "HashSet.H"
+#include "plainLists.H"
+
+#include <algorithm>
+#include <numeric>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- How often an interval is halved at most
+    static const label maxDepth = 8;
+
+    //- In bead radii: the gap below which cells are one unit; what is not known
+    //  of a path between the poses looked at; the travel below which it does not
+    //  pay to halve the time
+    static const scalar unitGap = 0.5;
+    static const scalar unseenGap = 0.1;
+    static const scalar shortTravel = 2;
+
+    //- Steps to be expected of a cell that has taken none
+    static const scalar newSteps = 100;
+
+    static inline bool waits(const cellMove& cell)
+    {
+        return cell.state.fate == cellState::waiting;
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::cellInterval::gap
+(
+    const cellMove& a,
+    const cellMove& b,
+    const scalar horizon
+) const
+{
+    return ellipsoid_cell_gap
+    (
+        &model_, a.x, a.q, &model_, b.x, b.q, horizon
+    );
+}
+
+
+Foam::List<Foam::cellInterval::unit> Foam::cellInterval::unitsOf
+(
+    const List<cellMove>& cells,
+    const labelUList& who,
+    const span& time
+) const
+{
+    // Those there at the start, those that may enter then, those that enter
+    // later in the span
+    DynamicList<label> here;
+    DynamicList<label> later;
+
+    for (const label i : who)
+    {
+        const cellMove& cell = cells[i];
+
+        if (waits(cell))
+        {
+            if (cell.state.time == time.start)
+            {
+                here.append(i);
+            }
+            else if (cell.state.time > time.start && cell.state.time < time.end)
+            {
+                later.append(i);
+            }
+        }
+        else if (!cell.gone())
+        {
+            here.append(i);
+        }
+    }
+
+    labelHashSet stay;
+    DynamicList<labelPair> close;
+
+    if (pushing_)
+    {
+        List<boundBox> boxes(here.size());
+        forAll(here, k)
+        {
+            boxes[k] = cells[here[k]].box(model_.reach + 0.5*margin_);
+        }
+
+        // By the lower of a pair and then the other, so that who comes first
+        // by id enters first
+        DynamicList<labelPair> overlapping;
+        for (const labelPair& pair : cellNeighbours::overlapping(boxes))
+        {
+            const cellMove& a = cells[here[pair.first()]];
+            const cellMove& b = cells[here[pair.second()]];
+            const scalar apart = gap(a, b, margin_);
+
+            if (apart < margin_)
+            {
+                close.append(pair);
+            }
+            if (apart < 0 && (waits(a) || waits(b)))
+            {
+                overlapping.append(pair);
+            }
+        }
+
+        // First who is in the way of those there, then of those that enter
+        for (const labelPair& pair : overlapping)
+        {
+            for (const label k : {pair.first(), pair.second()})
+            {
+                const label other = pair.first() + pair.second() - k;
+
+                if (waits(cells[here[k]]) && !waits(cells[here[other]]))
+                {
+                    stay.insert(k);
+                }
+            }
+        }
+        for (const labelPair& pair : overlapping)
+        {
+            if (!stay.found(pair.first()) && waits(cells[here[pair.first()]]))
+            {
+                stay.insert(pair.second());
+            }
+        }
+    }
+
+    DynamicList<labelPair> bonds;
+    for (const labelPair& pair : close)
+    {
+        if (!stay.found(pair.first()) && !stay.found(pair.second()))
+        {
+            bonds.append(pair);
+        }
+    }
+
+    const labelList lowest(cellNeighbours::connected(here.size(), bonds));
+    labelList unitOf(here.size(), -1);
+    List<unit> units(here.size() + later.size());
+    label nUnits = 0;
+
+    const auto add =
+        [&](unit& to, const label i)
+        {
+            to.cells.append(i);
+            to.before.append(cells[i]);
+            to.inParts = false;
+        };
+
+    forAll(here, k)
+    {
+        if (!stay.found(k))
+        {
+            label& to = unitOf[lowest[k]];
+            if (to < 0)
+            {
+                to = nUnits++;
+            }
+            add(units[to], here[k]);
+        }
+    }
+    for (const label i : later)
+    {
+        add(units[nUnits++], i);
+    }
+
+    units.setSize(nUnits);
+    return units;
+}
+
+
+Foam::DynamicList<Foam::cellInterval::meeting> Foam::cellInterval::meetings
+(
+    const List<cellMove>& cells,
+    const List<unit>& units
+) const
+{
+    DynamicList<meeting> found;
+    DynamicList<label> who;
+    DynamicList<label> unitOf;
+    DynamicList<boundBox> boxes;
+    const scalar unseen = unseenGap*model_.options.bead_radius;
+
+    if (!pushing_)
+    {
+        return found;
+    }
+
+    forAll(units, unitI)
+    {
+        for (const label i : units[unitI].cells)
+        {
+            if (!waits(cells[i]))
+            {
+                who.append(i);
+                unitOf.append(unitI);
+                boxes.append(cells[i].box(model_.reach + 0.5*unseen));
+            }
+        }
+    }
+
+    for (const labelPair& pair : cellNeighbours::overlapping(boxes))
+    {
+        const labelPair both(unitOf[pair.first()], unitOf[pair.second()]);
+
+        if (both.first() == both.second())
+        {
+            continue;
+        }
+
+        // Each point of a cell stays within its travel of where it began
+        const cellMove& a = cells[who[pair.first()]];
+        const cellMove& b = cells[who[pair.second()]];
+        const scalar near = a.travel + b.travel + unseen;
+
+        if (gap(a, b, near) < near)
+        {
+            found.append(meeting{both, max(a.travel, b.travel)});
+        }
+    }
+
+    return found;
+}
+
+
+Foam::List<Foam::cellInterval::unit> Foam::cellInterval::joined
+(
+    List<unit>& units,
+    const UList<meeting>& meetings,
+    const scalar farTravel,
+    labelList& changed
+)
+{
+    List<labelPair> pairs(meetings.size());
+    forAll(meetings, i)
+    {
+        pairs[i] = meetings[i].units;
+    }
+
+    const labelList lowest(cellNeighbours::connected(units.size(), pairs));
+
+    // Of those that are joined, by the lowest of them
+    scalarList travel(units.size(), scalar(-1));
+    for (const meeting& m : meetings)
+    {
+        scalar& longest = travel[lowest[m.units.first()]];
+        longest = max(longest, m.travel);
+    }
+
+    List<unit> result(units.size());
+    labelList place(units.size(), -1);
+    DynamicList<label> again;
+    label nUnits = 0;
+
+    forAll(units, unitI)
+    {
+        label& to = place[lowest[unitI]];
+
+        if (to < 0)
+        {
+            to = nUnits++;
+            result[to] = std::move(units[unitI]);
+
+            if (travel[unitI] >= 0)
+            {
+                result[to].inParts = travel[unitI] > farTravel;
+                result[to].rows.clear();
+                again.append(to);
+            }
+        }
+        else
+        {
+            result[to].cells.append(units[unitI].cells);
+            result[to].before.append(units[unitI].before);
+        }
+    }
+    result.setSize(nUnits);
+
+    // Within a unit by id
+    for (const label to : again)
+    {
+        unit& mixed = result[to];
+        labelList order(mixed.cells.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::sort
+        (
+            order.begin(),
+            order.end(),
+            [&](const label a, const label b)
+            {
+                return mixed.cells[a] < mixed.cells[b];
+            }
+        );
+        mixed.cells = labelList(UIndirectList<label>(mixed.cells, order));
+        mixed.before =
+            List<cellMove>(UIndirectList<cellMove>(mixed.before, order));
+    }
+
+    changed = std::move(again);
+    return result;
+}
+
+
+void Foam::cellInterval::move
+(
+    List<cellMove>& cells,
+    unit& moved,
+    const span& time
+)
+{
+    const auto restore =
+        [&]()
+        {
+            UIndirectList<cellMove>(cells, moved.cells) = moved.before;
+            moved.rows.clear();
+        };
+
+    restore();
+
+    // A cell of a unit in parts that enters later does so at the end of a part
+    scalar middle = time.end;
+    for (const cellMove& cell : moved.before)
+    {
+        if (waits(cell) && cell.state.time > time.start)
+        {
+            middle = min(middle, cell.state.time);
+        }
+    }
+    const bool enters = middle < time.end && moved.cells.size() > 1;
+
+    if (!moved.inParts && !enters)
+    {
+        const bool mayFail = time.depth < maxDepth;
+
+        if (mover_.move(cells, moved.cells, time.end, mayFail, moved.rows))
+        {
+            return;
+        }
+        restore();
+    }
+
+    label depth = time.depth;
+    if (!enters)
+    {
+        middle = 0.5*(time.start + time.end);
+        ++depth;
+    }
+
+    advance(cells, moved.cells, {time.start, middle, depth, false}, moved.rows);
+
+    const List<cellMove> first(UIndirectList<cellMove>(cells, moved.cells));
+
+    advance(cells, moved.cells, {middle, time.end, depth, false}, moved.rows);
+
+    forAll(moved.cells, k)
+    {
+        cells[moved.cells[k]].prepend(first[k]);
+    }
+}
+
+
+Foam::labelList Foam::cellInterval::dealt
+(
+    const List<unit>& units,
+    const labelUList& listed,
+    const span& time
+)
+{
+    labelList ranks(listed.size(), 0);
+
+    if (!time.shared || !Pstream::parRun())
+    {
+        return ranks;
+    }
+
+    // By the steps to be expected; all of a group go with the shortest
+    scalarList work(listed.size());
+    forAll(listed, k)
+    {
+        scalar steps = 1;
+        for (const cellMove& cell : units[listed[k]].before)
+        {
+            const scalar step = cell.state.controller.step;
+            steps = max
+            (
+                steps, step > 0 ? (time.end - time.start)/step : newSteps
+            );
+        }
+        work[k] = steps*units[listed[k]].cells.size();
+    }
+
+    labelList order(identity(listed.size()));
+    std::stable_sort
+    (
+        order.begin(),
+        order.end(),
+        [&](const label a, const label b) { return work[a] > work[b]; }
+    );
+
+    scalarList load(Pstream::nProcs(), Zero);
+    for (const label k : order)
+    {
+        ranks[k] = findMin(load);
+        load[ranks[k]] += work[k];
+    }
+
+    return ranks;
+}
+
+
+void Foam::cellInterval::exchange
+(
+    List<cellMove>& cells,
+    const List<unit>& units,
+    const labelUList& listed,
+    const labelUList& ranks
+)
+{
+    if (!Pstream::parRun())
+    {
+        return;
+    }
+
+    DynamicList<cellMove> mine;
+    forAll(listed, k)
+    {
+        if (ranks[k] == Pstream::myProcNo())
+        {
+            for (const label i : units[listed[k]].cells)
+            {
+                mine.append(cells[i]);
+            }
+        }
+    }
+
+    const List<List<cellMove>> all(fromAllRanks(mine));
+    labelList next(all.size(), 0);
+
+    forAll(listed, k)
+    {
+        for (const label i : units[listed[k]].cells)
+        {
+            cells[i] = all[ranks[k]][next[ranks[k]]++];
+        }
+    }
+}
+
+
+void Foam::cellInterval::advance
+(
+    List<cellMove>& cells,
+    const labelUList& who,
+    const span& time,
+    DynamicList<cellTracks::row>& rows
+)
+{
+    for (const label i : who)
+    {
+        cells[i].begin();
+    }
+
+    List<unit> units(unitsOf(cells, who, time));
+    labelList todo(identity(units.size()));
+
+    while (todo.size())
+    {
+        const labelList ranks(dealt(units, todo, time));
+
+        forAll(todo, k)
+        {
+            if (!time.shared || ranks[k] == Pstream::myProcNo())
+            {
+                move(cells, units[todo[k]], time);
+            }
+        }
+
+        if (time.shared)
+        {
+            exchange(cells, units, todo, ranks);
+        }
+
+        units = joined
+        (
+            units,
+            meetings(cells, units),
+            time.depth < maxDepth
+          ? shortTravel*model_.options.bead_radius
+          : GREAT,
+            todo
+        );
+    }
+
+    for (const unit& moved : units)
+    {
+        rows.append(moved.rows);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::cellInterval::cellInterval
+(
+    const ellipsoid_model& model,
+    const frozenFlow& flow,
+    const wallFacets& walls,
+    const cellTracks& tracks,
+    const ellipsoidProperties& properties
+)
+:
+    model_(model),
+    pushing_(properties.pushing()),
+    margin_(unitGap*model.options.bead_radius),
+    mover_(model, flow, walls, tracks, properties.seed())
+{}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::cellInterval::advance
+(
+    List<cellMove>& cells,
+    const scalar start,
+    const scalar end,
+    DynamicList<cellTracks::row>& rows
+)
+{
+    advance(cells, identity(cells.size()), {start, end, 0, true}, rows);
+
+    for (const cellMove& cell : cells)
+    {
+        if (cell.gone())
+        {
+            mover_.forget(cell.state.id);
+        }
+    }
+}
+
+
+// ************************************************************************* //
