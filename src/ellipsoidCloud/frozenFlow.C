@@ -221,24 +221,20 @@ void Foam::frozenFlow::interpolateVelocity
 
 void Foam::frozenFlow::checkOpenPatches(const undecomposedFlow& whole) const
 {
-    const fvMesh& mesh = whole.mesh();
-    const scalar crossFlux = throughFlow::crossFlux
-    (
-        throughFlow(whole.U(), whole.phi()).speed(), gSum(mesh.V())
-    );
+    const throughFlow through(whole.U(), whole.phi());
 
-    for (const label patchi : throughFlow::openPatches(mesh.boundaryMesh()))
+    forAll(through.patches(), i)
     {
-        const polyPatch& pp = mesh.boundaryMesh()[patchi];
-        const scalar flux = gSum(mag(whole.phi().boundaryField()[patchi]));
+        const polyPatch& pp =
+            whole.mesh().boundaryMesh()[through.patches()[i]];
 
-        if (pp.size() && throughFlow::isRounding(flux, crossFlux))
+        if (pp.size() && through.isRounding(through.magFlux()[i]))
         {
             FatalErrorInFunction
                 << "nothing flows through patch " << pp.name() << " of type "
                 << pp.type() << nl
                 << "    Cells would leave there. If it is a wall, make it one: "
-                << "type wall in " << mesh.meshDir()/"boundary"
+                << "type wall in " << whole.mesh().meshDir()/"boundary"
                 << exit(FatalError);
         }
     }

@@ -26,7 +26,8 @@ Foam::throughFlow::throughFlow
     inflow_(0),
     inletArea_(0),
     meanSpeed_(0),
-    crossing_(0)
+    crossing_(0),
+    rounding_(0)
 {
     const fvMesh& mesh = U.mesh();
     const label n = patches_.size();
@@ -51,6 +52,7 @@ Foam::throughFlow::throughFlow
     const scalar volume = sums[3*n + 1];
     meanSpeed_ = sums[3*n]/volume;
     crossing_ = meanSpeed_*pow(volume, 2.0/3.0);
+    rounding_ = 1e-9*crossing_;
 
     forAll(patches_, i)
     {
@@ -58,9 +60,7 @@ Foam::throughFlow::throughFlow
         magFlux_[i] = sums[n + i];
         area_[i] = sums[2*n + i];
 
-        // Rounding of a velocity along the patch is no inflow. A channel so
-        // thin would be 1e13 times as long as wide.
-        if (-flux_[i] > 1e-9*crossing_)
+        if (flux_[i] < 0 && !isRounding(flux_[i]))
         {
             inflow_ -= flux_[i];
             inletArea_ += area_[i];
