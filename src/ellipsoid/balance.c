@@ -19,8 +19,8 @@
 
 enum
 {
-    MOST_ITERATIONS = 30,
-    MOST_HALVINGS = 40,
+    MOST_ITERATIONS = 60,
+    MOST_HALVINGS = 10,
     CHANGE = ELLIPSOID_MAX_STAGES - 1 /* a stage that no implicit step has */
 };
 
@@ -178,35 +178,43 @@ static void be_at_rest(const ellipsoid_group *g, ellipsoid_point *points)
     }
 }
 
-/* With slip speeds that fall to their values. */
+/* First as it is; then with slip speeds that fall to their values. Models
+   without gyroscopic torque stand in meanwhile. */
 static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
                                          ellipsoid_point *points,
                                          ellipsoid_stand_in *stand_in)
 {
-    ellipsoid_status status = ELLIPSOID_OK;
+    ellipsoid_status status;
 
-    be_at_rest(g, points);
     for (int cell = 0; cell < g->count; cell++)
     {
         stand_in[cell].own = g->cell[cell].model;
         stand_in[cell].model = *g->cell[cell].model;
+        stand_in[cell].model.options.motion = ELLIPSOID_MOTION_INERTIALESS;
         g->cell[cell].model = &stand_in[cell].model;
     }
-    for (double smooth = smoothest; status == ELLIPSOID_OK && smooth > 2;
-         smooth *= less_smooth)
+    be_at_rest(g, points);
+    status = iterate(g, points);
+    if (status == ELLIPSOID_NON_FINITE)
     {
-        for (int cell = 0; cell < g->count; cell++)
+        be_at_rest(g, points);
+        status = ELLIPSOID_OK;
+        for (double smooth = smoothest; status == ELLIPSOID_OK && smooth > 0.5;
+             smooth *= less_smooth)
         {
-            stand_in[cell].model.options.slip_speed =
-                smooth * stand_in[cell].own->options.slip_speed;
+            for (int cell = 0; cell < g->count; cell++)
+            {
+                stand_in[cell].model.options.slip_speed =
+                    smooth * stand_in[cell].own->options.slip_speed;
+            }
+            status = iterate(g, points);
         }
-        status = iterate(g, points);
     }
     for (int cell = 0; cell < g->count; cell++)
     {
         g->cell[cell].model = stand_in[cell].own;
     }
-    return status == ELLIPSOID_OK ? iterate(g, points) : status;
+    return status;
 }
 
 /* One cell has no memory of its own for a stand-in. */
@@ -235,15 +243,9 @@ ellipsoid_status ellipsoid_rubbing_evaluate(ellipsoid_group *g,
     {
         return status;
     }
-    be_at_rest(g, points);
     g->has_blocks = 0; /* the couplings are no longer those of the start */
-    status = iterate(g, points);
-    if (status == ELLIPSOID_NON_FINITE)
-    {
-        status = g->pairs
-                   ? iterate_smoothly(g, points, g->pairs->stand_in)
-                   : iterate_alone(g, points);
-    }
+    status = g->pairs ? iterate_smoothly(g, points, g->pairs->stand_in)
+                      : iterate_alone(g, points);
     if (status == ELLIPSOID_OK)
     {
         status = evaluate(g, points, 0, with_blocks);
