@@ -32,10 +32,13 @@ ellipsoid_options ellipsoid_options_default(void)
         .temperature = 298.15,
         .noise_interval = 1e-3,
         .contact = 1,
+        .contact_shape = ELLIPSOID_CONTACT_BEADS,
         .bead_layout = ELLIPSOID_BEADS_STAGGERED,
         .bead_count = 32,
         .bead_radius = 0.285e-6,
         .contact_modulus = 1e6,
+        .adhesion = 0,
+        .adhesion_range = 20e-9,
         .tolerance = 1e-6,
         .initial_step = 0,
         .minimum_step = 1e-18,
@@ -142,6 +145,10 @@ static void check_contact(verdict *v, const ellipsoid_options *o)
         return;
     }
     require(v,
+            o->contact_shape == ELLIPSOID_CONTACT_BEADS
+                || o->contact_shape == ELLIPSOID_CONTACT_ELLIPSOID,
+            "contact_shape", "BEADS or ELLIPSOID");
+    require(v,
             o->bead_layout == ELLIPSOID_BEADS_STAGGERED
                 || o->bead_layout == ELLIPSOID_BEADS_PAPER
                 || o->bead_layout == ELLIPSOID_BEADS_SURFACE,
@@ -152,6 +159,12 @@ static void check_contact(verdict *v, const ellipsoid_options *o)
             "above 0, below the smallest semi-axis");
     require(v, within(o->contact_modulus, 1e-12, 1e15), "contact_modulus",
             "1e-12 to 1e15 Pa");
+    require(v, within(o->adhesion, 0, 1e30), "adhesion", "0 to 1e30 N");
+    require(v,
+            o->adhesion == 0
+                || within(o->adhesion_range, 1e-6 * o->bead_radius,
+                          o->bead_radius),
+            "adhesion_range", "1e-6 to 1 times the bead radius");
     if (!v->field)
     {
         double bead[ELLIPSOID_MAX_BEADS][3];

@@ -80,7 +80,10 @@ ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
     if (options->contact)
     {
         m.bead_count = ellipsoid_beads(options, m.bead);
-        m.reach = contact_reach(&m);
+        /* of the ellipsoid, too, if that is what meets the walls */
+        m.reach = options->contact_shape == ELLIPSOID_CONTACT_ELLIPSOID
+                    ? fmax(m.reach, contact_reach(&m))
+                    : contact_reach(&m);
     }
 
     *model = m;
