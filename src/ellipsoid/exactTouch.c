@@ -68,21 +68,27 @@ static void find_deepest(const ellipsoid_exact_body *body,
                          const ellipsoid_candidates *from, double range,
                          contacts *all, ellipsoid_contact *report)
 {
+    const double *a = body->axes;
+    const double sharpest = body->smallest * body->smallest
+                          / fmax(a[0], fmax(a[1], a[2]));
     contact found, least = {.height = -HUGE_VAL};
-    int surface = -1;
+    int surface = -1, deep = 0;
 
     for (int k = 0; k < from->count; k++)
     {
         const ellipsoid_facet *facet = &from->facets[from->index[k]];
 
-        if (ellipsoid_exact_pushed_out(facet, body, &found)
-            && found.height > least.height)
+        if (ellipsoid_exact_pushed_out(facet, body, &found))
         {
-            least = found;
-            surface = facet->surface;
+            deep = deep || -found.height > sharpest * (1 + same);
+            if (found.height > least.height)
+            {
+                least = found;
+                surface = facet->surface;
+            }
         }
     }
-    if (least.height > -HUGE_VAL)
+    if (deep)
     {
         take(all, &least, range, body->smallest, surface, report);
     }
