@@ -9,6 +9,11 @@
     (exactFacets.c). Law and sum are those of a bead (touch.c, mixing.h), the
     force acts at the contact point on the ellipsoid: one contact is
     conservative, with the potential 2/5 k d^2.5.
+
+    Contacts of a bead along one normal are at one place, those of a long body
+    need not be: a rod across a slit rests on both its edges. So contacts count
+    each on its own where their places differ by a bead's radius more than a
+    sphere's would, unless one is about to end: shadow().
 */
 #include "exact.h"
 
@@ -161,9 +166,88 @@ static scalar rise(const contacts *all, const mix *m, const scalar *c, int i,
     return s;
 }
 
+/* 3 t^2 - 2 t^3 from 0 to 1 */
+static scalar ramp(scalar t)
+{
+    const double v = fmin(fmax(t.value, 0), 1);
+
+    t.value = v * v * (3 - 2 * v);
+    for (int k = 0; k < VARIABLES; k++)
+    {
+        t.gradient[k] *= 6 * v * (1 - v);
+    }
+    return t;
+}
+
+/* i's height above j's tangent plane on the wall, by that on the ellipsoid: 0
+   where the contact ends, 1 but for the depths where the wall has only the two
+   points. */
+static scalar standing(const contacts *all, const mix *m, const scalar *c,
+                       int i, int j)
+{
+    const contact *a = &all->at[i], *b = &all->at[j];
+    const scalar s = rise(all, m, c, i, j);
+    double apart[3], above;
+    scalar part = {.value = 0};
+
+    ellipsoid_difference(b->arm, a->arm, apart);
+    above = ellipsoid_dot(b->normal, apart);
+    if (above > 0)
+    {
+        part.value = s.value / above;
+        for (int k = 0; k < VARIABLES; k++)
+        {
+            double change = 0;
+
+            for (int l = 0; l < 3; l++)
+            {
+                change += m->turn[j][l][k] * apart[l]
+                    + b->normal[l] * (b->arm_slope[l][k] - a->arm_slope[l][k]);
+            }
+            part.gradient[k] = (s.gradient[k] - part.value * change) / above;
+        }
+    }
+    return ramp(part);
+}
+
 static scalar shadow(const contacts *all, const mix *m, int i, int j)
 {
-    return cosine(all, m, i, j);
+    const contact *a = &all->at[i], *b = &all->at[j];
+    const double width = m->width * m->width, apart = m->apart * m->apart;
+    const scalar c = cosine(all, m, i, j);
+    scalar far = {.value = 0};
+    double arms[3], normals[3];
+
+    ellipsoid_difference(a->arm, b->arm, arms);
+    ellipsoid_difference(a->normal, b->normal, normals);
+    far.value = (ellipsoid_dot(arms, arms)
+                 - width * ellipsoid_dot(normals, normals)) / apart;
+    if (!(far.value > 0 && c.value > 0))
+    {
+        return c;
+    }
+    for (int k = 0; k < VARIABLES; k++)
+    {
+        for (int l = 0; l < 3; l++)
+        {
+            far.gradient[k] += 2 / apart
+                * (arms[l] * (a->arm_slope[l][k] - b->arm_slope[l][k])
+                   - width * normals[l] * (m->turn[i][l][k] - m->turn[j][l][k]));
+        }
+    }
+    far = ramp(far);
+
+    const scalar one = standing(all, m, &c, i, j);
+    const scalar other = standing(all, m, &c, j, i);
+    const scalar both = product(&one, &other);
+    scalar kept = product(&far, &both);
+
+    kept.value = 1 - kept.value;
+    for (int k = 0; k < VARIABLES; k++)
+    {
+        kept.gradient[k] = -kept.gradient[k];
+    }
+    return product(&c, &kept);
 }
 
 /* The sum of forces and torques about the centre, in the lab. */
@@ -221,7 +305,9 @@ static void combine(const ellipsoid_options *o, const ellipsoid_exact_body *body
     const int adheres = o->adhesion > 0;
     const double stiffness =
         4.0 / 3 * o->contact_modulus * sqrt(o->bead_radius);
-    mix m = {.count = all->count};
+    mix m = {.count = all->count,
+             .width = body->smallest,
+             .apart = o->bead_radius};
 
     if (adheres)
     {

@@ -115,6 +115,7 @@ typedef struct scalar
 typedef struct mix
 {
     int count; /* the first of the contacts */
+    double width, apart; /* [m] for shadow() */
     double turn[MAX_CONTACTS][3][VARIABLES]; /* derivatives of normals */
     scalar force[MAX_CONTACTS];              /* f_i */
 } mix;
