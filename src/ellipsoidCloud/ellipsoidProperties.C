@@ -25,6 +25,14 @@ License
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
+const Foam::Enum<ellipsoid_contact_shape>
+Foam::ellipsoidProperties::shapeNames_
+({
+    { ELLIPSOID_CONTACT_BEADS, "beads" },
+    { ELLIPSOID_CONTACT_ELLIPSOID, "ellipsoid" }
+});
+
+
 const Foam::Enum<ellipsoid_bead_layout>
 Foam::ellipsoidProperties::layoutNames_
 ({
@@ -99,10 +107,13 @@ namespace Foam
         { "brownian", "brownian", "active" },
         { "temperature", "brownian", "temperature" },
         { "noise_interval", "brownian", "interval" },
+        { "contact_shape", "contact", "shape" },
         { "bead_layout", "contact", "beadLayout" },
         { "bead_count", "contact", "beads" },
         { "bead_radius", "contact", "beadRadius" },
         { "contact_modulus", "contact", "modulus" },
+        { "adhesion", "contact", "adhesion" },
+        { "adhesion_range", "contact", "adhesionRange" },
         { "tolerance", "integration", "tolerance" },
         { "initial_step", "integration", "initialStep" },
         { "minimum_step", "integration", "minimumStep" },
@@ -170,9 +181,15 @@ void Foam::ellipsoidProperties::readOptions()
     const dictionary& contact = section("contact");
     checkKeywords
     (
-        contact, {"active", "beadLayout", "beads", "beadRadius", "modulus"}
+        contact,
+        {
+            "active", "shape", "beadLayout", "beads", "beadRadius", "modulus",
+            "adhesion", "adhesionRange"
+        }
     );
     options_.contact = contact.getOrDefault("active", Switch(options_.contact));
+    options_.contact_shape =
+        shapeNames_.getOrDefault("shape", contact, options_.contact_shape);
     options_.bead_layout =
         layoutNames_.getOrDefault("beadLayout", contact, options_.bead_layout);
     options_.bead_count = contact.getOrDefault("beads", options_.bead_count);
@@ -180,6 +197,9 @@ void Foam::ellipsoidProperties::readOptions()
         contact.getOrDefault("beadRadius", options_.bead_radius);
     options_.contact_modulus =
         contact.getOrDefault("modulus", options_.contact_modulus);
+    options_.adhesion = contact.getOrDefault("adhesion", options_.adhesion);
+    options_.adhesion_range =
+        contact.getOrDefault("adhesionRange", options_.adhesion_range);
 
     const dictionary& integration = section("integration");
     checkKeywords

@@ -116,8 +116,12 @@ static void test_pull_off_force(void **unused)
             {
                 work -= contact.force[2] * 1e-11;
             }
+            if (fabs(gap - 20e-9) < 1e-15)
+            {
+                continue; /* either, by rounding */
+            }
             assert_int_equal(contact.touching_beads, gap < 20e-9);
-            if (gap >= 20e-9)
+            if (gap > 20e-9)
             {
                 assert_true(contact.force[2] == 0);
             }
@@ -214,36 +218,68 @@ static double energy(const ellipsoid_model *model, const ellipsoid_state *s)
     return twice / 2;
 }
 
-/* Thrown at the floor askew, in vacuum: it comes back as fast as it came, but
-   for what goes into spin. */
+/* What the tolerance lets the energy change by: in a step h, u by the tolerance
+   times the largest semi-axis by h, omega by the tolerance by h. */
+typedef struct allowance
+{
+    const ellipsoid_model *model;
+    double energy;
+} allowance;
+
+static int add_allowance(void *context, const ellipsoid_step *step)
+{
+    allowance *a = context;
+    const ellipsoid_model *m = a->model;
+    const double *u = step->after.u, *w = step->after.omega;
+    const double spin[3] = {m->inertia[0] * w[0], m->inertia[1] * w[1],
+                            m->inertia[2] * w[2]};
+
+    a->energy += m->options.tolerance / (step->end - step->start)
+               * (2 * um * m->mass * sqrt(ellipsoid_dot(u, u))
+                  + sqrt(ellipsoid_dot(spin, spin)));
+    return 0;
+}
+
+/* Thrown at the floor askew, in vacuum: its energy comes back, part of it as
+   spin, and the well of the adhesion, a tenth of it, is climbed again. */
 static void test_bounce_keeps_energy(void **unused)
 {
     wall_mesh mesh = room_of(0);
     const ellipsoid_surroundings surroundings = around(&mesh, NULL);
+    static ellipsoid_contact_cache cache;
 
     (void)unused;
-    for (int n = 0; n < 3; n++)
+    for (int n = 0; n < 9; n++)
     {
-        ellipsoid_options options = cell_of(ELLIPSOID_CONTACT_ELLIPSOID, 1e-10);
-        const double axis[3] = {cos(0.7 * n), 0, sin(0.7 * n)};
+        ellipsoid_options options = cell_of(ELLIPSOID_CONTACT_ELLIPSOID, 1e-11);
+        const double axis[3] = {cos(0.7 * (n % 3)), 0, sin(0.7 * (n % 3))};
         ellipsoid_state state = {.u = {0, 0, -0.1},
                                  .x = {-3 * um, 1 * um, 2.3 * um},
                                  .omega = {1e3, 2e3, 3e3}};
+        ellipsoid_controller controller = {0, 0};
+        ellipsoid_statistics statistics = {0};
+        double t = 0;
 
         options.drag = 0;
         options.buoyancy = 0;
-        options.tolerance = 1e-9;
+        options.adhesion_range = 0.2 * um;
+        options.contact_modulus = 1e4;
+        options.tolerance = n < 3 ? 1e-7 : n < 6 ? 1e-8 : 1e-9;
         ellipsoid_quaternion_from_axis(axis, 0.3, state.q);
 
         const ellipsoid_model model = test_model(&options);
         const double before = energy(&model, &state);
+        allowance allowed = {&model, 0};
 
-        /* the well is deep enough to be noticed */
-        assert_true(1e-10 * 10e-9 > 1e-4 * before);
-        advance_to(&model, &surroundings, &state, 40e-6);
-        assert_true(state.x[2] > 2.1 * um);
-        assert_true(state.u[2] > 0);
-        assert_relative(energy(&model, &state), before, 10 * options.tolerance);
+        assert_true(1e-11 * 0.1 * um > 0.05 * before);
+        ellipsoid_contact_cache_clear(&cache);
+        assert_ok(ellipsoid_advance(&model, &surroundings, &state, &t, 40e-6,
+                                    &controller, &cache, add_allowance,
+                                    &allowed, &statistics));
+        assert_true(statistics.deepest > 0.02 * um);
+        assert_true(state.x[2] > 2.1 * um && state.u[2] > 0);
+        /* errors of both signs, most steps far below what they may have */
+        assert_near(energy(&model, &state), before, 0.05 * allowed.energy);
     }
     wall_mesh_free(&mesh);
 }
