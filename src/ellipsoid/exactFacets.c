@@ -27,6 +27,10 @@
 /* As in facets.c */
 static const double slack = 1e-9;
 
+/* Beside a flat edge by this, relative to the body, is no matter of rounding nor
+   of how flat it is. */
+static const double clearly = 1e-4;
+
 /* Relative bound from below of what vanishes at centres of curvature. */
 static const double tiny = 1e-18, least = 1e-9;
 
@@ -115,7 +119,7 @@ static void nearest_normal(int dimension, const double *axes, const double *d,
             slope += y * y / (e[i] + s);
         }
         s = fmax(low, s + (sqrt(squared) - 1) * squared / slope);
-        if (!(fabs(s - before) > 4e-16 * s))
+        if (n > 0 && !(s > before + 1e-15 * s))
         {
             break;
         }
@@ -189,10 +193,13 @@ static void meet_line(const ellipsoid_exact_body *body, const double d[3],
     const double half = (ellipsoid_dot(l[0], l[0]) - ellipsoid_dot(l[1], l[1]))
                       / 2;
     const double mixed = ellipsoid_dot(l[0], l[1]);
-    const double larger = ellipsoid_dot(l[1], l[1]) + half
-                        + sqrt(half * half + mixed * mixed);
-    const double angle = atan2(mixed, half) / 2;
-    const double cosine = cos(angle), sine = sin(angle);
+    const double root = sqrt(half * half + mixed * mixed);
+    const double larger = ellipsoid_dot(l[1], l[1]) + half + root;
+    /* of half the angle of (half, mixed); the larger without loss of digits */
+    const double more = root > 0 ? sqrt((root + fabs(half)) / (2 * root)) : 1;
+    const double less = root > 0 ? mixed / (2 * root * more) : 0;
+    const double cosine = half >= 0 ? more : fabs(less);
+    const double sine = half >= 0 ? less : copysign(more, mixed);
     const double d0 = ellipsoid_dot(d, t[0]), d1 = ellipsoid_dot(d, t[1]);
 
     axes[0] = sqrt(larger);
@@ -281,6 +288,12 @@ int ellipsoid_exact_nearest(const ellipsoid_facet *facet,
 
         const double size = ellipsoid_length(along);
 
+        /* far over a flat edge the neighbour is nearer all along it */
+        if (facet->edge[k] == ELLIPSOID_EDGE_FLAT
+            && ellipsoid_dot(inward, foot) < -clearly * support * size)
+        {
+            continue;
+        }
         for (int i = 0; i < 3; i++)
         {
             contact->edge[i] = along[i] / size;
