@@ -378,8 +378,9 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 #define ELLIPSOID_MAX_TOUCHED 8
 
 /*
-    Which facets each bead, or the ellipsoid, may touch, kept while the cell moves little. One per
-    cell; its content never changes a result, only its cost. Opaque.
+    Which facets each bead, or the ellipsoid, may touch, kept while the cell
+    moves little. One per cell; its content never changes a result, only its
+    cost. Opaque.
 */
 typedef struct ellipsoid_contact_cache
 {
@@ -436,10 +437,10 @@ typedef struct ellipsoid_contact_jacobian
     of each contact; the contacts of one bead add up as sum w_i f_i n_i,
     w_i = f_i / sum_j f_j max(0, n_i.n_j) (see mixing.h where they are nearly
     parallel). Adhesion adds up likewise. contact_shape ELLIPSOID: the same law
-    and sum with the depth of the ellipsoid itself, the force where it is deepest
-    (exactFacets.c); q turns it without stretching it. jacobian may be NULL. The result is that of the pose alone, to
-    the last bit, whatever the cache has seen before. STEP_UNDERFLOW: the walls
-    ask for a shorter step.
+    with the depth of the ellipsoid itself, the force where it is deepest
+    (exactFacets.c); q turns the ellipsoid and does not stretch it. jacobian may
+    be NULL. The result is that of the pose alone, to the last bit, whatever the
+    cache has seen before. STEP_UNDERFLOW: the walls ask for a shorter step.
 */
 ellipsoid_status ellipsoid_contact_evaluate(
     const ellipsoid_model *model,

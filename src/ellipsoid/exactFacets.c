@@ -27,8 +27,8 @@
 /* As in facets.c */
 static const double slack = 1e-9;
 
-/* Beside a flat edge by this, relative to the body, is no matter of rounding nor
-   of how flat it is. */
+/* Beside a flat edge by this, relative to the body, is no matter of rounding
+   nor of how flat it is. */
 static const double clearly = 1e-4;
 
 /* Relative bound from below of what vanishes at centres of curvature. */
@@ -381,8 +381,8 @@ static void set_directions(const ellipsoid_exact_contact *c, double t[2][3])
 
 /*
     p is that of a turned normal in a turned body: dp = P (dn - w x n) + w x p
-    with P = dp/dn = (M - pp)/h for a rotation w. From x - p - D n staying on the
-    edge or the vertex follows, in the directions in which n may turn,
+    with P = dp/dn = (M - pp)/h for a rotation w. From x - p - D n staying on
+    the edge or the vertex follows, in the directions in which n may turn,
         (D + P) dn = dx + P (w x n) - w x p,
     and from D being stationary, dD = n.dx - w.(p x n).
 */

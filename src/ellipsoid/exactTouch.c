@@ -65,9 +65,9 @@ static int is_inside(const ellipsoid_exact_body *body,
 
 /*
     Deeper in a corner than its radius of curvature, an ellipsoid may have no
-    contact: every face that it cuts has its deepest point in it beside the face.
-    The least deep pushes it out then, so that it is neither lost in the wall nor
-    taken to be clear of it.
+    contact: every face that it cuts has its deepest point in it beside the
+    face. The least deep pushes it out then, so that it is neither lost in the
+    wall nor taken to be clear of it.
 */
 static void find_deepest(const ellipsoid_exact_body *body,
                          const ellipsoid_candidates *from, double range,
@@ -100,8 +100,8 @@ static void find_deepest(const ellipsoid_exact_body *body,
 }
 
 /*
-    All contacts. report->gap is lowered to the smallest height. A face seen from
-    behind counts only if the centre has been pushed into the wall, and of
+    All contacts. report->gap is lowered to the smallest height. A face seen
+    from behind counts only if the centre has been pushed into the wall, and of
     several the nearest. Otherwise it is the far side of a thin wall.
 */
 static void find_contacts(const ellipsoid_exact_body *body,
@@ -230,9 +230,11 @@ static scalar shadow(const contacts *all, const mix *m, int i, int j)
     {
         for (int l = 0; l < 3; l++)
         {
-            far.gradient[k] += 2 / apart
-                * (arms[l] * (a->arm_slope[l][k] - b->arm_slope[l][k])
-                   - width * normals[l] * (m->turn[i][l][k] - m->turn[j][l][k]));
+            const double arm = a->arm_slope[l][k] - b->arm_slope[l][k];
+            const double turn = m->turn[i][l][k] - m->turn[j][l][k];
+
+            far.gradient[k] +=
+                2 / apart * (arms[l] * arm - width * normals[l] * turn);
         }
     }
     far = ramp(far);
@@ -299,20 +301,18 @@ static void add_mixed(const contacts *all, const mix *m, double sign,
     }
 }
 
-static void combine(const ellipsoid_options *o, const ellipsoid_exact_body *body,
-                    contacts *all, int derivatives, wrench *sum)
+static void combine(const ellipsoid_options *o,
+                    const ellipsoid_exact_body *body, contacts *all,
+                    int derivatives, wrench *sum)
 {
     const int adheres = o->adhesion > 0;
     const double stiffness =
         4.0 / 3 * o->contact_modulus * sqrt(o->bead_radius);
-    mix m = {.count = all->count,
-             .width = body->smallest,
-             .apart = o->bead_radius};
+    mix m; /* large: set where it is read */
 
-    if (adheres)
-    {
-        m.count = overlapping_first(all, 0);
-    }
+    m.width = body->smallest;
+    m.apart = o->bead_radius;
+    m.count = adheres ? overlapping_first(all, 0) : all->count;
     for (int i = 0; i < all->count && (derivatives || all->count > 1); i++)
     {
         ellipsoid_exact_derivatives(body, &all->at[i]);
@@ -325,10 +325,9 @@ static void combine(const ellipsoid_options *o, const ellipsoid_exact_body *body
             const contact *c = &all->at[i];
             double slope;
 
-            m.force[i].value =
-                law == 0
-                    ? push_at(stiffness, c->height, &slope)
-                    : pull_at(o->adhesion, o->adhesion_range, c->height, &slope);
+            m.force[i].value = law == 0
+                ? push_at(stiffness, c->height, &slope)
+                : pull_at(o->adhesion, o->adhesion_range, c->height, &slope);
             for (int k = 0; k < VARIABLES; k++)
             {
                 m.force[i].gradient[k] =

@@ -20,8 +20,9 @@ typedef ellipsoid_nearest contact;
 
 /*
     All contacts of a bead. *gap is lowered to the smallest height less radius.
-    Those felt reach as far as the adhesion. A facet seen from behind counts only if nothing is nearer: then the centre
-    has been pushed into the wall. Otherwise it is the far side of a thin one.
+    Those felt reach as far as the adhesion. A facet seen from behind counts
+    only if nothing is nearer: then the centre has been pushed into the wall.
+    Otherwise it is the far side of a thin one.
 */
 static void find_contacts(const ellipsoid_bead *bead,
                           const ellipsoid_candidates *from, contacts *all,
@@ -144,12 +145,9 @@ static void combine(const ellipsoid_bead *bead, contacts *all, double force[3],
                     double force_x[3][3])
 {
     const int adheres = bead->adhesion > 0;
-    mix m = {.count = all->count};
+    mix m; /* large: set where it is read */
 
-    if (adheres)
-    {
-        m.count = overlapping_first(all, bead->radius);
-    }
+    m.count = adheres ? overlapping_first(all, bead->radius) : all->count;
     for (int i = 0; i < all->count; i++)
     {
         turning(&all->at[i], m.turn[i]);

@@ -39,9 +39,9 @@ static inline void random_pose(uint64_t *seed, double x[3], double q[4])
 }
 
 /*
-    Derivatives against differences at a pose, q off the unit sphere, each
-    component by itself. Returns whether they could be compared: beads that begin
-    to touch within the difference have no slope yet.
+    Derivatives against differences at a pose, q of any length, each component
+    by itself. Returns whether they could be compared: beads that begin to touch
+    within the difference have no slope yet.
 */
 static inline int assert_jacobian(const ellipsoid_model *model,
                                   const ellipsoid_surroundings *surroundings,

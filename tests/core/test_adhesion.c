@@ -70,9 +70,9 @@ static void test_rests_at_hertz_depth(void **unused)
 
     const ellipsoid_model model = test_model(&options);
     const double weight = (model.mass - model.fluid_mass) * 9.81;
-    const double depth = pow(
-        weight / (4.0 / 3 * options.contact_modulus * sqrt(options.bead_radius)),
-        2.0 / 3);
+    const double stiffness =
+        4.0 / 3 * options.contact_modulus * sqrt(options.bead_radius);
+    const double depth = pow(weight / stiffness, 2.0 / 3);
     double rotation[3][3];
 
     advance_to(&model, &surroundings, &state, 20);

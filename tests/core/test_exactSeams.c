@@ -174,8 +174,8 @@ static wall_mesh block_of(void)
     return wall;
 }
 
-/* What changes between samples becomes smaller with their distance, by the factor
-   of four but for what kinks leave; a jump would stay. */
+/* What changes between samples becomes smaller with their distance, by the
+   factor of four but for what kinks leave; a jump would stay. */
 static void test_nothing_jumps(void **unused)
 {
     wall_mesh walls[] = {wedge_of(-0.3, 4, 2), wedge_of(-0.02, 4, 2),
