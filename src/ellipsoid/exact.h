@@ -45,8 +45,9 @@ typedef struct ellipsoid_exact_contact
     double arm_slope[3][ELLIPSOID_EXACT_VARIABLES];
 } ellipsoid_exact_contact;
 
-/* As ellipsoid_facet_nearest(), for the ellipsoid. A face may be seen from
-   behind, by less than the smallest semi-axis. */
+/* As ellipsoid_facet_nearest(), for the ellipsoid. Returns 2 for a face that is
+   deeper than the middle of the body above the contact point, as seen from
+   behind. */
 int ellipsoid_exact_nearest(const ellipsoid_facet *facet,
                             const ellipsoid_exact_body *body, double reach,
                             ellipsoid_exact_contact *contact);

@@ -17,7 +17,7 @@
     p = M n/h, and that of the wall w = x - p - D n.
 
     With several edges in question, w on an edge's line tells which way to go.
-    A face takes D along its own normal, however deep. Deeper than its radius of
+    A face takes D along its own normal. Deeper than its radius of
     curvature, an ellipsoid has other points nearer to w.
 */
 #include "exact.h"
@@ -251,6 +251,26 @@ static int nearest_vertex(const ellipsoid_facet *facet,
     return closest >= 0 && at_vertex(facet, closest, reach, contact);
 }
 
+/* 1 in the first half of the chord that goes into the body at the contact point
+   along the normal, 2 in the second, 0 beyond: on the body's other side. */
+static int side_of_face(const ellipsoid_exact_body *body,
+                        const ellipsoid_exact_contact *c)
+{
+    double (*r)[3] = (double (*)[3])body->rotation;
+    double along[3], inverse = 0;
+
+    ellipsoid_combination(r, c->normal[0], c->normal[1], c->normal[2], along);
+    for (int i = 0; i < 3; i++)
+    {
+        along[i] /= body->axes[i];
+        inverse += along[i] * along[i];
+    }
+
+    const double half = 1 / (c->support * inverse);
+
+    return -c->height <= half ? 1 : -c->height < 2 * half ? 2 : 0;
+}
+
 int ellipsoid_exact_nearest(const ellipsoid_facet *facet,
                             const ellipsoid_exact_body *body, double reach,
                             ellipsoid_exact_contact *contact)
@@ -322,7 +342,7 @@ int ellipsoid_exact_nearest(const ellipsoid_facet *facet,
     }
 
     meet_plane(body, n, from[0], contact);
-    return height > -body->smallest;
+    return side_of_face(body, contact);
 }
 
 int ellipsoid_exact_pushed_out(const ellipsoid_facet *facet,

@@ -109,8 +109,8 @@ static void find_contacts(const ellipsoid_exact_body *body,
                           contacts *all, ellipsoid_contact *report)
 {
     contact found, behind;
-    double nearest = -body->smallest;
-    int surface = -1;
+    double nearest = -HUGE_VAL;
+    int surface = 0, seen = 0;
 
     all->count = 0;
     for (int k = 0; k < from->count; k++)
@@ -118,11 +118,13 @@ static void find_contacts(const ellipsoid_exact_body *body,
         const ellipsoid_facet *facet = &from->facets[from->index[k]];
         const double reach = report->gap > range ? report->gap : range;
 
-        if (!ellipsoid_exact_nearest(facet, body, reach, &found))
+        const int side = ellipsoid_exact_nearest(facet, body, reach, &found);
+
+        if (side == 0)
         {
             continue;
         }
-        if (found.height + found.support >= 0)
+        if (side == 1)
         {
             take(all, &found, range, body->smallest, facet->surface, report);
         }
@@ -131,9 +133,10 @@ static void find_contacts(const ellipsoid_exact_body *body,
             behind = found;
             nearest = found.height + found.support;
             surface = facet->surface;
+            seen = 1;
         }
     }
-    if (nearest > -body->smallest && is_inside(body, from, body->smallest))
+    if (seen && is_inside(body, from, body->smallest))
     {
         take(all, &behind, range, body->smallest, surface, report);
     }
