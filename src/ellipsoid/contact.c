@@ -5,7 +5,7 @@
 
     contact.c - the walls' force and torque on a cell in one state.
 */
-#include "ellipsoidInternal.h"
+#include "exact.h"
 
 #include <math.h>
 #include <string.h>
@@ -32,6 +32,12 @@ static void add_bead(const ellipsoid_model *model, const ellipsoid_state *state,
     }
 }
 
+/* How far beyond its surface a bead feels the walls */
+static double adhesion_reach(const ellipsoid_model *model)
+{
+    return model->options.adhesion > 0 ? model->options.adhesion_range : 0;
+}
+
 /* A bead in the pose (x, R) */
 static ellipsoid_bead placed(const ellipsoid_model *model, int b,
                              const double x[3], double r[3][3])
@@ -39,7 +45,9 @@ static ellipsoid_bead placed(const ellipsoid_model *model, int b,
     const double radius = model->options.bead_radius;
     ellipsoid_bead bead = {
         .radius = radius,
-        .stiffness = 4.0 / 3 * model->options.contact_modulus * sqrt(radius)};
+        .stiffness = 4.0 / 3 * model->options.contact_modulus * sqrt(radius),
+        .adhesion = model->options.adhesion,
+        .adhesion_range = adhesion_reach(model)};
 
     for (int i = 0; i < 3; i++)
     {
@@ -50,8 +58,8 @@ static ellipsoid_bead placed(const ellipsoid_model *model, int b,
 
 /*
     Beads that have moved less than they were from any facet need no look. The
-    first round is of those that may touch, in order; if none does, the second
-    finds the gap.
+    first round is of those that may feel a wall, in order; if none touches, the
+    second finds the gap.
 */
 static void sum_beads(const ellipsoid_model *model,
                       const ellipsoid_contact_cache *cache,
@@ -61,6 +69,7 @@ static void sum_beads(const ellipsoid_model *model,
 {
     /* the bounds are rounded too */
     const double away = moved + 1e-9 * model->options.bead_radius;
+    const double felt = adhesion_reach(model);
     double r[3][3], force[3], force_x[3][3];
 
     ellipsoid_rotation_inline(state->q, r);
@@ -74,8 +83,8 @@ static void sum_beads(const ellipsoid_model *model,
                 cache->facets, cache->facet + cache->first[b],
                 cache->first[b + 1] - cache->first[b]};
 
-            if (round == 0 ? clear > 0
-                           : clear <= 0 || clear >= contact->gap)
+            if (round == 0 ? clear > felt
+                           : clear <= felt || clear >= contact->gap)
             {
                 continue;
             }
@@ -114,6 +123,11 @@ ellipsoid_status ellipsoid_contact_evaluate(
     }
 
     contact->gap = gap_horizon * model->options.bead_radius;
+    if (model->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID)
+    {
+        return ellipsoid_exact_contact_add(model, surroundings, state->x,
+                                           state->q, cache, contact, jacobian);
+    }
 
     double moved;
     const ellipsoid_status status = ellipsoid_contact_collect(

@@ -65,6 +65,13 @@ const char *ellipsoid_status_text(ellipsoid_status status);
 
 /* ------------------------------------------------------------- options */
 
+/* What meets the walls. */
+typedef enum ellipsoid_contact_shape
+{
+    ELLIPSOID_CONTACT_BEADS,    /* beads on the surface, as in the paper */
+    ELLIPSOID_CONTACT_ELLIPSOID /* the ellipsoid itself */
+} ellipsoid_contact_shape;
+
 /* How the surface beads are laid out (docs/theory.md, "Contact"). */
 typedef enum ellipsoid_bead_layout
 {
@@ -138,15 +145,20 @@ typedef struct ellipsoid_options
                               frame; 1e-3; 1e-15 to 1e6 */
 
     /* contact */
-    int contact;              /* beads against wall facets, 1 */
+    int contact;              /* with wall facets, 1 */
+    ellipsoid_contact_shape contact_shape; /* BEADS */
     ellipsoid_bead_layout bead_layout; /* STAGGERED */
     int bead_count;           /* 32; 1 to ELLIPSOID_MAX_BEADS */
     double bead_radius;       /* [m] 0.285e-6; below the smallest semi-axis */
     double contact_modulus;   /* [Pa] effective modulus E*, 1e6 */
-    double friction;          /* [-] Coulomb's coefficient, 0 */
+    double friction;          /* [-] Coulomb's coefficient, 0; of BEADS, without
+                                 adhesion */
     double slip_speed;        /* [m/s] below which friction yields, 1e-5 */
     double contact_damping;   /* [s/m] Hunt and Crossley's factor, 0: restitution
                                  is 1 less this times the speed of impact */
+    double adhesion;          /* [N] pull-off force of a contact, 0: none */
+    double adhesion_range;    /* [m] beyond which it does not pull, 20e-9; up
+                                 to bead_radius */
 
     /* integrator */
     double tolerance;    /* [-] local error: x against the largest semi-axis,
@@ -382,8 +394,9 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 #define ELLIPSOID_MAX_TOUCHED 8
 
 /*
-    Which facets each bead may touch, kept while the cell moves little. One per
-    cell; its content never changes a result, only its cost. Opaque.
+    Which facets each bead, or the ellipsoid, may touch, kept while the cell
+    moves little. One per cell; its content never changes a result, only its
+    cost. Opaque.
 */
 typedef struct ellipsoid_contact_cache
 {
@@ -410,8 +423,10 @@ typedef struct ellipsoid_contact
     double gap;             /* [m] smallest gap between a bead and the walls,
                                -deepest where they overlap; at most the bead
                                radius, beyond which nobody looks; HUGE_VAL
-                               without walls */
-    int touching_beads;
+                               without walls. Of contact_shape ELLIPSOID, of
+                               the ellipsoid in place of a bead */
+    int touching_beads;     /* that overlap the walls or are pulled by them; 1
+                               if the ellipsoid is */
     int touched_count;      /* distinct surfaces, at most MAX_TOUCHED listed */
     int touched[ELLIPSOID_MAX_TOUCHED]; /* labels, in order of first touch */
 
@@ -442,11 +457,14 @@ typedef struct ellipsoid_contact_jacobian
 /*
     Beads against facets: Hertz, F = 4/3 E* sqrt(r_b) d^(3/2) along the normal
     of each contact; the contacts of one bead add up as sum w_i f_i n_i,
-    w_i = f_i / sum_j f_j max(0, n_i.n_j) (see touch.c where they are nearly
-    parallel). Friction and damping come on top (contactLaw.c); without them u
-    and omega are not read. jacobian may be NULL. The result is that of the
-    state alone, to the last bit, whatever the cache has seen before.
-    STEP_UNDERFLOW: the walls ask for a shorter step.
+    w_i = f_i / sum_j f_j max(0, n_i.n_j) (see mixing.h where they are nearly
+    parallel). Adhesion adds up likewise. contact_shape ELLIPSOID: the same law
+    with the depth of the ellipsoid itself, the force where it is deepest
+    (exactFacets.c); q turns the ellipsoid and does not stretch it. Friction and
+    damping come on top (contactLaw.c); without them u and omega are not read.
+    jacobian may be NULL. The result is that of the state alone, to the last bit,
+    whatever the cache has seen before. STEP_UNDERFLOW: the walls ask for a
+    shorter step.
 */
 ellipsoid_status ellipsoid_contact_evaluate(
     const ellipsoid_model *model,

@@ -134,12 +134,22 @@ int ellipsoid_facet_concerns(const ellipsoid_facet *facet,
                              const double centre[3], double reach,
                              double margin);
 
+/* A vertex is answered for by the facets that have a convex edge there and, for
+   the sake of rounding, by those that the point is right above. */
+int ellipsoid_facet_answers(const ellipsoid_facet *facet, int k);
+
+/* Is the wall at this vertex nowhere nearer to the point? r: vertex to point */
+int ellipsoid_facet_is_apex(const ellipsoid_facet *facet, int k,
+                            const double r[3], double tolerance);
+
 /* One bead, lab frame. */
 typedef struct ellipsoid_bead
 {
     double centre[3]; /* [m] */
     double radius;    /* [m] */
     double stiffness; /* [N/m^1.5] 4/3 E* sqrt(r_b) */
+    double adhesion;  /* [N] pull-off force, 0: none */
+    double adhesion_range; /* [m] beyond the surface, 0 without adhesion */
 } ellipsoid_bead;
 
 /* facets[index[k]], k < count, in ascending order */
@@ -152,7 +162,7 @@ typedef struct ellipsoid_candidates
 
 /*
     The wall's force on one bead and its derivative by the centre (touch.c),
-    set only where it touches; returns the number of contacts. *gap [m] is how
+    set only where it is felt; returns the number of contacts. *gap [m] is how
     far beyond the bead to look and is lowered to the smallest gap found (minus
     the depth of an overlap). Surfaces touched are noted in *report. force_x
     and report may be NULL.

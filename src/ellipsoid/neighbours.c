@@ -3,7 +3,8 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    neighbours.c - which facets the beads of a cell may meet.
+    neighbours.c - which facets the beads of a cell, or the ellipsoid itself in
+    place of beads, may meet.
 
     The cache holds, for the pose at which it was filled, for each bead every
     facet that it can meet within the horizon while no bead has moved farther
@@ -11,7 +12,7 @@
     their own order, so a result does not depend, not by a bit, on the pose at
     which they were collected.
 */
-#include "ellipsoidInternal.h"
+#include "exact.h"
 
 #include <limits.h>
 #include <math.h>
@@ -315,6 +316,35 @@ static int collect(const ellipsoid_facet_list *list, const swarm *beads,
     return 1;
 }
 
+/* The same for the ellipsoid itself, the first and only bead. */
+static int collect_exact(const ellipsoid_facet_list *list, const swarm *box,
+                         const ellipsoid_exact_body *body, double reach,
+                         ellipsoid_contact_cache *cache)
+{
+    int n = 0;
+
+    for (int k = 0; k < list->count; k++)
+    {
+        const ellipsoid_facet *facet = &list->facets[list->index[k]];
+        double d[3];
+
+        ellipsoid_difference(facet->middle, body->centre, d);
+        if (beyond_box(box, d, facet->radius + reach)
+            || !ellipsoid_exact_may_meet(facet, body, reach))
+        {
+            continue;
+        }
+        if (n == ELLIPSOID_MAX_PAIRS)
+        {
+            return 0;
+        }
+        cache->facet[n++] = list->index[k];
+    }
+    cache->first[0] = 0;
+    cache->first[1] = n;
+    return 1;
+}
+
 static double next_margin(const ellipsoid_contact_cache *cache, double radius)
 {
     if (!cache->valid || cache->clearance > 0)
@@ -336,7 +366,10 @@ static ellipsoid_status fill(ellipsoid_contact_cache *cache,
                              double horizon)
 {
     const double radius = model->options.bead_radius;
+    const int exact =
+        model->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID;
     double margin = next_margin(cache, radius);
+    ellipsoid_exact_body body;
     ellipsoid_facet_list list;
     ellipsoid_status status;
     swarm beads;
@@ -381,9 +414,16 @@ static ellipsoid_status fill(ellipsoid_contact_cache *cache,
     }
 
     place_beads(model, x, q, &beads);
+    if (exact)
+    {
+        ellipsoid_exact_place(model->options.semi_axes, x, q, &body);
+        ellipsoid_copy(body.axes, beads.half_box);
+    }
     memcpy(cache->rotation, beads.rotation, sizeof cache->rotation);
     memcpy(cache->half_box, beads.half_box, sizeof cache->half_box);
-    while (!collect(&list, &beads, radius + horizon, margin, cache))
+    while (exact ? !collect_exact(&list, &beads, &body,
+                                  horizon + margin + 1e-6 * radius, cache)
+                 : !collect(&list, &beads, radius + horizon, margin, cache))
     {
         /* the answer is that of the smallest, whichever was the first */
         if (margin <= narrowest * radius)

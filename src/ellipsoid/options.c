@@ -32,6 +32,7 @@ ellipsoid_options ellipsoid_options_default(void)
         .temperature = 298.15,
         .noise_interval = 1e-3,
         .contact = 1,
+        .contact_shape = ELLIPSOID_CONTACT_BEADS,
         .bead_layout = ELLIPSOID_BEADS_STAGGERED,
         .bead_count = 32,
         .bead_radius = 0.285e-6,
@@ -39,6 +40,8 @@ ellipsoid_options ellipsoid_options_default(void)
         .friction = 0,
         .slip_speed = 1e-5,
         .contact_damping = 0,
+        .adhesion = 0,
+        .adhesion_range = 20e-9,
         .tolerance = 1e-6,
         .initial_step = 0,
         .minimum_step = 1e-18,
@@ -138,12 +141,18 @@ static void check_contact(verdict *v, const ellipsoid_options *o)
 {
     const double *a = o->semi_axes;
     const double smallest = fmin(a[0], fmin(a[1], a[2]));
+    const int rubs =
+        o->adhesion == 0 && o->contact_shape == ELLIPSOID_CONTACT_BEADS;
 
     require(v, is_switch(o->contact), "contact", "0 or 1");
     if (!o->contact)
     {
         return;
     }
+    require(v,
+            o->contact_shape == ELLIPSOID_CONTACT_BEADS
+                || o->contact_shape == ELLIPSOID_CONTACT_ELLIPSOID,
+            "contact_shape", "BEADS or ELLIPSOID");
     require(v,
             o->bead_layout == ELLIPSOID_BEADS_STAGGERED
                 || o->bead_layout == ELLIPSOID_BEADS_PAPER
@@ -155,11 +164,19 @@ static void check_contact(verdict *v, const ellipsoid_options *o)
             "above 0, below the smallest semi-axis");
     require(v, within(o->contact_modulus, 1e-12, 1e15), "contact_modulus",
             "1e-12 to 1e15 Pa");
-    require(v, within(o->friction, 0, 100), "friction", "0 to 100");
+    require(v, within(o->friction, 0, rubs ? 100 : 0), "friction",
+            "0 to 100; 0 with adhesion or contact_shape ELLIPSOID");
     require(v, within(o->slip_speed, 1e-15, 1e3), "slip_speed",
             "1e-15 to 1e3 m/s");
-    require(v, within(o->contact_damping, 0, 1e12), "contact_damping",
-            "0 to 1e12 s/m");
+    require(v, within(o->contact_damping, 0, rubs ? 1e12 : 0),
+            "contact_damping",
+            "0 to 1e12 s/m; 0 with adhesion or contact_shape ELLIPSOID");
+    require(v, within(o->adhesion, 0, 1e30), "adhesion", "0 to 1e30 N");
+    require(v,
+            o->adhesion == 0
+                || within(o->adhesion_range, 1e-6 * o->bead_radius,
+                          o->bead_radius),
+            "adhesion_range", "1e-6 to 1 times the bead radius");
     if (!v->field)
     {
         double bead[ELLIPSOID_MAX_BEADS][3];

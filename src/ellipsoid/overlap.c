@@ -5,7 +5,7 @@
 
     overlap.c - whether an ellipsoid cuts a wall, for seeding cells.
 */
-#include "ellipsoidInternal.h"
+#include "exact.h"
 
 /* Least squared distance of the origin from the triangle p, Ericson,
    Real-Time Collision Detection (2005), section 5.1.5. */
@@ -70,6 +70,27 @@ static double distance_squared(double p[3][3])
     return ellipsoid_dot(nearest, nearest);
 }
 
+int ellipsoid_exact_cuts(const ellipsoid_facet *facet,
+                         const ellipsoid_exact_body *body)
+{
+    double (*r)[3] = (double (*)[3])body->rotation;
+    double p[3][3];
+
+    /* Where the ellipsoid is the unit sphere, distances tell */
+    for (int k = 0; k < 3; ++k)
+    {
+        double d[3];
+
+        ellipsoid_difference(facet->vertex[k], body->centre, d);
+        ellipsoid_combination(r, d[0], d[1], d[2], p[k]);
+        for (int i = 0; i < 3; ++i)
+        {
+            p[k][i] /= body->axes[i];
+        }
+    }
+    return distance_squared(p) < 1;
+}
+
 ellipsoid_status
 ellipsoid_overlaps_walls(const ellipsoid_model *model,
                          const ellipsoid_surroundings *surroundings,
@@ -78,7 +99,7 @@ ellipsoid_overlaps_walls(const ellipsoid_model *model,
     const double *axes = model->options.semi_axes;
     const double longest = fmax(axes[0], fmax(axes[1], axes[2]));
     ellipsoid_facet_list list;
-    double rotation[3][3];
+    ellipsoid_exact_body body;
 
     *overlaps = 0;
 
@@ -93,34 +114,11 @@ ellipsoid_overlaps_walls(const ellipsoid_model *model,
         return ELLIPSOID_WALLS_FAILED;
     }
 
-    ellipsoid_rotation(q, rotation);
+    ellipsoid_exact_place(axes, x, q, &body);
 
-    for (int n = 0; n < list.count; ++n)
+    for (int n = 0; n < list.count && !*overlaps; ++n)
     {
-        /* Where the ellipsoid is the unit sphere, distances tell */
-        const ellipsoid_facet *facet = &list.facets[list.index[n]];
-        double p[3][3];
-
-        for (int k = 0; k < 3; ++k)
-        {
-            for (int i = 0; i < 3; ++i)
-            {
-                p[k][i] = 0;
-
-                for (int j = 0; j < 3; ++j)
-                {
-                    p[k][i] += rotation[j][i] * (facet->vertex[k][j] - x[j]);
-                }
-
-                p[k][i] /= axes[i];
-            }
-        }
-
-        if (distance_squared(p) < 1)
-        {
-            *overlaps = 1;
-            return ELLIPSOID_OK;
-        }
+        *overlaps = ellipsoid_exact_cuts(&list.facets[list.index[n]], &body);
     }
 
     return ELLIPSOID_OK;

@@ -81,7 +81,10 @@ ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
     {
         m.dissipative = options->friction > 0 || options->contact_damping > 0;
         m.bead_count = ellipsoid_beads(options, m.bead);
-        m.reach = contact_reach(&m);
+        /* of the ellipsoid, too, if that is what meets the walls */
+        m.reach = options->contact_shape == ELLIPSOID_CONTACT_ELLIPSOID
+                    ? fmax(m.reach, contact_reach(&m))
+                    : contact_reach(&m);
     }
 
     *model = m;

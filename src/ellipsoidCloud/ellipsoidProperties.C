@@ -27,6 +27,14 @@ License
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
+const Foam::Enum<ellipsoid_contact_shape>
+Foam::ellipsoidProperties::shapeNames_
+({
+    { ELLIPSOID_CONTACT_BEADS, "beads" },
+    { ELLIPSOID_CONTACT_ELLIPSOID, "ellipsoid" }
+});
+
+
 const Foam::Enum<ellipsoid_bead_layout>
 Foam::ellipsoidProperties::layoutNames_
 ({
@@ -110,6 +118,7 @@ namespace Foam
         { "brownian", "brownian", "active", nullptr },
         { "temperature", "brownian", "temperature", nullptr },
         { "noise_interval", "brownian", "interval", nullptr },
+        { "contact_shape", "contact", "shape", nullptr },
         { "bead_layout", "contact", "beadLayout", nullptr },
         { "bead_count", "contact", "beads", nullptr },
         {
@@ -120,6 +129,8 @@ namespace Foam
         { "friction", "contact", "friction", nullptr },
         { "slip_speed", "contact", "slipSpeed", nullptr },
         { "contact_damping", "contact", "damping", nullptr },
+        { "adhesion", "contact", "adhesion", nullptr },
+        { "adhesion_range", "contact", "adhesionRange", nullptr },
         { "tolerance", "integration", "tolerance", nullptr },
         { "initial_step", "integration", "initialStep", nullptr },
         { "minimum_step", "integration", "minimumStep", nullptr },
@@ -141,6 +152,7 @@ namespace Foam
         // Enumerators, and switches that are 0 or 1 in the core
         range.replaceAll("PAPER", "paper");
         range.replaceAll("INERTIALESS", "inertialess");
+        range.replaceAll("ELLIPSOID", "ellipsoid");
         range.replaceAll("0 without", "no without");
         range.replaceAll("1 with", "yes with");
 
@@ -219,13 +231,16 @@ void Foam::ellipsoidProperties::readOptions()
     (
         contact,
         {
-            "active", "cells", "beadLayout", "beads", "beadRadius", "modulus",
-            "friction", "slipSpeed", "damping"
+            "active", "cells", "shape", "beadLayout", "beads", "beadRadius",
+            "modulus", "friction", "slipSpeed", "damping", "adhesion",
+            "adhesionRange"
         }
     );
     options_.contact = contact.getOrDefault("active", Switch(options_.contact));
     pushing_ = contact.getOrDefault("cells", Switch(true));
     pushing_ = pushing_ && options_.contact;
+    options_.contact_shape =
+        shapeNames_.getOrDefault("shape", contact, options_.contact_shape);
     options_.bead_layout =
         layoutNames_.getOrDefault("beadLayout", contact, options_.bead_layout);
     options_.bead_count = contact.getOrDefault("beads", options_.bead_count);
@@ -238,6 +253,9 @@ void Foam::ellipsoidProperties::readOptions()
         contact.getOrDefault("slipSpeed", options_.slip_speed);
     options_.contact_damping =
         contact.getOrDefault("damping", options_.contact_damping);
+    options_.adhesion = contact.getOrDefault("adhesion", options_.adhesion);
+    options_.adhesion_range =
+        contact.getOrDefault("adhesionRange", options_.adhesion_range);
 
     const dictionary& integration = section("integration");
     checkKeywords

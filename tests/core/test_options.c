@@ -75,6 +75,9 @@ static void test_faults_are_named(void **unused)
     assert_refused(slip_speed, 0, "slip_speed");
     assert_needs_number(contact_damping, "contact_damping");
     assert_refused(contact_damping, -1, "contact_damping");
+    assert_refused(contact_shape, (ellipsoid_contact_shape)2, "contact_shape");
+    assert_needs_number(adhesion, "adhesion");
+    assert_refused(adhesion, -1e-12, "adhesion");
     assert_needs_number(tolerance, "tolerance");
     assert_refused(tolerance, 0.9e-14, "tolerance");
     assert_refused(tolerance, 0.11, "tolerance");
@@ -85,6 +88,26 @@ static void test_faults_are_named(void **unused)
     assert_needs_number(maximum_step, "maximum_step");
     assert_refused(maximum_step, 1e-19, "maximum_step");
     assert_refused(maximum_steps, 0, "maximum_steps");
+}
+
+/* The range of adhesion matters where there is adhesion. */
+static void test_adhesion_range(void **unused)
+{
+    const double refused[] = {0, -1, 0.29e-6, NAN, HUGE_VAL};
+
+    (void)unused;
+    for (int n = 0; n < 5; n++)
+    {
+        ellipsoid_options options = ellipsoid_options_default();
+        const char *field = NULL;
+
+        options.adhesion_range = refused[n];
+        assert_ok(ellipsoid_options_check(&options, NULL, NULL));
+        options.adhesion = 1e-12;
+        assert_int_equal(ellipsoid_options_check(&options, &field, NULL),
+                         ELLIPSOID_BAD_OPTION);
+        assert_string_equal(field, "adhesion_range");
+    }
 }
 
 /* Contact members do not matter where there is no contact. */
@@ -176,6 +199,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_default_is_accepted),
         cmocka_unit_test(test_faults_are_named),
+        cmocka_unit_test(test_adhesion_range),
         cmocka_unit_test(test_contact_off),
         cmocka_unit_test(test_bad_options_leave_the_model),
         cmocka_unit_test(test_model_of_the_paper),

@@ -289,9 +289,11 @@ static void test_random_ground(void **unused)
             for (int s = -20; s <= samples; s++)
             {
                 const double way = s > 0 ? s * step : 0;
-                const ellipsoid_bead bead = {{start[0] + way * cos(angle),
-                                              start[1] + way * sin(angle), z},
-                                             r, 1};
+                const ellipsoid_bead bead = {
+                    .centre = {start[0] + way * cos(angle),
+                               start[1] + way * sin(angle), z},
+                    .radius = r,
+                    .stiffness = 1};
                 const ellipsoid_candidates from = {wall.facets, index,
                                                    list.count};
                 double force[3] = {0, 0, 0}, gap = 4;

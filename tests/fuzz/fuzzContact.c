@@ -17,7 +17,9 @@ static void check_contact(const ellipsoid_model *model, int has_walls,
     require(has_walls ? c->gap <= model->options.bead_radius
                       : c->gap == HUGE_VAL);
     require(c->deepest == fmax(0, -c->gap));
-    require(c->touching_beads == 0 || c->deepest > 0);
+    require(c->touching_beads == 0 || c->deepest > 0
+            || (model->options.adhesion > 0
+                && c->gap < model->options.adhesion_range));
     for (int n = 0; n < c->touched_count; n++)
     {
         for (int m = 0; m < n; m++)

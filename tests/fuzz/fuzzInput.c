@@ -89,14 +89,27 @@ static void read_beads(fuzz_input *in, ellipsoid_options *o)
     o->bead_radius =
         fmin(a[0], fmin(a[1], a[2])) * fuzz_scaled(in, 0.05, 0.99);
     o->contact_modulus = fuzz_scaled(in, 1e2, 1e9);
+    if (fuzz_choice(in, 2))
+    {
+        o->contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;
+    }
+    if (fuzz_choice(in, 2))
+    {
+        o->adhesion = o->contact_modulus * o->bead_radius * o->bead_radius
+                    * fuzz_scaled(in, 1e-9, 1);
+        o->adhesion_range = o->bead_radius * fuzz_scaled(in, 1e-3, 0.99);
+    }
 }
 
 static void read_contact_law(fuzz_input *in, ellipsoid_options *o)
 {
     const int which = fuzz_choice(in, 4);
 
-    o->friction = which & 1 ? fuzz_scaled(in, 1e-3, 10) : 0;
-    o->contact_damping = which & 2 ? fuzz_scaled(in, 1e-3, 1e6) : 0;
+    const int rubs =
+        o->adhesion == 0 && o->contact_shape == ELLIPSOID_CONTACT_BEADS;
+
+    o->friction = rubs && which & 1 ? fuzz_scaled(in, 1e-3, 10) : 0;
+    o->contact_damping = rubs && which & 2 ? fuzz_scaled(in, 1e-3, 1e6) : 0;
     o->slip_speed = fuzz_scaled(in, 1e-9, 1);
 }
 
@@ -206,7 +219,8 @@ void fuzz_wild_options(fuzz_input *in, ellipsoid_options *o)
         &o->contact_modulus,    &o->tolerance,
         &o->initial_step,       &o->minimum_step,
         &o->maximum_step,       &o->friction,
-        &o->slip_speed,         &o->contact_damping};
+        &o->slip_speed,         &o->contact_damping,
+        &o->adhesion,           &o->adhesion_range};
     int *const integers[] = {&o->drag,     &o->flow_points, &o->buoyancy,
                              &o->brownian, &o->contact,     &o->bead_count};
     static const int known[] = {0,   1,   2,   32,      50,      51,     256,
@@ -215,19 +229,19 @@ void fuzz_wild_options(fuzz_input *in, ellipsoid_options *o)
 
     for (int n = 0; n < changes; n++)
     {
-        const int which = fuzz_choice(in, 35);
+        const int which = fuzz_choice(in, 37);
 
-        if (which < 24)
+        if (which < 26)
         {
             /* within the ranges' ends, or anything */
             *numbers[which] = fuzz_choice(in, 2) ? fuzz_wild(in)
                                                  : fuzz_scaled(in, 1e-20, 1e20);
         }
-        else if (which < 30)
+        else if (which < 32)
         {
-            *integers[which - 24] = known[fuzz_choice(in, 13)];
+            *integers[which - 26] = known[fuzz_choice(in, 13)];
         }
-        else if (which == 30)
+        else if (which == 32)
         {
             o->maximum_steps = (long)fuzz_bits(in, 8) % 24;
         }
@@ -236,11 +250,14 @@ void fuzz_wild_options(fuzz_input *in, ellipsoid_options *o)
             /* what C lets an enumeration hold */
             const int value = known[fuzz_choice(in, 13)];
 
-            switch (which % 4)
+            switch (which % 5)
             {
                 case 0: o->motion = (ellipsoid_motion)value; break;
                 case 1: o->flow_at = (ellipsoid_flow_at)value; break;
                 case 2: o->bead_layout = (ellipsoid_bead_layout)value; break;
+                case 3:
+                    o->contact_shape = (ellipsoid_contact_shape)value;
+                    break;
                 default:
                     o->pressure_gradient = (ellipsoid_pressure_gradient)value;
             }
