@@ -134,6 +134,14 @@ int ellipsoid_facet_concerns(const ellipsoid_facet *facet,
                              const double centre[3], double reach,
                              double margin);
 
+/* A vertex is answered for by the facets that have a convex edge there and, for
+   the sake of rounding, by those that the point is right above. */
+int ellipsoid_facet_answers(const ellipsoid_facet *facet, int k);
+
+/* Is the wall at this vertex nowhere nearer to the point? r: vertex to point */
+int ellipsoid_facet_is_apex(const ellipsoid_facet *facet, int k,
+                            const double r[3], double tolerance);
+
 /* One bead, lab frame. */
 typedef struct ellipsoid_bead
 {
@@ -226,5 +234,37 @@ static inline int ellipsoid_has_walls(const ellipsoid_model *model,
 {
     return model->options.contact && around->walls != NULL;
 }
+
+/* ---------------------------------------------------------- near walls */
+
+/* Does the resistance know of walls? */
+static inline int
+ellipsoid_has_near_walls(const ellipsoid_model *model,
+                         const ellipsoid_surroundings *around)
+{
+    return model->options.wall_resistance != ELLIPSOID_WALL_RESISTANCE_NONE
+        && around->walls != NULL;
+}
+
+/*
+    The drag where walls are near (wallDrag.c); where none is, *acted is 0 and
+    nothing done. balanced: sets the state's u and omega to those that balance
+    force [N, lab] and torque [N m, body]. Otherwise, and for the blocks, adds
+    the drag to these. axis and axis_derivatives as in ellipsoid_body_flow().
+*/
+ellipsoid_status ellipsoid_wall_drag(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    ellipsoid_contact_cache *cache, ellipsoid_state *state, int balanced,
+    double axis[3][3], double axis_derivatives[4][3][3],
+    const ellipsoid_free_motion *free, double force[3], double torque[3],
+    ellipsoid_blocks *blocks, int *acted);
+
+/* Adds to u [m/s, lab] and omega [rad/s, body] what a force [N, lab] and a
+   torque [N m, body] do against the resistance in this pose. */
+ellipsoid_status ellipsoid_wall_yield(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    ellipsoid_contact_cache *cache, const double x[3], const double q[4],
+    const double force[3], const double torque[3], double u[3],
+    double omega[3]);
 
 #endif

@@ -21,19 +21,14 @@
 /* Relative slack of 'not nearer': closes the gaps that rounding would leave. */
 static const double slack = 1e-9;
 
-/*
-    A vertex is answered for by the facets that have a convex edge there and,
-    for the sake of rounding, by those that the point is right above.
-*/
-static int answers(const ellipsoid_facet *facet, int k)
+int ellipsoid_facet_answers(const ellipsoid_facet *facet, int k)
 {
     return facet->edge[k] == ELLIPSOID_EDGE_CONVEX
         || facet->edge[(k + 2) % 3] == ELLIPSOID_EDGE_CONVEX;
 }
 
-/* Is the wall at this vertex nowhere nearer to the point? r: vertex to point */
-static int is_apex(const ellipsoid_facet *facet, int k, const double r[3],
-                   double tolerance)
+int ellipsoid_facet_is_apex(const ellipsoid_facet *facet, int k,
+                            const double r[3], double tolerance)
 {
     for (int i = 0; i < facet->star_count[k]; i++)
     {
@@ -144,8 +139,10 @@ int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
     length = sqrt(squared);
     nearest->feature = length > 0 ? ELLIPSOID_ON_VERTEX : ELLIPSOID_ON_FACE;
     return length < reach
-        && (answers(facet, closest) || fabs(height) >= (1 - slack) * length)
-        && is_apex(facet, closest, from[closest], slack * length)
+        && (ellipsoid_facet_answers(facet, closest)
+            || fabs(height) >= (1 - slack) * length)
+        && ellipsoid_facet_is_apex(facet, closest, from[closest],
+                                   slack * length)
         && from_rim(facet, from[closest], length, nearest);
 }
 
@@ -190,7 +187,7 @@ int ellipsoid_facet_concerns(const ellipsoid_facet *facet,
 
         if (edge_concerns(facet, k, inside, foot, length, from, far, wide)
             || (ellipsoid_dot(from, from) <= far * far
-                && is_apex(facet, k, from, wide)))
+                && ellipsoid_facet_is_apex(facet, k, from, wide)))
         {
             return 1;
         }
