@@ -28,7 +28,8 @@ typedef struct ellipsoid_plane
     double normal[3]; /* unit, body frame, into the fluid */
     double normal_slope[ELLIPSOID_POSE_SIZE][3];
     ellipsoid_quantity height; /* [m] of the centre above the plane */
-    ellipsoid_quantity window; /* [-] 1 near, 0 out of range */
+    ellipsoid_quantity window; /* [-] 1 near, 0 out of range, or where
+                                  its place is well beside its facet */
     ellipsoid_quantity weight; /* [-] 0 to 1: window and what it leaves to
                                   other planes */
 } ellipsoid_plane;
@@ -51,7 +52,8 @@ ellipsoid_find_planes(const ellipsoid_model *model,
                       ellipsoid_planes *planes);
 
 /* Sets the weights from all the rest (planeWeights.c). */
-void ellipsoid_weigh_planes(ellipsoid_planes *planes);
+void ellipsoid_weigh_planes(const ellipsoid_model *model,
+                            ellipsoid_planes *planes);
 
 /*
     What a plane at height [m] adds to the resistance, over mu: force [m2/s] and

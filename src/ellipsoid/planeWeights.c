@@ -5,14 +5,11 @@
 
     planeWeights.c - how the planes that stand for walls share what they cover.
 
-    Planes come and go at the end of their range, where the window is zero, and
-    where their place leaves a facet over a concave seam. There it reaches the
-    plane beyond, so that of two planes with c = n_i.n_j > 0 the part
-        c (h_i - c h_j)/(h_j (1 - c^2)),
-    which is 1 there, is taken from i. With g_i, what is left of the window v_i,
-        weight_i = v_i g_i/sum_j max(0, n_i.n_j) g_j.
-    So planes with one normal count once, those of a slit or a right corner
-    fully.
+    In the space where the body is the unit sphere, let planes have the normals
+    N = diag(a) n/p, p being the body's support. With the windows v, which end
+    smoothly wherever a plane comes and goes,
+        weight_i = v_i v_i/sum_j max(0, N_i.N_j) v_j.
+    So planes with one normal count once, those of a slit fully.
 */
 #include "nearWall.h"
 
@@ -21,129 +18,81 @@ enum
     POSE = ELLIPSOID_POSE_SIZE
 };
 
-static ellipsoid_quantity times(const ellipsoid_quantity *a,
-                                const ellipsoid_quantity *b)
+/* A normal where the body is the unit sphere. */
+typedef struct scaled
 {
-    ellipsoid_quantity product = {.value = a->value * b->value};
+    double normal[3], slope[POSE][3];
+} scaled;
 
+static scaled scale(const double axes[3], const ellipsoid_plane *plane)
+{
+    double stretched[3], support;
+    scaled s;
+
+    for (int i = 0; i < 3; i++)
+    {
+        stretched[i] = axes[i] * plane->normal[i];
+    }
+    support = ellipsoid_length(stretched);
+    ellipsoid_set(s.normal, stretched[0] / support, stretched[1] / support,
+                  stretched[2] / support);
     for (int n = 0; n < POSE; n++)
     {
-        product.slope[n] = a->slope[n] * b->value + a->value * b->slope[n];
-    }
-    return product;
-}
+        double along;
 
-static ellipsoid_quantity over(const ellipsoid_quantity *a,
-                               const ellipsoid_quantity *b)
-{
-    ellipsoid_quantity ratio = {.value = a->value / b->value};
-
-    for (int n = 0; n < POSE; n++)
-    {
-        ratio.slope[n] = (a->slope[n] - ratio.value * b->slope[n]) / b->value;
-    }
-    return ratio;
-}
-
-/* a + sign b */
-static ellipsoid_quantity plus(const ellipsoid_quantity *a, double sign,
-                               const ellipsoid_quantity *b)
-{
-    ellipsoid_quantity sum = {.value = a->value + sign * b->value};
-
-    for (int n = 0; n < POSE; n++)
-    {
-        sum.slope[n] = a->slope[n] + sign * b->slope[n];
-    }
-    return sum;
-}
-
-static ellipsoid_quantity cosine(const ellipsoid_plane *a,
-                                 const ellipsoid_plane *b)
-{
-    ellipsoid_quantity c = {.value = ellipsoid_dot(a->normal, b->normal)};
-
-    for (int n = 0; n < POSE; n++)
-    {
-        c.slope[n] = ellipsoid_dot(a->normal_slope[n], b->normal)
-                   + ellipsoid_dot(a->normal, b->normal_slope[n]);
-    }
-    return c;
-}
-
-/* Takes from what is left of i what j covers. */
-static void concede(const ellipsoid_plane *i, const ellipsoid_plane *j,
-                    const ellipsoid_quantity *c, ellipsoid_quantity *left)
-{
-    const ellipsoid_quantity reach_i = times(c, &i->height);
-    const ellipsoid_quantity reach_j = times(c, &j->height);
-    const ellipsoid_quantity mine = plus(&j->height, -1, &reach_i);
-    const ellipsoid_quantity others = plus(&i->height, -1, &reach_j);
-    const ellipsoid_quantity one = {.value = 1};
-    ellipsoid_quantity part = one, kept;
-
-    if (!(others.value > 0))
-    {
-        return;
-    }
-    if (mine.value > 0)
-    {
-        /* mine + c others = h_j (1 - c^2) */
-        const ellipsoid_quantity claim = times(c, &others);
-        const ellipsoid_quantity all = plus(&mine, 1, &claim);
-
-        part = over(&claim, &all);
-    }
-    if (j->window.value < i->window.value)
-    {
-        const ellipsoid_quantity fading = over(&j->window, &i->window);
-
-        part = times(&part, &fading);
-    }
-    kept = plus(&one, -1, &part);
-    *left = times(left, &kept);
-}
-
-void ellipsoid_weigh_planes(ellipsoid_planes *planes)
-{
-    ellipsoid_quantity left[ELLIPSOID_MAX_PLANES];
-
-    for (int i = 0; i < planes->count; i++)
-    {
-        const ellipsoid_plane *plane = &planes->at[i];
-
-        left[i] = plane->window;
-        for (int j = 0; j < planes->count; j++)
+        for (int i = 0; i < 3; i++)
         {
-            const ellipsoid_quantity c = cosine(plane, &planes->at[j]);
-
-            if (j != i && c.value > 0)
-            {
-                concede(plane, &planes->at[j], &c, &left[i]);
-            }
+            stretched[i] = axes[i] * plane->normal_slope[n][i];
+        }
+        along = ellipsoid_dot(s.normal, stretched);
+        for (int i = 0; i < 3; i++)
+        {
+            s.slope[n][i] = (stretched[i] - along * s.normal[i]) / support;
         }
     }
-    for (int i = 0; i < planes->count; i++)
+    return s;
+}
+
+void ellipsoid_weigh_planes(const ellipsoid_model *model,
+                            ellipsoid_planes *planes)
+{
+    const int count = planes->count;
+    scaled s[ELLIPSOID_MAX_PLANES];
+
+    for (int i = 0; i < count; i++)
+    {
+        s[i] = scale(model->options.semi_axes, &planes->at[i]);
+    }
+    for (int i = 0; i < count; i++)
     {
         ellipsoid_plane *plane = &planes->at[i];
-        ellipsoid_quantity sum = left[i];
+        const ellipsoid_quantity *v = &plane->window;
+        ellipsoid_quantity sum = *v;
 
-        for (int j = 0; j < planes->count; j++)
+        for (int j = 0; j < count; j++)
         {
-            const ellipsoid_quantity c = cosine(plane, &planes->at[j]);
+            const ellipsoid_quantity *other = &planes->at[j].window;
+            const double c = ellipsoid_dot(s[i].normal, s[j].normal);
 
-            if (j != i && c.value > 0)
+            if (j == i || !(c > 0))
             {
-                const ellipsoid_quantity covered = times(&c, &left[j]);
-
-                sum = plus(&sum, 1, &covered);
+                continue;
+            }
+            sum.value += c * other->value;
+            for (int n = 0; planes->sloped && n < POSE; n++)
+            {
+                sum.slope[n] += c * other->slope[n]
+                              + (ellipsoid_dot(s[i].slope[n], s[j].normal)
+                                 + ellipsoid_dot(s[i].normal, s[j].slope[n]))
+                                    * other->value;
             }
         }
-        memset(&plane->weight, 0, sizeof(plane->weight));
-        if (left[i].value > 0)
+        plane->weight.value = v->value * v->value / sum.value;
+        for (int n = 0; n < POSE; n++)
         {
-            plane->weight = over(&left[i], &sum);
-            plane->weight = times(&plane->weight, &plane->window);
+            plane->weight.slope[n] = (2 * v->value * v->slope[n]
+                                      - plane->weight.value * sum.slope[n])
+                                   / sum.value;
         }
     }
 }

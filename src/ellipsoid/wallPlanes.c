@@ -29,6 +29,9 @@ static const double slack = 1e-9, same = 1e-8;
 /* The part of the range within which a wall counts fully. */
 static const double full = 0.5;
 
+/* The part of the height over which a place beside its facet fades. */
+static const double fading = 0.25;
+
 /* How far the centre may move before facets are listed again, in ranges. */
 static const double margin_part = 0.1;
 
@@ -47,7 +50,8 @@ typedef struct place
 {
     const ellipsoid_facet *facet;
     int feature, k;
-    double foot;      /* along the edge, 0 to 1 */
+    int over[3];      /* beside the facet, over these edges: it fades */
+    double foot;      /* along the edge, 0 to 1 on it */
     double normal[3]; /* body */
     double height;
 } place;
@@ -91,7 +95,6 @@ typedef struct corners
 static int place_on_edge(const search *s, const corners *c, int k, double foot,
                          const double normal[3], place *p)
 {
-    const ellipsoid_facet *facet = p->facet;
     double r[3], w[3], inward[3];
 
     for (int i = 0; i < 3; i++)
@@ -99,9 +102,8 @@ static int place_on_edge(const search *s, const corners *c, int k, double foot,
         r[i] = c->from[k][i] - foot * c->along[k][i];
     }
     shrink(s, r, w);
-    ellipsoid_product(s->axis, facet->edge_inward[k], inward);
-    return facet->edge[k] != ELLIPSOID_EDGE_CONCAVE
-        && ellipsoid_dot(w, inward) <= slack * ellipsoid_length(w)
+    ellipsoid_product(s->axis, p->facet->edge_inward[k], inward);
+    return ellipsoid_dot(w, inward) <= slack * ellipsoid_length(w)
         && ellipsoid_dot(r, normal) >= -slack * ellipsoid_length(r)
         && set_place(p, ELLIPSOID_ON_EDGE, k, foot, r, w);
 }
@@ -136,18 +138,13 @@ static int place_at_vertex(const search *s, const corners *c,
         && set_place(p, ELLIPSOID_ON_VERTEX, k, 0, c->from[k], w);
 }
 
-static int has_rim(const ellipsoid_facet *facet)
-{
-    return facet->edge[0] != ELLIPSOID_EDGE_CONCAVE
-        || facet->edge[1] != ELLIPSOID_EDGE_CONCAVE
-        || facet->edge[2] != ELLIPSOID_EDGE_CONCAVE;
-}
-
-/* The place outside the facet's face, if it is on this facet's rim. */
+/* The place beside the facet's face, over a convex edge. */
 static int place_on_rim(const search *s, const double normal[3], double bare,
                         const int outside[3], place *p)
 {
     const ellipsoid_facet *facet = p->facet;
+    double best = HUGE_VAL, foot = 0;
+    int edge = 0;
     corners c;
 
     for (int k = 0; k < 3; k++)
@@ -162,23 +159,33 @@ static int place_on_rim(const search *s, const double normal[3], double bare,
     }
     for (int k = 0; k < 3; k++)
     {
-        double w[3], foot;
+        double w[3], at, past;
 
         shrink(s, c.along[k], w);
-        foot = ellipsoid_dot(c.from[k], w) / ellipsoid_dot(c.along[k], w);
-        if (outside[k] && foot >= 0 && foot <= 1)
+        at = ellipsoid_dot(c.from[k], w) / ellipsoid_dot(c.along[k], w);
+        past = fmax(0, fmax(-at, at - 1)) * sqrt(ellipsoid_dot(c.along[k], w));
+        if (outside[k] && facet->edge[k] == ELLIPSOID_EDGE_CONVEX
+            && past < best)
         {
-            return place_on_edge(s, &c, k, foot, normal, p);
+            best = past;
+            edge = k;
+            foot = at;
         }
     }
-    return place_at_vertex(s, &c, normal, bare, p);
+    if (best > 0 && place_at_vertex(s, &c, normal, bare, p))
+    {
+        return 1;
+    }
+    p->over[(edge + 1) % 3] = foot > 1;
+    p->over[(edge + 2) % 3] = foot < 0;
+    return place_on_edge(s, &c, edge, foot, normal, p);
 }
 
 /* Finds the plane that this facet gives; 0 if there is none. */
 static int find_place(const search *s, const ellipsoid_facet *facet, place *p)
 {
     double from[3], normal[3], b[3], foot[3], height, support2;
-    int outside[3], inside = 1;
+    int outside[3], on_rim = 0;
 
     ellipsoid_difference(s->x, facet->vertex[0], from);
     height = ellipsoid_dot(from, facet->normal);
@@ -206,18 +213,20 @@ static int find_place(const search *s, const ellipsoid_facet *facet, place *p)
         ellipsoid_cross(facet->normal, along, inward);
         ellipsoid_difference(foot, facet->vertex[k], from);
         outside[k] = ellipsoid_dot(inward, from) < 0;
-        inside = inside && !outside[k];
+        on_rim = on_rim
+              || (outside[k] && facet->edge[k] == ELLIPSOID_EDGE_CONVEX);
     }
+    memset(p, 0, sizeof(*p));
     p->facet = facet;
-    if (inside)
+    if (on_rim)
     {
-        p->feature = ELLIPSOID_ON_FACE;
-        ellipsoid_copy(normal, p->normal);
-        p->height = height;
-        return 1;
+        return place_on_rim(s, normal, height * height / support2, outside, p);
     }
-    return has_rim(facet)
-        && place_on_rim(s, normal, height * height / support2, outside, p);
+    p->feature = ELLIPSOID_ON_FACE;
+    memcpy(p->over, outside, sizeof(p->over));
+    ellipsoid_copy(normal, p->normal);
+    p->height = height;
+    return 1;
 }
 
 /* ---------------------------------------------------------------- slopes */
@@ -350,21 +359,122 @@ static void set_window(const search *s, ellipsoid_plane *plane)
     }
 }
 
+/* How the place's distance from the centre, as seen by the body, changes: r =
+   D m h/p^2 */
+static void place_slope(const search *s, const ellipsoid_plane *plane,
+                        double support2, int n, double change[3])
+{
+    const double *m = plane->normal, *by = plane->normal_slope[n];
+    double of_support2 = 0;
+
+    for (int i = 0; i < 3; i++)
+    {
+        of_support2 += 2 * s->square[i] * m[i] * by[i];
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        change[i] = s->square[i] / support2
+                  * (by[i] * plane->height.value
+                     + m[i]
+                           * (plane->height.slope[n]
+                              - plane->height.value * of_support2 / support2));
+    }
+}
+
+/*
+    Takes from the window by how far the place lies beside the facet, over edge
+    k. With y = h/p the scaled height and d the scaled distance, u = d/(y f),
+    the rest is 1 - u^2 (3 - 2 u).
+*/
+static void fade(const search *s, const place *p, int k, ellipsoid_plane *plane)
+{
+    const double *m = plane->normal, *vertex = p->facet->vertex[k];
+    double line[3], along[3], lab[3], zeta[3], epsilon[3], out[3];
+    double support2 = 0, d, u, rest, ratio;
+
+    for (int i = 0; i < 3; i++)
+    {
+        support2 += s->square[i] * m[i] * m[i];
+    }
+    ellipsoid_difference(s->x, vertex, line);
+    ellipsoid_difference(p->facet->vertex[(k + 1) % 3], vertex, along);
+    ellipsoid_product(s->axis, line, zeta);
+    ellipsoid_product(s->axis, along, epsilon);
+    for (int i = 0; i < 3; i++)
+    {
+        const double a = sqrt(s->square[i]);
+
+        zeta[i] = (zeta[i]
+                   - s->square[i] * m[i] * plane->height.value / support2)
+                / a;
+        epsilon[i] /= a;
+    }
+    ratio = ellipsoid_dot(zeta, epsilon) / ellipsoid_dot(epsilon, epsilon);
+    for (int i = 0; i < 3; i++)
+    {
+        out[i] = zeta[i] - ratio * epsilon[i];
+    }
+    d = ellipsoid_length(out);
+    u = d * sqrt(support2) / (fading * plane->height.value);
+    if (!(u < 1))
+    {
+        plane->window.value = 0;
+        return;
+    }
+    rest = 1 - u * u * (3 - 2 * u);
+    ellipsoid_copy(along, lab);
+    for (int n = 0; s->turned && n < POSE; n++)
+    {
+        double moved[3], turned[3], slid[3], of_d = 0, of_support2 = 0;
+
+        changed(s, n, 1, line, moved);
+        changed(s, n, 0, lab, turned);
+        place_slope(s, plane, support2, n, slid);
+        for (int i = 0; i < 3; i++)
+        {
+            of_d += out[i] * (moved[i] - slid[i] - ratio * turned[i])
+                  / sqrt(s->square[i]);
+            of_support2 += 2 * s->square[i] * m[i] * plane->normal_slope[n][i];
+        }
+        of_d = d > 0 ? of_d / d : 0;
+        plane->window.slope[n] =
+            plane->window.slope[n] * rest
+            - plane->window.value * 6 * (1 - u)
+                  * (u * of_d * sqrt(support2)
+                         / (fading * plane->height.value)
+                     + u * u
+                           * (0.5 * of_support2 / support2
+                              - plane->height.slope[n] / plane->height.value));
+    }
+    plane->window.value *= rest;
+}
+
 /* ------------------------------------------------------------ all planes */
 
-static void add_plane(const search *s, const place *p, ellipsoid_planes *all)
+static int is_same(const search *s, const ellipsoid_plane *a,
+                   const ellipsoid_plane *b)
 {
-    ellipsoid_plane plane;
-    int at = all->count, farthest = 0;
+    double d[3];
+
+    ellipsoid_difference(a->normal, b->normal, d);
+    return ellipsoid_dot(d, d) < same * same
+        && fabs(a->height.value - b->height.value) < same * s->range;
+}
+
+/* Of planes seen twice the one that fades less is kept. */
+static void keep(const search *s, const ellipsoid_plane *plane,
+                 ellipsoid_planes *all)
+{
+    int farthest = 0;
 
     for (int i = 0; i < all->count; i++)
     {
-        double d[3];
-
-        ellipsoid_difference(all->at[i].normal, p->normal, d);
-        if (ellipsoid_dot(d, d) < same * same
-            && fabs(all->at[i].height.value - p->height) < same * s->range)
+        if (is_same(s, &all->at[i], plane))
         {
+            if (plane->window.value > all->at[i].window.value)
+            {
+                all->at[i] = *plane;
+            }
             return;
         }
         if (all->at[i].height.value > all->at[farthest].height.value)
@@ -372,14 +482,20 @@ static void add_plane(const search *s, const place *p, ellipsoid_planes *all)
             farthest = i;
         }
     }
-    if (at == ELLIPSOID_MAX_PLANES)
+    if (all->count < ELLIPSOID_MAX_PLANES)
     {
-        if (p->height >= all->at[farthest].height.value)
-        {
-            return;
-        }
-        at = farthest;
+        all->at[all->count++] = *plane;
     }
+    else if (plane->height.value < all->at[farthest].height.value)
+    {
+        all->at[farthest] = *plane;
+    }
+}
+
+static void add_plane(const search *s, const place *p, ellipsoid_planes *all)
+{
+    ellipsoid_plane plane;
+
     memset(&plane, 0, sizeof(plane));
     ellipsoid_copy(p->normal, plane.normal);
     plane.height.value = p->height;
@@ -395,10 +511,16 @@ static void add_plane(const search *s, const place *p, ellipsoid_planes *all)
         }
     }
     set_window(s, &plane);
+    for (int k = 0; k < 3 && plane.window.value > 0; k++)
+    {
+        if (p->over[k])
+        {
+            fade(s, p, k, &plane);
+        }
+    }
     if (plane.window.value > 0)
     {
-        all->at[at] = plane;
-        all->count += at == all->count;
+        keep(s, &plane, all);
     }
 }
 
@@ -521,7 +643,7 @@ ellipsoid_find_planes(const ellipsoid_model *model,
     }
     else
     {
-        ellipsoid_weigh_planes(planes);
+        ellipsoid_weigh_planes(model, planes);
     }
     return ELLIPSOID_OK;
 }
