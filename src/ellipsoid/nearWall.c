@@ -40,7 +40,7 @@ typedef struct plane_geometry
     double s, tau;
     double e1, e2;         /* E = e1 - e2 rho */
     double squeeze, shear; /* 12 pi S^3/(tau gap) screened, 2 pi S L */
-    double near;           /* l/(l + gap), l^2 = (tr D - n.D n)/2 */
+    double near;           /* l/(l + gap), l = p (tau/(2 S))^(3/2) */
     double close;          /* p/h */
     double log_tail;       /* L */
     double arm[3];         /* -b/p: the nearest point */
@@ -128,7 +128,7 @@ static plane_geometry geometry(const ellipsoid_model *model,
     g2 = g.s * g.s;
     g.e1 = 12 * (2 * g.tau * g.tau + g2) / (6 * g.tau * g.tau + g2);
     g.e2 = 24 * g.tau / (6 * g.tau * g.tau + g2);
-    length = sqrt(0.5 * (g.trace - g.support2));
+    length = g.support * pow(0.5 * g.tau / g.s, 1.5);
     g.near = length / (length + g.gap);
     g.squeeze = 12 * pi * g2 * g.s / (g.tau * g.gap) * g.near * g.near * g.near;
     g.close = g.support / g.height;
@@ -142,8 +142,7 @@ static plane_change change_of(const plane_geometry *g, int n)
 {
     plane_change d = {.height = 0};
     const double bb = ellipsoid_dot(g->b, g->b), p = g->support;
-    const double length2 = 0.5 * (g->trace - g->support2);
-    const double length = sqrt(length2), g2 = g->s * g->s;
+    const double g2 = g->s * g->s;
     const double lower = 6 * g->tau * g->tau + g2;
     double s, tau, close, near, tail, of_g2, of_lower;
 
@@ -171,8 +170,9 @@ static plane_change change_of(const plane_geometry *g, int n)
     of_lower = 12 * g->tau * tau + of_g2;
     d.e1 = (12 * (4 * g->tau * tau + of_g2) - g->e1 * of_lower) / lower;
     d.e2 = (24 * tau - g->e2 * of_lower) / lower;
-    near = (-0.25 * d.support2 * g->gap / length2 - d.gap)
-         / (length + g->gap);
+    /* of near over near, as 1 - near = gap/(l + gap) */
+    near = (1 - g->near)
+         * (d.support / p + 1.5 * (tau / g->tau - s / g->s) - d.gap / g->gap);
     d.squeeze = g->squeeze
               * (3 * s / g->s - tau / g->tau - d.gap / g->gap + 3 * near);
     close = (d.support - g->close * d.height) / g->height;

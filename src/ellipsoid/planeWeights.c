@@ -7,11 +7,14 @@
 
     In the space where the body is the unit sphere, let planes have the normals
     N = diag(a) n/p, p being the body's support. With the windows v, which end
-    smoothly wherever a plane comes and goes,
-        weight_i = v_i v_i/sum_j max(0, N_i.N_j) v_j.
-    So planes with one normal count once, those of a slit fully.
+    smoothly wherever a plane comes and goes, and c_ij = max(0, N_i.N_j),
+        weight_i = v_i (1 - prod_j (1 - c_ij v_j))/sum_j c_ij v_j.
+    So planes with one normal count once, though one of them fades; those of a
+    slit fully.
 */
 #include "nearWall.h"
+
+#include <math.h>
 
 enum
 {
@@ -53,6 +56,61 @@ static scaled scale(const double axes[3], const ellipsoid_plane *plane)
     return s;
 }
 
+/* c_ij v_j and its slopes */
+static ellipsoid_quantity covered(const ellipsoid_planes *planes,
+                                  const scaled s[], int i, int j)
+{
+    const ellipsoid_quantity *v = &planes->at[j].window;
+    const double c = ellipsoid_dot(s[i].normal, s[j].normal);
+    ellipsoid_quantity part = *v;
+
+    if (j == i)
+    {
+        return part;
+    }
+    part.value = fmax(0, c) * v->value;
+    for (int n = 0; n < POSE; n++)
+    {
+        part.slope[n] = c > 0
+                          ? c * v->slope[n]
+                                + (ellipsoid_dot(s[i].slope[n], s[j].normal)
+                                   + ellipsoid_dot(s[i].normal, s[j].slope[n]))
+                                      * v->value
+                          : 0;
+    }
+    return part;
+}
+
+static void share(ellipsoid_planes *planes, const scaled s[], int i)
+{
+    ellipsoid_plane *plane = &planes->at[i];
+    const ellipsoid_quantity *v = &plane->window;
+    ellipsoid_quantity sum = {.value = 0}, bare = {.value = 1};
+    double part;
+
+    for (int j = 0; j < planes->count; j++)
+    {
+        const ellipsoid_quantity c = covered(planes, s, i, j);
+
+        for (int n = 0; n < POSE; n++)
+        {
+            sum.slope[n] += c.slope[n];
+            bare.slope[n] =
+                bare.slope[n] * (1 - c.value) - bare.value * c.slope[n];
+        }
+        sum.value += c.value;
+        bare.value *= 1 - c.value;
+    }
+    part = (1 - bare.value) / sum.value;
+    plane->weight.value = v->value * part;
+    for (int n = 0; n < POSE; n++)
+    {
+        plane->weight.slope[n] =
+            v->slope[n] * part
+            - v->value * (bare.slope[n] + part * sum.slope[n]) / sum.value;
+    }
+}
+
 void ellipsoid_weigh_planes(const ellipsoid_model *model,
                             ellipsoid_planes *planes)
 {
@@ -65,34 +123,6 @@ void ellipsoid_weigh_planes(const ellipsoid_model *model,
     }
     for (int i = 0; i < count; i++)
     {
-        ellipsoid_plane *plane = &planes->at[i];
-        const ellipsoid_quantity *v = &plane->window;
-        ellipsoid_quantity sum = *v;
-
-        for (int j = 0; j < count; j++)
-        {
-            const ellipsoid_quantity *other = &planes->at[j].window;
-            const double c = ellipsoid_dot(s[i].normal, s[j].normal);
-
-            if (j == i || !(c > 0))
-            {
-                continue;
-            }
-            sum.value += c * other->value;
-            for (int n = 0; planes->sloped && n < POSE; n++)
-            {
-                sum.slope[n] += c * other->slope[n]
-                              + (ellipsoid_dot(s[i].slope[n], s[j].normal)
-                                 + ellipsoid_dot(s[i].normal, s[j].slope[n]))
-                                    * other->value;
-            }
-        }
-        plane->weight.value = v->value * v->value / sum.value;
-        for (int n = 0; n < POSE; n++)
-        {
-            plane->weight.slope[n] = (2 * v->value * v->slope[n]
-                                      - plane->weight.value * sum.slope[n])
-                                   / sum.value;
-        }
+        share(planes, s, i);
     }
 }

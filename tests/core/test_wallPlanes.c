@@ -118,7 +118,8 @@ static void add_landscape(wall_mesh *mesh)
 }
 
 /* Of the fourth order, step 1e-5 of the semi-axis and of q: the block's edge and
-   corner bend the planes within 1 um. 1e-6 of the block's size. */
+   corner bend the planes within 1 um. 1e-6 of the block's size, and what
+   rounding of the accelerations leaves. */
 static int compare_jacobian(const ellipsoid_model *m,
                             const ellipsoid_surroundings *s,
                             const ellipsoid_state *state)
@@ -130,9 +131,11 @@ static int compare_jacobian(const ellipsoid_model *m,
     assert_ok(ellipsoid_jacobian(m, s, state, &cache, jacobian));
     for (int j = 0; j < SIZE; j++)
     {
-        const double step = j < AT_X ? 1e-6 : j < AT_OMEGA ? 2e-11
-                          : j < AT_Q ? 1e-2 : 1e-5;
-        double slope[SIZE] = {0};
+        const double step = j < AT_X       ? 1e-3
+                          : j < AT_OMEGA ? 2e-11
+                          : j < AT_Q     ? 1e3
+                                         : 1e-5;
+        double slope[SIZE] = {0}, largest[SIZE] = {0};
 
         for (int p = -2; p <= 2; p++)
         {
@@ -147,18 +150,20 @@ static int compare_jacobian(const ellipsoid_model *m,
             for (int i = 0; i < SIZE; i++)
             {
                 slope[i] += weight[p + 2] * f[i] / step;
+                largest[i] = fmax(largest[i], fabs(f[i]));
             }
         }
         for (int begin = 0; begin < AT_Q; begin += AT_OMEGA)
         {
-            double size = 0, error = 0;
+            double size = 0, error = 0, rounding = 0;
 
             for (int i = begin; i < begin + 3; i++)
             {
                 size = fmax(size, fabs(jacobian[i][j]));
                 error = fmax(error, fabs(slope[i] - jacobian[i][j]));
+                rounding = fmax(rounding, 1e-14 * largest[i] / step);
             }
-            bad += !(error <= 1e-6 * size);
+            bad += !(error <= 1e-6 * size + rounding);
         }
     }
     return bad;
@@ -215,10 +220,8 @@ static void test_jacobian(void **unused)
         model = test_model(&model.options);
         bad += compare_jacobian(&model, &s, &state) > 0;
     }
-    /* across a seam's kink, or the end of a range, there are no derivatives */
-    print_message("%d of 400 states at a kink, %d with six planes or more\n",
-                  bad, several);
-    assert_true(bad <= 4);
+    print_message("%d of 400 states with six planes or more\n", several);
+    assert_true(bad == 0);
     assert_true(several > 50);
     wall_mesh_free(&mesh);
 }
@@ -290,18 +293,20 @@ static double largest_change(const ellipsoid_model *m, wall_mesh *mesh,
     return worst;
 }
 
-/* An arc of a trough (sign 1: concave) or a ridge of facets 15 degrees apart. */
+/* A tunnel (sign 1) or a post (-1) along x2, touched from within or outside by
+   x3 = 0. */
 typedef struct arc
 {
-    double sign, radius, step;
+    double sign, radius;
 } arc;
 
 static void bend(const double *uv, double point[3], void *context)
 {
     const arc *a = context;
-    const double angle = a->step * (uv[0] - 0.5);
+    const double angle = 2 * test_pi * (uv[0] - 0.5);
+    const double across = fabs(sin(angle)) < 1e-9 ? 0 : sin(angle);
 
-    ellipsoid_set(point, a->radius * sin(angle), 4e-5 * (uv[1] - 0.5),
+    ellipsoid_set(point, a->radius * across, 6e-5 * (uv[1] - 0.5),
                   a->sign * a->radius * (1 - cos(angle)));
 }
 
@@ -317,13 +322,13 @@ static void test_continuous(void **unused)
     uint64_t seed = 23;
 
     (void)unused;
-    for (int n = 0; n < 24; n++)
+    for (int n = 0; n < 20; n++)
     {
         const double ends[2][3] = {
             {2e-6 * test_signed(&seed), 3e-6 * test_signed(&seed), 2e-6},
             {2e-6 * test_signed(&seed), 3e-6 * test_signed(&seed),
              n % 4 == 3 ? 14e-6 : 2.5e-6}};
-        arc shape = {n % 4 == 1 ? -1 : 1, 8e-6, 12 * test_pi / 12};
+        arc shape = {n % 4 == 1 ? -1 : 1, 8e-6};
         double q[4], coarse, fine;
         wall_mesh mesh;
 
@@ -334,15 +339,16 @@ static void test_continuous(void **unused)
         }
         else
         {
-            wall_mesh_grid(&mesh, n % 4 == 3 ? 5 : 12, 3, bend, &shape, 2, 0);
+            wall_mesh_grid(&mesh, n % 4 == 3 ? 7 : 24, 3, bend, &shape, 2, 0);
         }
         wall_mesh_finish(&mesh);
         test_orientation(&seed, q);
         ellipsoid_contact_cache_clear(&cache);
         coarse =
-            largest_change(&model, &mesh, ends[0], ends[1], q, 3000);
-        fine = largest_change(&model, &mesh, ends[0], ends[1], q, 30000);
+            largest_change(&model, &mesh, ends[0], ends[1], q, 400);
+        fine = largest_change(&model, &mesh, ends[0], ends[1], q, 4000);
         print_message("%d: %.1e %.1e\n", n % 4, coarse, fine);
+        assert_true(fine < 0.35 * coarse);
         wall_mesh_free(&mesh);
     }
 }
