@@ -379,7 +379,7 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 
 #define ELLIPSOID_MAX_PAIRS 2048
 #define ELLIPSOID_MAX_TOUCHED 8
-#define ELLIPSOID_MAX_NEAR 1024
+#define ELLIPSOID_MAX_NEAR 4096
 
 /*
     Which facets each bead may touch, and which the resistance may know of, kept

@@ -350,6 +350,23 @@ static void respond_change(plane_geometry *g, const plane_change *d,
     }
 }
 
+void ellipsoid_plane_matrix(const ellipsoid_model *model,
+                            const double normal[3], double height,
+                            double matrix[6][6])
+{
+    plane_geometry g = geometry(model, normal, height);
+
+    for (int n = 0; n < 6; n++)
+    {
+        double rates[6] = {0};
+        response r;
+
+        rates[n] = 1;
+        r = respond(&g, rates);
+        sum_up(&g, &r, matrix[n]);
+    }
+}
+
 void ellipsoid_plane_resistance(const ellipsoid_model *model,
                                 const double normal[3], double height,
                                 const double rates[6], double action[6],

@@ -10,6 +10,46 @@
 
 #include "ellipsoidInternal.h"
 
+/* The part of the height over which a place beside its facet fades. */
+static const double ellipsoid_fading = 0.25;
+
+/* What the search of the planes of one pose needs. */
+typedef struct ellipsoid_wall_search
+{
+    const double *x;
+    double square[3];     /* [m2] a_i^2 */
+    double (*axis)[3];    /* unit */
+    double (*turned)[3][3]; /* their derivatives by q, NULL: no slopes */
+    double range, longest; /* [m] largest semi-axis */
+} ellipsoid_wall_search;
+
+/* Where a plane was found: on a facet, on edge k or at vertex k of it. */
+typedef struct ellipsoid_wall_place
+{
+    const ellipsoid_facet *facet;
+    int feature, k;
+    int over[3];      /* beside the facet, over these edges: it fades */
+    double foot;      /* along the edge, 0 to 1 on it */
+    double normal[3]; /* body */
+    double height;
+} ellipsoid_wall_place;
+
+/* diag(1/a_i^2) v */
+static inline void ellipsoid_shrink(const ellipsoid_wall_search *s, const double v[3], double result[3])
+{
+    for (int i = 0; i < 3; i++)
+    {
+        result[i] = v[i] / s->square[i];
+    }
+}
+
+/* Finds the place that this facet gives; 0 if there is none (wallPlaces.c). */
+int ellipsoid_find_place(const ellipsoid_wall_search *s,
+                         const ellipsoid_facet *facet, ellipsoid_wall_place *p);
+
+/* Does it have a convex edge? */
+int ellipsoid_facet_has_rim(const ellipsoid_facet *facet);
+
 /* Walls that act at once; of more, the nearest. */
 #define ELLIPSOID_MAX_PLANES 24
 
@@ -66,5 +106,10 @@ void ellipsoid_plane_resistance(const ellipsoid_model *model,
                                 const double normal[3], double height,
                                 const double rates[6], double action[6],
                                 double change[4][6]);
+
+/* The same as a symmetric matrix. */
+void ellipsoid_plane_matrix(const ellipsoid_model *model,
+                            const double normal[3], double height,
+                            double matrix[6][6]);
 
 #endif

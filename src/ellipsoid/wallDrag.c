@@ -39,16 +39,30 @@ static void resist(const ellipsoid_model *m, const ellipsoid_planes *planes,
     }
 }
 
-/* The whole matrix, by columns; it is symmetric. */
+/* The whole of it as a symmetric matrix. */
 static void set_matrix(const ellipsoid_model *m, const ellipsoid_planes *planes,
                        double matrix[6][6])
 {
-    for (int n = 0; n < 6; n++)
+    memset(matrix, 0, 6 * sizeof(*matrix));
+    for (int p = 0; p < planes->count; p++)
     {
-        double rates[6] = {0};
+        const ellipsoid_plane *plane = &planes->at[p];
+        double more[6][6];
 
-        rates[n] = 1;
-        resist(m, planes, rates, matrix[n]);
+        ellipsoid_plane_matrix(m, plane->normal, plane->height.value, more);
+        for (int i = 0; i < 6; i++)
+        {
+            for (int j = 0; j < 6; j++)
+            {
+                matrix[i][j] +=
+                    m->viscosity * plane->weight.value * more[i][j];
+            }
+        }
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        matrix[i][i] += m->viscosity * m->resistance[i];
+        matrix[i + 3][i + 3] += m->viscosity * m->rotation_resistance[i];
     }
 }
 

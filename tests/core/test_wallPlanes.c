@@ -9,6 +9,7 @@
 #include "coreTest.h"
 #include "nearWall.h"
 #include "wallMesh.h"
+#include "flowTest.h"
 
 enum
 {
@@ -353,12 +354,200 @@ static void test_continuous(void **unused)
     }
 }
 
+/* The result is that of the pose, to the last bit, whatever the cache has seen. */
+static void test_cache(void **unused)
+{
+    static ellipsoid_contact_cache fresh;
+    const ellipsoid_options o = near_walls();
+    const ellipsoid_model model = test_model(&o);
+    test_quadratic flow = test_shear(1000);
+    ellipsoid_state state = {.x = {-2e-6, -3e-6, -1e-6}};
+    uint64_t seed = 24;
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_landscape(&mesh);
+    wall_mesh_finish(&mesh);
+    ellipsoid_contact_cache_clear(&cache);
+    for (int n = 0; n < 300; n++)
+    {
+        const ellipsoid_surroundings s = around(&mesh, &flow);
+        ellipsoid_state a, b;
+
+        state.x[n % 3] += 0.3e-6 * test_signed(&seed);
+        test_orientation(&seed, state.q);
+        ellipsoid_contact_cache_clear(&fresh);
+        assert_ok(ellipsoid_rhs(&model, &s, &state, &cache, &a));
+        assert_ok(ellipsoid_rhs(&model, &s, &state, &fresh, &b));
+        assert_memory_equal(&a, &b, sizeof(a));
+    }
+    wall_mesh_free(&mesh);
+}
+
+/* A slit: two walls add up (Oseen's superposition); a wall out of range, or none
+   at all, is no wall. */
+static void test_slit(void **unused)
+{
+    const ellipsoid_options o = near_walls(), free = test_free_cell();
+    const ellipsoid_model model = test_model(&o), bare = test_model(&free);
+    const double low[3] = {-1e-4, -1e-4, 0}, high[3] = {1e-4, 1e-4, 6e-6};
+    const double q[4] = {0.1, 0.2, 0.3, 0.927361849549570};
+    const double x[3] = {0, 0, 2.5e-6}, off[3] = {0, 0, 10.1e-6 * 4};
+    double one[6][6], other[6][6], both[6][6], none[6][6];
+    wall_mesh floor, lid, slit;
+
+    (void)unused;
+    wall_mesh_init(&floor);
+    wall_mesh_init(&lid);
+    wall_mesh_init(&slit);
+    add_floor(&floor, 0, 1, 1);
+    {
+        const double a[3] = {1e-4, -1e-4, 6e-6}, u[3] = {-2e-4, 0, 0};
+        const double v[3] = {0, 2e-4, 0};
+
+        wall_mesh_plane(&lid, a, u, v, 1, 1, 0, 0);
+    }
+    wall_mesh_box(&slit, low, high, 1, 0, 0);
+    wall_mesh_finish(&floor);
+    wall_mesh_finish(&lid);
+    wall_mesh_finish(&slit);
+    ellipsoid_contact_cache_clear(&cache);
+    lab_resistance(&model, &floor, x, q, one);
+    ellipsoid_contact_cache_clear(&cache);
+    lab_resistance(&model, &lid, x, q, other);
+    ellipsoid_contact_cache_clear(&cache);
+    lab_resistance(&model, &slit, x, q, both);
+    lab_resistance(&bare, &slit, x, q, none);
+    for (int n = 0; n < 6; n++)
+    {
+        for (int i = 0; i < 6; i++)
+        {
+            one[i][n] += other[i][n] - none[i][n];
+        }
+    }
+    assert_true(difference(one, both) < 1e-11);
+    ellipsoid_contact_cache_clear(&cache);
+    lab_resistance(&model, &floor, off, q, both);
+    assert_true(difference(none, both) < 1e-13);
+    wall_mesh_free(&floor);
+    wall_mesh_free(&lid);
+    wall_mesh_free(&slit);
+}
+
+/*
+    The paper's cell, weighed down by 2 pN, comes down on a floor in a shear
+    flow, touches it and rolls on: with and without inertia the same way. Inertia
+    acts for 1e-7 s; 2 nm as in the flow without walls (test_inertialess.c).
+*/
+static void test_coming_down(void **unused)
+{
+    wall_mesh mesh;
+    ellipsoid_state end[2];
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_floor(&mesh, 0, 1, 1);
+    wall_mesh_finish(&mesh);
+    for (int n = 0; n < 2; n++)
+    {
+        test_quadratic flow = {.answer = 0};
+        const ellipsoid_surroundings s = around(&mesh, &flow);
+        ellipsoid_options o = near_walls();
+        ellipsoid_state state = {.x = {0, 0, 3e-6}, .q = {0.3, 0.1, 0.2, 0.9}};
+        ellipsoid_controller controller = {0};
+        ellipsoid_statistics statistics = {0};
+        ellipsoid_model model;
+        double t = 0;
+
+        flow.g[1][2] = 20;
+        o.motion =
+            n ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL;
+        o.contact = 1;
+        o.external_force[2] = -2e-12;
+        model = test_model(&o);
+        ellipsoid_normalise(state.q);
+        ellipsoid_contact_cache_clear(&cache);
+        assert_ok(ellipsoid_balance(&model, &s, &state, &cache));
+        assert_ok(ellipsoid_advance(&model, &s, &state, &t, 0.5, &controller,
+                                    &cache, NULL, NULL, &statistics));
+        print_message("%ld steps, %ld rejected, deepest %.1e m\n",
+                      statistics.accepted, statistics.rejected,
+                      statistics.deepest);
+        assert_true(statistics.deepest > 0);
+        end[n] = state;
+    }
+    assert_near(test_distance(end[0].x, end[1].x, 3), 0, 2e-9);
+    assert_near(test_distance(end[0].q, end[1].q, 4), 0, 1e-3);
+    wall_mesh_free(&mesh);
+}
+
+/* Two cells that overlap by some nanometres near a floor are pushed apart, with
+   and without inertia the same way. Those with inertia start
+   from rest: 1e-7 s at some mm/s, 1 nm of the 20 nm. */
+static void test_two_cells(void **unused)
+{
+    static ellipsoid_contact_cache caches[2];
+    static double memory[200000];
+    ellipsoid_state end[2][2];
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_floor(&mesh, 0, 1, 1);
+    wall_mesh_finish(&mesh);
+    assert_true(ellipsoid_group_size(2) <= sizeof(memory));
+    for (int n = 0; n < 2; n++)
+    {
+        test_quadratic rest = {.answer = 0};
+        ellipsoid_surroundings s[2] = {around(&mesh, &rest),
+                                       around(&mesh, &rest)};
+        ellipsoid_options o = near_walls();
+        ellipsoid_controller controller[2] = {{0}};
+        ellipsoid_statistics statistics[2] = {{0}};
+        ellipsoid_member members[2];
+        ellipsoid_model model;
+        double t = 0;
+        int which;
+
+        o.motion =
+            n ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL;
+        o.contact = 1;
+        model = test_model(&o);
+        for (int i = 0; i < 2; i++)
+        {
+            const ellipsoid_state state = {
+                .x = {i * 0.88e-6, i * 0.2e-6, 0.7e-6}, .q = {0, 0, 0, 1}};
+
+            s[i].id = (uint32_t)i;
+            end[n][i] = state;
+            ellipsoid_contact_cache_clear(&caches[i]);
+            members[i] = (ellipsoid_member){
+                &model,     &s[i], &end[n][i],    &controller[i],
+                &caches[i], NULL,  &statistics[i]};
+        }
+        assert_ok(ellipsoid_advance_group(2, members, &t, 1e-2, NULL, memory,
+                                          &which));
+    }
+    assert_true(end[0][1].x[0] - end[0][0].x[0] > 0.89e-6);
+    for (int i = 0; i < 2; i++)
+    {
+        assert_near(test_distance(end[0][i].x, end[1][i].x, 3), 0, 1e-9);
+        assert_near(test_distance(end[0][i].q, end[1][i].q, 4), 0, 1e-4);
+    }
+    wall_mesh_free(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_jacobian),
         cmocka_unit_test(test_cuts),
         cmocka_unit_test(test_continuous),
+        cmocka_unit_test(test_cache),
+        cmocka_unit_test(test_slit),
+        cmocka_unit_test(test_coming_down),
+        cmocka_unit_test(test_two_cells),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
