@@ -398,7 +398,8 @@ typedef struct ellipsoid_contact_cache
     int first[ELLIPSOID_MAX_BEADS + 1];  /* bead b: first[b] to first[b+1] of */
     int facet[ELLIPSOID_MAX_PAIRS];      /* facets, ascending for each bead */
     int near_count;   /* of facets within the wall_range; -1: not looked up */
-    double near_x[3]; /* where they were */
+    double near_x[3]; /* where they were looked up */
+    double near_margin; /* [m] how far the centre may move from there */
     const ellipsoid_facet *near_facets;
     int near_facet[ELLIPSOID_MAX_NEAR]; /* ascending */
 } ellipsoid_contact_cache;

@@ -16,10 +16,10 @@
         C (5/16 - 3/16 n n) C/(8 pi h^3 + max C).
     Near: lubrication between the plane and a surface with the radii of
     curvature R1, R2 at its nearest point, S = sqrt(R1 R2), tau = R1 + R2. With
-    the surface's velocity u_s there, u_n along n and u_t across, squeezing gives
-    12 pi S^3/(tau gap) u_n^2, shearing 2 pi S L u_t^2, and the wedge
-    2 pi S L v.E v of dissipation over mu, v = u_t/2 - rho (n x omega), where rho
-    has the eigenvalues R1 and R2 and E 12 R2/(3 R1 + 2 R2) and so on.
+    the surface's velocity u_s there, u_n along n and u_t across, squeezing
+    gives 12 pi S^3/(tau gap) u_n^2, shearing 2 pi S L u_t^2, and the wedge
+    2 pi S L v.E v of dissipation over mu, v = u_t/2 - rho (n x omega), where
+    rho has the eigenvalues R1 and R2 and E 12 R2/(3 R1 + 2 R2) and so on.
 */
 #include "nearWall.h"
 

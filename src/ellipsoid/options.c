@@ -149,7 +149,7 @@ static void check_near_walls(verdict *v, const ellipsoid_options *o)
     }
     require(v, o->drag, "wall_resistance", "NONE without drag");
     require(v, !o->brownian, "wall_resistance",
-            "NONE with Brownian motion, of which the drift kT div M is missing");
+            "NONE with Brownian motion: the drift kT div M is not there");
     require(v, within(o->lubrication_gap, 1e-15, 1e3), "lubrication_gap",
             "1e-15 to 1e3 m");
     require(v, within(o->wall_range, largest, 1e6), "wall_range",

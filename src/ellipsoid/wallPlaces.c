@@ -45,8 +45,9 @@ typedef struct corners
     double from[3][3], along[3][3]; /* vertex to centre; edges */
 } corners;
 
-static int place_on_edge(const ellipsoid_wall_search *s, const corners *c, int k, double foot,
-                         const double normal[3], ellipsoid_wall_place *p)
+static int place_on_edge(const ellipsoid_wall_search *s, const corners *c,
+                         int k, double foot, const double normal[3],
+                         ellipsoid_wall_place *p)
 {
     double r[3], w[3], inward[3];
 
@@ -63,7 +64,8 @@ static int place_on_edge(const ellipsoid_wall_search *s, const corners *c, int k
 
 /* bare: the square of the scaled distance to the facet's plane */
 static int place_at_vertex(const ellipsoid_wall_search *s, const corners *c,
-                           const double normal[3], double bare, ellipsoid_wall_place *p)
+                           const double normal[3], double bare,
+                           ellipsoid_wall_place *p)
 {
     const ellipsoid_facet *facet = p->facet;
     double nearest = HUGE_VAL, w[3], lab[3];
@@ -92,8 +94,9 @@ static int place_at_vertex(const ellipsoid_wall_search *s, const corners *c,
 }
 
 /* The place beside the facet's face, over a convex edge. */
-static int place_on_rim(const ellipsoid_wall_search *s, const double normal[3], double bare,
-                        const int outside[3], ellipsoid_wall_place *p)
+static int place_on_rim(const ellipsoid_wall_search *s, const double normal[3],
+                        double bare, const int outside[3],
+                        ellipsoid_wall_place *p)
 {
     const ellipsoid_facet *facet = p->facet;
     double best = HUGE_VAL, foot = 0;
@@ -142,7 +145,8 @@ int ellipsoid_facet_has_rim(const ellipsoid_facet *facet)
 }
 
 /* Finds the plane that this facet gives; 0 if there is none. */
-int ellipsoid_find_place(const ellipsoid_wall_search *s, const ellipsoid_facet *facet, ellipsoid_wall_place *p)
+int ellipsoid_find_place(const ellipsoid_wall_search *s,
+                         const ellipsoid_facet *facet, ellipsoid_wall_place *p)
 {
     double from[3], normal[3], b[3], foot[3], height, support2, far;
     int outside[3], on_rim = 0;
@@ -165,8 +169,10 @@ int ellipsoid_find_place(const ellipsoid_wall_search *s, const ellipsoid_facet *
         foot[i] = s->x[i] - foot[i] * height / support2;
     }
     ellipsoid_difference(foot, facet->middle, from);
-    far = facet->radius + ellipsoid_fading * s->longest * height / sqrt(support2);
-    if (!ellipsoid_facet_has_rim(facet) && ellipsoid_dot(from, from) > far * far)
+    far = facet->radius
+        + ellipsoid_fading * s->longest * height / sqrt(support2);
+    if (!ellipsoid_facet_has_rim(facet)
+        && ellipsoid_dot(from, from) > far * far)
     {
         return 0; /* it has faded */
     }

@@ -8,9 +8,9 @@
     Each place where the grown body would meet a facet (wallPlaces.c) gives one.
     Over a seam that is not convex a place does not end at once: facets, and
     edges beyond their ends, go on as if they were larger, and their plane fades
-    while the place moves away by a part of the height (lengths by M). So nothing
-    jumps where a wall goes on in other facets. How planes of nearly one normal
-    share is told in planeWeights.c.
+    while the place moves away by a part of the height (lengths by M). So
+    nothing jumps where a wall goes on in other facets. How planes of nearly one
+    normal share is told in planeWeights.c.
 */
 #include "nearWall.h"
 
@@ -32,8 +32,8 @@ static const double margin_part = 0.1;
 
 /* Changes by a component n of the pose, body frame, of a vector from a fixed
    point to the centre, or of a fixed direction. */
-static void changed(const ellipsoid_wall_search *s, int n, int is_point, const double lab[3],
-                    double change[3])
+static void changed(const ellipsoid_wall_search *s, int n, int is_point,
+                    const double lab[3], double change[3])
 {
     if (n >= 3)
     {
@@ -50,8 +50,8 @@ static void changed(const ellipsoid_wall_search *s, int n, int is_point, const d
 }
 
 /* The place slides along the edge so that the covector stays across it. */
-static void slide(const ellipsoid_wall_search *s, const ellipsoid_wall_place *p, int n,
-                  const double along_lab[3], const double w[3],
+static void slide(const ellipsoid_wall_search *s, const ellipsoid_wall_place *p,
+                  int n, const double along_lab[3], const double w[3],
                   double change[3])
 {
     double along[3], shrunk[3], turned[3], slip;
@@ -71,7 +71,8 @@ static void slide(const ellipsoid_wall_search *s, const ellipsoid_wall_place *p,
     }
 }
 
-static void rim_slopes(const ellipsoid_wall_search *s, const ellipsoid_wall_place *p, ellipsoid_plane *plane)
+static void rim_slopes(const ellipsoid_wall_search *s,
+                       const ellipsoid_wall_place *p, ellipsoid_plane *plane)
 {
     const double *vertex = p->facet->vertex[p->k];
     const double *m = p->normal;
@@ -109,7 +110,8 @@ static void rim_slopes(const ellipsoid_wall_search *s, const ellipsoid_wall_plac
     }
 }
 
-static void face_slopes(const ellipsoid_wall_search *s, const ellipsoid_wall_place *p, ellipsoid_plane *plane)
+static void face_slopes(const ellipsoid_wall_search *s,
+                        const ellipsoid_wall_place *p, ellipsoid_plane *plane)
 {
     for (int n = 0; n < POSE; n++)
     {
@@ -160,8 +162,9 @@ static void set_window(const ellipsoid_wall_search *s, ellipsoid_plane *plane)
 
 /* How the place's distance from the centre, as seen by the body, changes: r =
    D m h/p^2 */
-static void place_slope(const ellipsoid_wall_search *s, const ellipsoid_plane *plane,
-                        double support2, int n, double change[3])
+static void place_slope(const ellipsoid_wall_search *s,
+                        const ellipsoid_plane *plane, double support2, int n,
+                        double change[3])
 {
     const double *m = plane->normal, *by = plane->normal_slope[n];
     double of_support2 = 0;
@@ -185,7 +188,8 @@ static void place_slope(const ellipsoid_wall_search *s, const ellipsoid_plane *p
     k. With y = h/p the scaled height and d the scaled distance, u = d/(y f),
     the rest is 1 - u^2 (3 - 2 u).
 */
-static void fade(const ellipsoid_wall_search *s, const ellipsoid_wall_place *p, int k, ellipsoid_plane *plane)
+static void fade(const ellipsoid_wall_search *s, const ellipsoid_wall_place *p,
+                 int k, ellipsoid_plane *plane)
 {
     const double *m = plane->normal, *vertex = p->facet->vertex[k];
     double line[3], along[3], lab[3], zeta[3], epsilon[3], out[3];
@@ -291,7 +295,8 @@ static void keep(const ellipsoid_wall_search *s, const ellipsoid_plane *plane,
     }
 }
 
-static void add_plane(const ellipsoid_wall_search *s, const ellipsoid_wall_place *p, ellipsoid_planes *all)
+static void add_plane(const ellipsoid_wall_search *s,
+                      const ellipsoid_wall_place *p, ellipsoid_planes *all)
 {
     ellipsoid_plane plane;
 
@@ -334,18 +339,18 @@ static int may_matter(const ellipsoid_facet *facet, const double x[3],
                       double reach, double margin, double slimness)
 {
     const double cosine = 2 * slimness / (1 + slimness * slimness);
-    double d[3], height, nearest;
+    double d[3], height, nearest, beside;
 
     ellipsoid_difference(x, facet->middle, d);
     height = ellipsoid_dot(d, facet->normal);
+    beside = ellipsoid_fading * slimness * (height + margin);
     nearest = ellipsoid_length(d) - facet->radius;
     if (!(height > -margin && height < reach && nearest < reach))
     {
         return 0;
     }
     return ellipsoid_facet_has_rim(facet)
-        || cosine * (nearest - margin - ellipsoid_fading * slimness * (height + margin))
-               <= height + margin;
+        || cosine * (nearest - margin - beside) <= height + margin;
 }
 
 /* Lists facets anew if the centre has moved too far. */
@@ -360,7 +365,7 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
 
     ellipsoid_difference(x, cache->near_x, d);
     if (cache->near_count >= 0
-        && ellipsoid_dot(d, d) <= margin * margin)
+        && ellipsoid_dot(d, d) <= cache->near_margin * cache->near_margin)
     {
         return ELLIPSOID_OK;
     }
@@ -390,6 +395,9 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
         cache->near_facet[count++] = list.index[k];
     }
     cache->near_count = count;
+    cache->near_margin = list.count == 0 && list.reach > range + margin
+                           ? list.reach - range
+                           : margin;
     return ELLIPSOID_OK;
 }
 
@@ -449,7 +457,9 @@ ellipsoid_find_planes(const ellipsoid_model *model,
     {
         ellipsoid_wall_place found;
 
-        if (ellipsoid_find_place(&s, &cache->near_facets[cache->near_facet[k]], &found))
+        const int facet = cache->near_facet[k];
+
+        if (ellipsoid_find_place(&s, &cache->near_facets[facet], &found))
         {
             add_plane(&s, &found, planes);
         }

@@ -50,6 +50,14 @@ Foam::ellipsoidProperties::flowAtNames_
 });
 
 
+const Foam::Enum<ellipsoid_wall_resistance>
+Foam::ellipsoidProperties::wallResistanceNames_
+({
+    { ELLIPSOID_WALL_RESISTANCE_NONE, "none" },
+    { ELLIPSOID_WALL_RESISTANCE_PLANE, "plane" }
+});
+
+
 const Foam::Enum<ellipsoid_pressure_gradient>
 Foam::ellipsoidProperties::pressureGradientNames_
 ({
@@ -90,6 +98,9 @@ namespace Foam
         { "fluid_density", "fluid", "density" },
         { "drag", "forces", "drag" },
         { "flow_points", "forces", "flowPoints" },
+        { "wall_resistance", "forces", "wallResistance" },
+        { "lubrication_gap", "forces", "lubricationGap" },
+        { "wall_range", "forces", "wallRange" },
         { "charge", "forces", "charge" },
         { "dipole", "forces", "dipole" },
         { "electric_field", "forces", "electricField" },
@@ -134,8 +145,9 @@ void Foam::ellipsoidProperties::readOptions()
     (
         forces,
         {
-            "drag", "flow", "flowPoints", "buoyancy", "pressureGradient",
-            "gravity", "externalForce", "externalTorque", "charge", "dipole",
+            "drag", "flow", "flowPoints", "wallResistance", "lubricationGap",
+            "wallRange", "buoyancy", "pressureGradient", "gravity",
+            "externalForce", "externalTorque", "charge", "dipole",
             "electricField"
         }
     );
@@ -144,6 +156,15 @@ void Foam::ellipsoidProperties::readOptions()
         flowAtNames_.getOrDefault("flow", forces, options_.flow_at);
     options_.flow_points =
         forces.getOrDefault("flowPoints", options_.flow_points);
+    options_.wall_resistance =
+        wallResistanceNames_.getOrDefault
+        (
+            "wallResistance", forces, options_.wall_resistance
+        );
+    options_.lubrication_gap =
+        forces.getOrDefault("lubricationGap", options_.lubrication_gap);
+    options_.wall_range =
+        forces.getOrDefault("wallRange", options_.wall_range);
     options_.buoyancy =
         forces.getOrDefault("buoyancy", Switch(options_.buoyancy));
     options_.pressure_gradient =

@@ -109,7 +109,7 @@ static void test_near_walls(void **unused)
                      ELLIPSOID_BAD_OPTION);
     assert_string_equal(field, "wall_resistance");
     assert_string_equal(
-        range, "NONE with Brownian motion, of which the drift kT div M is missing");
+        range, "NONE with Brownian motion: the drift kT div M is not there");
     options.brownian = options.drag = 0;
     assert_int_equal(ellipsoid_options_check(&options, &field, &range),
                      ELLIPSOID_BAD_OPTION);

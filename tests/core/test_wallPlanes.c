@@ -118,8 +118,8 @@ static void add_landscape(wall_mesh *mesh)
     wall_mesh_box(mesh, block[0], block[1], 0, 2, 0);
 }
 
-/* Of the fourth order, step 1e-5 of the semi-axis and of q: the block's edge and
-   corner bend the planes within 1 um. 1e-6 of the block's size, and what
+/* Of the fourth order, step 1e-5 of the semi-axis and of q: the block's edge
+   and corner bend the planes within 1 um. 1e-6 of the block's size, and what
    rounding of the accelerations leaves. */
 static int compare_jacobian(const ellipsoid_model *m,
                             const ellipsoid_surroundings *s,
@@ -354,7 +354,7 @@ static void test_continuous(void **unused)
     }
 }
 
-/* The result is that of the pose, to the last bit, whatever the cache has seen. */
+/* The result is that of the pose, to the last bit, whatever the cache holds. */
 static void test_cache(void **unused)
 {
     static ellipsoid_contact_cache fresh;
@@ -385,8 +385,8 @@ static void test_cache(void **unused)
     wall_mesh_free(&mesh);
 }
 
-/* A slit: two walls add up (Oseen's superposition); a wall out of range, or none
-   at all, is no wall. */
+/* A slit: two walls add up (Oseen's superposition); a wall out of range, or
+   none at all, is no wall. */
 static void test_slit(void **unused)
 {
     const ellipsoid_options o = near_walls(), free = test_free_cell();
@@ -437,8 +437,8 @@ static void test_slit(void **unused)
 
 /*
     The paper's cell, weighed down by 2 pN, comes down on a floor in a shear
-    flow, touches it and rolls on: with and without inertia the same way. Inertia
-    acts for 1e-7 s; 2 nm as in the flow without walls (test_inertialess.c).
+    flow, touches it and rolls on: with and without inertia the same way.
+    Inertia acts for 1e-7 s; 2 nm as in the flow without walls (test_inertialess.c).
 */
 static void test_coming_down(void **unused)
 {
