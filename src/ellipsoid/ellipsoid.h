@@ -383,7 +383,8 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 
 /*
     Which facets each bead may touch, and which the resistance may know of, kept
-    while the cell moves little. One per cell; its content never changes a result, only its cost. Opaque.
+    while the cell moves little. One per cell; its content never changes a
+    result, only its cost. Opaque.
 */
 typedef struct ellipsoid_contact_cache
 {

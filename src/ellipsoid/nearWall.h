@@ -35,7 +35,8 @@ typedef struct ellipsoid_wall_place
 } ellipsoid_wall_place;
 
 /* diag(1/a_i^2) v */
-static inline void ellipsoid_shrink(const ellipsoid_wall_search *s, const double v[3], double result[3])
+static inline void ellipsoid_shrink(const ellipsoid_wall_search *s,
+                                    const double v[3], double result[3])
 {
     for (int i = 0; i < 3; i++)
     {

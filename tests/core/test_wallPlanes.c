@@ -438,7 +438,8 @@ static void test_slit(void **unused)
 /*
     The paper's cell, weighed down by 2 pN, comes down on a floor in a shear
     flow, touches it and rolls on: with and without inertia the same way.
-    Inertia acts for 1e-7 s; 2 nm as in the flow without walls (test_inertialess.c).
+    Inertia acts for 1e-7 s; 2 nm as in the flow without walls
+    (test_inertialess.c).
 */
 static void test_coming_down(void **unused)
 {
