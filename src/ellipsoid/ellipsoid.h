@@ -102,6 +102,13 @@ typedef enum ellipsoid_flow_at
     ELLIPSOID_FLOW_BODY    /* velocity over the surface: Brenner (1964) */
 } ellipsoid_flow_at;
 
+/* What the resistance knows of walls (docs/theory.md, "Near walls"). */
+typedef enum ellipsoid_wall_resistance
+{
+    ELLIPSOID_WALL_RESISTANCE_NONE, /* that of the free body, as in the paper */
+    ELLIPSOID_WALL_RESISTANCE_PLANE /* planes at the walls' nearest places */
+} ellipsoid_wall_resistance;
+
 #define ELLIPSOID_MAX_FLOW_POINTS 50
 #define ELLIPSOID_MAX_BEADS 256
 
@@ -128,6 +135,13 @@ typedef struct ellipsoid_options
     int flow_points;  /* of FLOW_BODY, 26; 6, 14, 26 or 50: exact for flows
                          that are polynomials of degree 3, 5, 7 or 11 (force),
                          one less (torque) */
+    ellipsoid_wall_resistance wall_resistance; /* NONE; PLANE needs drag, and
+                                                  no Brownian motion */
+    double lubrication_gap; /* [m] smallest gap of lubrication, 20e-9; 1e-15 to
+                               1e3 */
+    double wall_range; /* [m] beyond which walls do not resist, fully within
+                          half of it; 10e-6; from the largest semi-axis to
+                          1e6 */
     int buoyancy;     /* (m_p - m_f) g, 1 */
     ellipsoid_pressure_gradient pressure_gradient; /* DUDT */
     double gravity[3];         /* [m/s2] lab, (0, 0, -9.81) */
@@ -392,11 +406,12 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 
 #define ELLIPSOID_MAX_PAIRS 2048
 #define ELLIPSOID_MAX_TOUCHED 8
+#define ELLIPSOID_MAX_NEAR 4096
 
 /*
-    Which facets each bead, or the ellipsoid, may touch, kept while the cell
-    moves little. One per cell; its content never changes a result, only its
-    cost. Opaque.
+    Which facets each bead, or the ellipsoid, may touch, and which the resistance
+    may know of, kept while the cell moves little. One per cell; its content
+    never changes a result, only its cost. Opaque.
 */
 typedef struct ellipsoid_contact_cache
 {
@@ -410,6 +425,11 @@ typedef struct ellipsoid_contact_cache
     double nearest[ELLIPSOID_MAX_BEADS]; /* [m] no facet nearer to a centre */
     int first[ELLIPSOID_MAX_BEADS + 1];  /* bead b: first[b] to first[b+1] of */
     int facet[ELLIPSOID_MAX_PAIRS];      /* facets, ascending for each bead */
+    int near_count;   /* of facets within the wall_range; -1: not looked up */
+    double near_x[3]; /* where they were looked up */
+    double near_margin; /* [m] how far the centre may move from there */
+    const ellipsoid_facet *near_facets;
+    int near_facet[ELLIPSOID_MAX_NEAR]; /* ascending */
 } ellipsoid_contact_cache;
 
 void ellipsoid_contact_cache_clear(ellipsoid_contact_cache *cache);

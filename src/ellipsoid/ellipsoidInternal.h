@@ -311,4 +311,36 @@ static inline int ellipsoid_has_walls(const ellipsoid_model *model,
     return model->options.contact && around->walls != NULL;
 }
 
+/* ---------------------------------------------------------- near walls */
+
+/* Does the resistance know of walls? */
+static inline int
+ellipsoid_has_near_walls(const ellipsoid_model *model,
+                         const ellipsoid_surroundings *around)
+{
+    return model->options.wall_resistance != ELLIPSOID_WALL_RESISTANCE_NONE
+        && around->walls != NULL;
+}
+
+/*
+    The drag where walls are near (wallDrag.c); where none is, *acted is 0 and
+    nothing done. balanced: sets the state's u and omega to those that balance
+    force [N, lab] and torque [N m, body]. Otherwise, and for the blocks, adds
+    the drag to these. axis and axis_derivatives as in ellipsoid_body_flow().
+*/
+ellipsoid_status ellipsoid_wall_drag(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    ellipsoid_contact_cache *cache, ellipsoid_state *state, int balanced,
+    double axis[3][3], double axis_derivatives[4][3][3],
+    const ellipsoid_free_motion *free, double force[3], double torque[3],
+    ellipsoid_blocks *blocks, int *acted);
+
+/* Adds to u [m/s, lab] and omega [rad/s, body] what a force [N, lab] and a
+   torque [N m, body] do against the resistance in this pose. */
+ellipsoid_status ellipsoid_wall_yield(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    ellipsoid_contact_cache *cache, const double x[3], const double q[4],
+    const double force[3], const double torque[3], double u[3],
+    double omega[3]);
+
 #endif

@@ -209,6 +209,27 @@ static void add_drag_blocks(evaluation *e, double d[4][3][3],
     }
 }
 
+/* Drag where walls are near; copies for the same reason as in set_free(). */
+static inline ellipsoid_status
+add_wall_drag(evaluation *e, const ellipsoid_surroundings *surroundings,
+              ellipsoid_state *state, int balanced,
+              ellipsoid_contact_cache *cache, double d[4][3][3],
+              ellipsoid_blocks *blocks, int *acted)
+{
+    const ellipsoid_free_motion free = e->free;
+    double axis[3][3], force[3], torque[3];
+    ellipsoid_status status;
+
+    memcpy(axis, e->axis, sizeof(axis));
+    ellipsoid_copy(e->force, force);
+    ellipsoid_copy(e->torque, torque);
+    status = ellipsoid_wall_drag(e->model, surroundings, cache, state, balanced,
+                                 axis, d, &free, force, torque, blocks, acted);
+    ellipsoid_copy(force, e->force);
+    ellipsoid_copy(torque, e->torque);
+    return status;
+}
+
 /* --------------------------------------------------------------- contact */
 
 /* F_W and T^_W. */
@@ -410,6 +431,7 @@ evaluate(const ellipsoid_model *model,
     ellipsoid_status status = ELLIPSOID_OK;
     ellipsoid_flow_sample flow;
     double u[3], omega[3];
+    int resisted_by_walls = 0;
     evaluation e;
 
     e.model = model;
@@ -452,15 +474,24 @@ evaluate(const ellipsoid_model *model,
     {
         return status;
     }
+    if (drag && ellipsoid_has_near_walls(model, surroundings))
+    {
+        status = add_wall_drag(&e, surroundings, state, balanced, cache, d,
+                               blocks, &resisted_by_walls);
+        if (status != ELLIPSOID_OK)
+        {
+            return status;
+        }
+    }
     ellipsoid_copy(state->u, u);
     ellipsoid_copy(state->omega, omega);
-    if (balanced)
+    if (balanced && !resisted_by_walls)
     {
         balance(&e, u, omega);
         ellipsoid_copy(u, state->u);
         ellipsoid_copy(omega, state->omega);
     }
-    if (drag && (blocks || !balanced))
+    if (drag && !resisted_by_walls && (blocks || !balanced))
     {
         double slip[3], resisted[3];
 

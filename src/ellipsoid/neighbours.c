@@ -31,7 +31,8 @@ static const double few = 0.01, many = 0.06; /* poses for each facet listed */
    narrowest. */
 static const double smaller = 0.5;
 
-void ellipsoid_contact_cache_clear(ellipsoid_contact_cache *cache)
+/* All that is of beads. */
+static void forget(ellipsoid_contact_cache *cache)
 {
     cache->valid = 0;
     cache->served = 0;
@@ -40,6 +41,14 @@ void ellipsoid_contact_cache_clear(ellipsoid_contact_cache *cache)
     cache->facets = NULL;
     memset(cache->x, 0, sizeof cache->x);
     memset(cache->q, 0, sizeof cache->q);
+}
+
+void ellipsoid_contact_cache_clear(ellipsoid_contact_cache *cache)
+{
+    forget(cache);
+    cache->near_count = -1;
+    cache->near_facets = NULL;
+    memset(cache->near_x, 0, sizeof cache->near_x);
 }
 
 static double product(const double p[4], const double q[4])
@@ -374,7 +383,7 @@ static ellipsoid_status fill(ellipsoid_contact_cache *cache,
     ellipsoid_status status;
     swarm beads;
 
-    ellipsoid_contact_cache_clear(cache);
+    forget(cache);
     if (!isfinite(x[0] + x[1] + x[2] + product(q, q)))
     {
         return ELLIPSOID_NON_FINITE;

@@ -20,6 +20,9 @@ ellipsoid_options ellipsoid_options_default(void)
         .drag = 1,
         .flow_at = ELLIPSOID_FLOW_CENTRE,
         .flow_points = 26,
+        .wall_resistance = ELLIPSOID_WALL_RESISTANCE_NONE,
+        .lubrication_gap = 20e-9,
+        .wall_range = 10e-6,
         .buoyancy = 1,
         .pressure_gradient = ELLIPSOID_PRESSURE_DUDT,
         .gravity = {0, 0, -9.81},
@@ -137,6 +140,28 @@ static void check_brownian(verdict *v, const ellipsoid_options *o)
             "1e-15 to 1e6 s");
 }
 
+static void check_near_walls(verdict *v, const ellipsoid_options *o)
+{
+    const double *a = o->semi_axes;
+    const double largest = fmax(a[0], fmax(a[1], a[2]));
+
+    require(v,
+            o->wall_resistance == ELLIPSOID_WALL_RESISTANCE_NONE
+                || o->wall_resistance == ELLIPSOID_WALL_RESISTANCE_PLANE,
+            "wall_resistance", "NONE or PLANE");
+    if (o->wall_resistance == ELLIPSOID_WALL_RESISTANCE_NONE)
+    {
+        return;
+    }
+    require(v, o->drag, "wall_resistance", "NONE without drag");
+    require(v, !o->brownian, "wall_resistance",
+            "NONE with Brownian motion: the drift kT div M is not there");
+    require(v, within(o->lubrication_gap, 1e-15, 1e3), "lubrication_gap",
+            "1e-15 to 1e3 m");
+    require(v, within(o->wall_range, largest, 1e6), "wall_range",
+            "the largest semi-axis to 1e6 m");
+}
+
 static void check_contact(verdict *v, const ellipsoid_options *o)
 {
     const double *a = o->semi_axes;
@@ -208,6 +233,7 @@ ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
     check_body_and_fluid(&v, options);
     check_equations(&v, options);
     check_brownian(&v, options);
+    check_near_walls(&v, options);
     check_contact(&v, options);
     check_integrator(&v, options);
 

@@ -210,12 +210,14 @@ static void meet_all(meeting *m, const ellipsoid_near_pair *near)
 /* ------------------------------------------------------------ in a group */
 
 /* A force and torque more, at a point that has been evaluated. */
-static void push(const ellipsoid_problem *p, ellipsoid_point *at, int balanced)
+static ellipsoid_status push(const ellipsoid_problem *p, ellipsoid_point *at,
+                             int balanced)
 {
     const ellipsoid_model *m = p->model;
     const ellipsoid_contact *c = &at->contact;
     ellipsoid_state *slope = &at->derivative, *state = &at->state;
     double r[3][3], body[3], moved[3], omega[3], turned[4];
+    ellipsoid_status status = ELLIPSOID_OK;
 
     if (!balanced)
     {
@@ -224,16 +226,27 @@ static void push(const ellipsoid_problem *p, ellipsoid_point *at, int balanced)
             slope->u[i] += c->cell_force[i] / m->mass;
             slope->omega[i] += c->cell_torque[i] / m->inertia[i];
         }
-        return;
+        return ELLIPSOID_OK;
     }
-    ellipsoid_rotation_inline(state->q, r);
-    ellipsoid_to_body(r, c->cell_force, body);
-    for (int i = 0; i < 3; i++)
+    if (ellipsoid_has_near_walls(m, p->surroundings))
     {
-        body[i] *= m->mobility[i];
-        omega[i] = m->rotation_mobility[i] * c->cell_torque[i];
+        memset(moved, 0, sizeof(moved));
+        memset(omega, 0, sizeof(omega));
+        status = ellipsoid_wall_yield(m, p->surroundings, p->cache, state->x,
+                                      state->q, c->cell_force, c->cell_torque,
+                                      moved, omega);
     }
-    ellipsoid_product(r, body, moved);
+    else
+    {
+        ellipsoid_rotation_inline(state->q, r);
+        ellipsoid_to_body(r, c->cell_force, body);
+        for (int i = 0; i < 3; i++)
+        {
+            body[i] *= m->mobility[i];
+            omega[i] = m->rotation_mobility[i] * c->cell_torque[i];
+        }
+        ellipsoid_product(r, body, moved);
+    }
     ellipsoid_add(state->u, moved);
     ellipsoid_add(state->omega, omega);
     ellipsoid_copy(state->u, slope->x);
@@ -242,6 +255,7 @@ static void push(const ellipsoid_problem *p, ellipsoid_point *at, int balanced)
     {
         slope->q[n] += 0.5 * turned[n];
     }
+    return status;
 }
 
 static void note_cell(ellipsoid_contact *contact, uint32_t id)
@@ -344,7 +358,8 @@ ellipsoid_status ellipsoid_add_pairs(ellipsoid_group *g,
     {
         if (points[cell].contact.touched_cell_count > 0)
         {
-            push(&g->cell[cell], &points[cell], balanced);
+            status = push(&g->cell[cell], &points[cell], balanced);
+            g->culprit = status == ELLIPSOID_OK ? -1 : cell;
         }
     }
     return status;

@@ -30,23 +30,6 @@ static inline elimination of_step(const ellipsoid_state *state, double h)
     return (elimination){state, g, per_g, 1 / square};
 }
 
-/* By cofactors; 0 if it is singular. */
-static inline int invert3(double m[3][3], double inverse[3][3])
-{
-    double c[3][3], determinant, per;
-
-    ellipsoid_cross(m[1], m[2], c[0]);
-    ellipsoid_cross(m[2], m[0], c[1]);
-    ellipsoid_cross(m[0], m[1], c[2]);
-    determinant = ellipsoid_dot(m[0], c[0]);
-    per = 1 / determinant;
-    for (int n = 0; n < 3; n++)
-    {
-        ellipsoid_set(inverse[n], per * c[0][n], per * c[1][n], per * c[2][n]);
-    }
-    return isnormal(determinant);
-}
-
 /* left right, times sign */
 static inline void multiply3(double sign, double left[3][3], double right[3][3],
                              double result[3][3])
@@ -79,7 +62,7 @@ int ellipsoid_invert6(double m[6][6])
         ellipsoid_copy(m[i + 3], c[i]);
         ellipsoid_copy(m[i + 3] + 3, last[i]);
     }
-    regular = invert3(last, s);
+    regular = ellipsoid_invert3(last, s);
     multiply3(1, b, s, bs);
     multiply3(1, s, c, sc);
     multiply3(1, bs, c, bsc);
@@ -87,7 +70,7 @@ int ellipsoid_invert6(double m[6][6])
     {
         ellipsoid_difference(a[i], bsc[i], a[i]);
     }
-    regular = regular && invert3(a, first);
+    regular = regular && ellipsoid_invert3(a, first);
     multiply3(-1, first, bs, above);
     multiply3(-1, sc, first, below);
     multiply3(-1, sc, above, rest);

@@ -99,6 +99,23 @@ static inline void ellipsoid_copy(const double from[3], double to[3])
     to[2] = from[2];
 }
 
+/* By cofactors; 0 if it is singular. */
+static inline int ellipsoid_invert3(double m[3][3], double inverse[3][3])
+{
+    double c[3][3], determinant, per;
+
+    ellipsoid_cross(m[1], m[2], c[0]);
+    ellipsoid_cross(m[2], m[0], c[1]);
+    ellipsoid_cross(m[0], m[1], c[2]);
+    determinant = ellipsoid_dot(m[0], c[0]);
+    per = 1 / determinant;
+    for (int n = 0; n < 3; n++)
+    {
+        ellipsoid_set(inverse[n], per * c[0][n], per * c[1][n], per * c[2][n]);
+    }
+    return isnormal(determinant);
+}
+
 /* Is it a pose at which the equations may be asked about? Inside a step |q| is
    not 1, but a stage that has left it far behind is of no use. */
 static inline int ellipsoid_is_pose(const double x[3], const double q[4])

@@ -60,6 +60,14 @@ Foam::ellipsoidProperties::flowAtNames_
 });
 
 
+const Foam::Enum<ellipsoid_wall_resistance>
+Foam::ellipsoidProperties::wallResistanceNames_
+({
+    { ELLIPSOID_WALL_RESISTANCE_NONE, "none" },
+    { ELLIPSOID_WALL_RESISTANCE_PLANE, "plane" }
+});
+
+
 const Foam::Enum<ellipsoid_pressure_gradient>
 Foam::ellipsoidProperties::pressureGradientNames_
 ({
@@ -109,6 +117,9 @@ namespace Foam
         { "fluid_density", "fluid", "density", nullptr },
         { "drag", "forces", "drag", nullptr },
         { "flow_points", "forces", "flowPoints", nullptr },
+        { "wall_resistance", "forces", "wallResistance", nullptr },
+        { "lubrication_gap", "forces", "lubricationGap", nullptr },
+        { "wall_range", "forces", "wallRange", nullptr },
         { "charge", "forces", "charge", nullptr },
         { "dipole", "forces", "dipole", nullptr },
         { "electric_field", "forces", "electricField", nullptr },
@@ -193,8 +204,9 @@ void Foam::ellipsoidProperties::readOptions()
     (
         forces,
         {
-            "drag", "flow", "flowPoints", "buoyancy", "pressureGradient",
-            "gravity", "externalForce", "externalTorque", "charge", "dipole",
+            "drag", "flow", "flowPoints", "wallResistance", "lubricationGap",
+            "wallRange", "buoyancy", "pressureGradient", "gravity",
+            "externalForce", "externalTorque", "charge", "dipole",
             "electricField"
         }
     );
@@ -203,6 +215,15 @@ void Foam::ellipsoidProperties::readOptions()
         flowAtNames_.getOrDefault("flow", forces, options_.flow_at);
     options_.flow_points =
         forces.getOrDefault("flowPoints", options_.flow_points);
+    options_.wall_resistance =
+        wallResistanceNames_.getOrDefault
+        (
+            "wallResistance", forces, options_.wall_resistance
+        );
+    options_.lubrication_gap =
+        forces.getOrDefault("lubricationGap", options_.lubrication_gap);
+    options_.wall_range =
+        forces.getOrDefault("wallRange", options_.wall_range);
     options_.buoyancy =
         forces.getOrDefault("buoyancy", Switch(options_.buoyancy));
     options_.pressure_gradient =

@@ -110,6 +110,42 @@ static void test_adhesion_range(void **unused)
     }
 }
 
+/* Near walls: refused with what it cannot go with, by its own name; its members
+   do not matter without it. */
+static void test_near_walls(void **unused)
+{
+    ellipsoid_options options = ellipsoid_options_default();
+    const char *field = NULL, *range = NULL;
+
+    (void)unused;
+    assert_refused(wall_resistance, (ellipsoid_wall_resistance)2,
+                   "wall_resistance");
+    options.lubrication_gap = options.wall_range = -1;
+    assert_ok(ellipsoid_options_check(&options, NULL, NULL));
+    options.wall_resistance = ELLIPSOID_WALL_RESISTANCE_PLANE;
+    assert_int_equal(ellipsoid_options_check(&options, &field, &range),
+                     ELLIPSOID_BAD_OPTION);
+    assert_string_equal(field, "lubrication_gap");
+    options.lubrication_gap = 1e-8;
+    options.wall_range = 0.99 * options.semi_axes[1];
+    assert_int_equal(ellipsoid_options_check(&options, &field, &range),
+                     ELLIPSOID_BAD_OPTION);
+    assert_string_equal(field, "wall_range");
+    options.wall_range = options.semi_axes[1];
+    assert_ok(ellipsoid_options_check(&options, NULL, NULL));
+    options.brownian = 1;
+    assert_int_equal(ellipsoid_options_check(&options, &field, &range),
+                     ELLIPSOID_BAD_OPTION);
+    assert_string_equal(field, "wall_resistance");
+    assert_string_equal(
+        range, "NONE with Brownian motion: the drift kT div M is not there");
+    options.brownian = options.drag = 0;
+    assert_int_equal(ellipsoid_options_check(&options, &field, &range),
+                     ELLIPSOID_BAD_OPTION);
+    assert_string_equal(field, "wall_resistance");
+    assert_string_equal(range, "NONE without drag");
+}
+
 /* Contact members do not matter where there is no contact. */
 static void test_contact_off(void **unused)
 {
@@ -200,6 +236,7 @@ int main(void)
         cmocka_unit_test(test_default_is_accepted),
         cmocka_unit_test(test_faults_are_named),
         cmocka_unit_test(test_adhesion_range),
+        cmocka_unit_test(test_near_walls),
         cmocka_unit_test(test_contact_off),
         cmocka_unit_test(test_bad_options_leave_the_model),
         cmocka_unit_test(test_model_of_the_paper),

@@ -193,6 +193,15 @@ ellipsoid_options fuzz_options(fuzz_input *in)
                        ? ELLIPSOID_MOTION_INERTIALESS
                        : ELLIPSOID_MOTION_INERTIAL;
         o.brownian = o.drag && fuzz_choice(in, 3) == 2;
+        if (o.drag && !o.brownian && fuzz_choice(in, 2))
+        {
+            const double *a = o.semi_axes;
+
+            o.wall_resistance = ELLIPSOID_WALL_RESISTANCE_PLANE;
+            o.lubrication_gap = fuzz_scaled(in, 1e-12, 1e-6);
+            o.wall_range =
+                fmax(a[0], fmax(a[1], a[2])) * fuzz_between(in, 1, 10);
+        }
     }
     if (o.brownian)
     {
@@ -229,7 +238,7 @@ void fuzz_wild_options(fuzz_input *in, ellipsoid_options *o)
 
     for (int n = 0; n < changes; n++)
     {
-        const int which = fuzz_choice(in, 37);
+        const int which = fuzz_choice(in, 39);
 
         if (which < 26)
         {
@@ -250,13 +259,16 @@ void fuzz_wild_options(fuzz_input *in, ellipsoid_options *o)
             /* what C lets an enumeration hold */
             const int value = known[fuzz_choice(in, 13)];
 
-            switch (which % 5)
+            switch (which % 6)
             {
                 case 0: o->motion = (ellipsoid_motion)value; break;
                 case 1: o->flow_at = (ellipsoid_flow_at)value; break;
                 case 2: o->bead_layout = (ellipsoid_bead_layout)value; break;
                 case 3:
                     o->contact_shape = (ellipsoid_contact_shape)value;
+                    break;
+                case 4:
+                    o->wall_resistance = (ellipsoid_wall_resistance)value;
                     break;
                 default:
                     o->pressure_gradient = (ellipsoid_pressure_gradient)value;

@@ -275,7 +275,8 @@ void fuzz_check_advance(const ellipsoid_model *model, fuzz_scene *scene,
                         const fuzz_start *start, int tame,
                         ellipsoid_contact_cache *warm)
 {
-    const int cached = model->options.contact && scene->around.walls;
+    const int cached = (model->options.contact || model->options.wall_resistance)
+                    && scene->around.walls;
     const int pure = !cached || fuzz_scene_has_faultless_walls(scene);
     const run at_start = {.model = model, .scene = scene, .now = *start};
     run whole = at_start, again = at_start;

@@ -1,0 +1,555 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    test_wallPlanes.c - the drag near walls made of facets: in the equations,
+    over seams and edges, in slits and corners, in motion.
+*/
+#include "coreTest.h"
+#include "nearWall.h"
+#include "wallMesh.h"
+#include "flowTest.h"
+
+enum
+{
+    SIZE = ELLIPSOID_STATE_SIZE
+};
+
+static ellipsoid_contact_cache cache;
+
+static ellipsoid_options near_walls(void)
+{
+    ellipsoid_options o = test_free_cell();
+
+    o.wall_resistance = ELLIPSOID_WALL_RESISTANCE_PLANE;
+    return o;
+}
+
+static ellipsoid_surroundings around(wall_mesh *mesh, test_quadratic *flow)
+{
+    const ellipsoid_surroundings surroundings = {.flow = test_quadratic_flow,
+                                                 .flow_context = flow,
+                                                 .walls = wall_mesh_list,
+                                                 .walls_context = mesh};
+
+    return surroundings;
+}
+
+/* A plane x3 = height of 100 um, in nu x nv quads. */
+static void add_floor(wall_mesh *mesh, double height, int nu, int nv)
+{
+    const double corner[3] = {-5e-5, -5e-5, height};
+    const double along[3] = {1e-4, 0, 0}, across[3] = {0, 1e-4, 0};
+
+    wall_mesh_plane(mesh, corner, along, across, nu, nv, 2, 0);
+}
+
+/* The resistance [N s/m, ...] in the lab: what the drag does against velocities
+   and angular velocities, one by one, in a fluid at rest. */
+static void lab_resistance(const ellipsoid_model *m, wall_mesh *mesh,
+                           const double x[3], const double q[4],
+                           double matrix[6][6])
+{
+    test_quadratic rest = {.answer = 0};
+    const ellipsoid_surroundings s = around(mesh, &rest);
+    double r[3][3];
+
+    ellipsoid_rotation(q, r);
+    for (int n = 0; n < 6; n++)
+    {
+        ellipsoid_state state = {.u = {0}}, derivative;
+
+        ellipsoid_copy(x, state.x);
+        memcpy(state.q, q, sizeof(state.q));
+        if (n < 3)
+        {
+            state.u[n] = 1e-9;
+        }
+        else
+        {
+            ellipsoid_copy(r[n - 3], state.omega);
+            ellipsoid_set(state.omega, 1e-3 * r[n - 3][0], 1e-3 * r[n - 3][1],
+                          1e-3 * r[n - 3][2]);
+        }
+        assert_ok(ellipsoid_rhs(m, &s, &state, &cache, &derivative));
+        for (int i = 0; i < 3; i++)
+        {
+            matrix[i][n] = -m->mass * derivative.u[i];
+            matrix[i + 3][n] = -m->inertia[i] * derivative.omega[i];
+        }
+    }
+}
+
+/* The largest relative difference of the columns of two resistances. */
+static double difference(double a[6][6], double b[6][6])
+{
+    double worst = 0;
+
+    for (int n = 0; n < 6; n++)
+    {
+        for (int first = 0; first < 6; first += 3)
+        {
+            double size = 0, error = 0;
+
+            for (int i = first; i < first + 3; i++)
+            {
+                size += a[i][n] * a[i][n];
+                error += pow(a[i][n] - b[i][n], 2);
+            }
+            worst = (first == 0) == (n < 3)
+                      ? fmax(worst, sqrt(error / size))
+                      : worst;
+        }
+    }
+    return worst;
+}
+
+/* --------------------------------------------------------------- Jacobian */
+
+/* A shallow step, a ridge, a corner and a lid: planes, edges and vertices, all
+   in range. */
+static void add_landscape(wall_mesh *mesh)
+{
+    const double low[3] = {-6e-6, -6e-6, -4e-6}, high[3] = {6e-6, 6e-6, 4e-6};
+    const double block[2][3] = {{2e-6, -7e-6, -5e-6}, {7e-6, 0, -2e-6}};
+
+    wall_mesh_box(mesh, low, high, 1, 2, 0);
+    wall_mesh_box(mesh, block[0], block[1], 0, 2, 0);
+}
+
+/* Of the fourth order, step 1e-5 of the semi-axis and of q: the block's edge
+   and corner bend the planes within 1 um. 1e-6 of the block's size, and what
+   rounding of the accelerations leaves. */
+static int compare_jacobian(const ellipsoid_model *m,
+                            const ellipsoid_surroundings *s,
+                            const ellipsoid_state *state)
+{
+    static const double weight[] = {1.0 / 12, -2.0 / 3, 0, 2.0 / 3, -1.0 / 12};
+    double jacobian[SIZE][SIZE];
+    int bad = 0;
+
+    assert_ok(ellipsoid_jacobian(m, s, state, &cache, jacobian));
+    for (int j = 0; j < SIZE; j++)
+    {
+        const double step = j < AT_X       ? 1e-3
+                          : j < AT_OMEGA ? 2e-11
+                          : j < AT_Q     ? 1e3
+                                         : 1e-5;
+        double slope[SIZE] = {0}, largest[SIZE] = {0};
+
+        for (int p = -2; p <= 2; p++)
+        {
+            double y[SIZE], f[SIZE];
+            ellipsoid_state moved, derivative;
+
+            memcpy(y, state, sizeof(y));
+            y[j] += p * step;
+            memcpy(&moved, y, sizeof(moved));
+            assert_ok(ellipsoid_rhs(m, s, &moved, &cache, &derivative));
+            memcpy(f, &derivative, sizeof(f));
+            for (int i = 0; i < SIZE; i++)
+            {
+                slope[i] += weight[p + 2] * f[i] / step;
+                largest[i] = fmax(largest[i], fabs(f[i]));
+            }
+        }
+        for (int begin = 0; begin < AT_Q; begin += AT_OMEGA)
+        {
+            double size = 0, error = 0, rounding = 0;
+
+            for (int i = begin; i < begin + 3; i++)
+            {
+                size = fmax(size, fabs(jacobian[i][j]));
+                error = fmax(error, fabs(slope[i] - jacobian[i][j]));
+                rounding = fmax(rounding, 1e-14 * largest[i] / step);
+            }
+            bad += !(error <= 1e-6 * size + rounding);
+        }
+    }
+    return bad;
+}
+
+static void test_jacobian(void **unused)
+{
+    const ellipsoid_options o = near_walls();
+    ellipsoid_model model = test_model(&o);
+    test_quadratic flow = test_shear(1000);
+    wall_mesh mesh;
+    uint64_t seed = 21;
+    int bad = 0, several = 0;
+
+    (void)unused;
+    flow.h[0][2][2] = 1e8;
+    flow.u[1] = 1e-3;
+    wall_mesh_init(&mesh);
+    add_landscape(&mesh);
+    wall_mesh_finish(&mesh);
+    ellipsoid_contact_cache_clear(&cache);
+    for (int n = 0; n < 400; n++)
+    {
+        const ellipsoid_surroundings s = around(&mesh, &flow);
+        ellipsoid_state state = {.u = {0}};
+        double r[3][3], axis[3][3];
+        ellipsoid_planes planes;
+
+        test_orientation(&seed, state.q);
+        for (int i = 0; i < 3; i++)
+        {
+            state.x[i] = (i == 2 ? 2e-6 : 4e-6) * test_signed(&seed);
+            state.u[i] = 1e-3 * test_signed(&seed);
+            state.omega[i] = 1e3 * test_signed(&seed);
+        }
+        if (state.x[0] > 1e-6 && state.x[1] < 1e-6)
+        {
+            state.x[2] = fabs(state.x[2]);
+        }
+        ellipsoid_rotation(state.q, r);
+        for (int i = 0; i < 3; i++)
+        {
+            ellipsoid_set(axis[i], r[0][i], r[1][i], r[2][i]);
+        }
+        assert_ok(ellipsoid_find_planes(&model, &s, state.x, state.q, axis,
+                                        NULL, &cache, &planes));
+        several += planes.count >= 6;
+        for (int l = 0; l < 4; l++)
+        {
+            state.q[l] *= 1 + 0.05 * (n % 3 - 1);
+        }
+        model.options.flow_at =
+            n % 2 ? ELLIPSOID_FLOW_CENTRE : ELLIPSOID_FLOW_BODY;
+        model = test_model(&model.options);
+        bad += compare_jacobian(&model, &s, &state) > 0;
+    }
+    print_message("%d of 400 states with six planes or more\n", several);
+    assert_true(bad == 0);
+    assert_true(several > 50);
+    wall_mesh_free(&mesh);
+}
+
+/* ------------------------------------------------------------------ walls */
+
+/* However the wall is cut; what rounding leaves. */
+static void test_cuts(void **unused)
+{
+    const ellipsoid_options o = near_walls();
+    const ellipsoid_model model = test_model(&o);
+    wall_mesh whole, cut;
+    uint64_t seed = 22;
+
+    (void)unused;
+    wall_mesh_init(&whole);
+    wall_mesh_init(&cut);
+    add_floor(&whole, 0, 1, 1);
+    add_floor(&cut, 0, 40, 37);
+    wall_mesh_finish(&whole);
+    wall_mesh_finish(&cut);
+    for (int n = 0; n < 200; n++)
+    {
+        /* some right above vertices and edges */
+        const double step[2] = {1e-4 / 40, 1e-4 / 37};
+        double x[3] = {0, -5e-5 + 18 * step[1], 3e-6}, q[4];
+        double a[6][6], b[6][6];
+
+        if (n % 4 > 0)
+        {
+            x[0] = 1e-6 * test_signed(&seed);
+        }
+        if (n % 4 > 1)
+        {
+            x[1] = 1e-6 * test_signed(&seed);
+        }
+        x[2] = 1e-6 + 6e-6 * test_uniform(&seed);
+        test_orientation(&seed, q);
+        ellipsoid_contact_cache_clear(&cache);
+        lab_resistance(&model, &whole, x, q, a);
+        ellipsoid_contact_cache_clear(&cache);
+        lab_resistance(&model, &cut, x, q, b);
+        assert_true(difference(a, b) < 1e-11);
+    }
+    wall_mesh_free(&whole);
+    wall_mesh_free(&cut);
+}
+
+/* On a way of so many steps, the largest change from one to the next. */
+static double largest_change(const ellipsoid_model *m, wall_mesh *mesh,
+                             const double from[3], const double to[3],
+                             const double q[4], int steps)
+{
+    double before[6][6], after[6][6], worst = 0;
+
+    for (int n = 0; n <= steps; n++)
+    {
+        const double t = (double)n / steps;
+        double x[3];
+
+        for (int i = 0; i < 3; i++)
+        {
+            x[i] = (1 - t) * from[i] + t * to[i];
+        }
+        lab_resistance(m, mesh, x, q, after);
+        worst = n > 0 ? fmax(worst, difference(before, after)) : 0;
+        memcpy(before, after, sizeof(before));
+    }
+    return worst;
+}
+
+/* A tunnel (sign 1) or a post (-1) along x2, touched from within or outside by
+   x3 = 0. */
+typedef struct arc
+{
+    double sign, radius;
+} arc;
+
+static void bend(const double *uv, double point[3], void *context)
+{
+    const arc *a = context;
+    const double angle = 2 * test_pi * (uv[0] - 0.5);
+    const double across = fabs(sin(angle)) < 1e-9 ? 0 : sin(angle);
+
+    ellipsoid_set(point, a->radius * across, 6e-5 * (uv[1] - 0.5),
+                  a->sign * a->radius * (1 - cos(angle)));
+}
+
+/*
+    Continuous: along ways over concave and convex seams, over the landscape and
+    out of range, ten times the steps make the largest change less than a third,
+    where a jump would stay.
+*/
+static void test_continuous(void **unused)
+{
+    const ellipsoid_options o = near_walls();
+    const ellipsoid_model model = test_model(&o);
+    uint64_t seed = 23;
+
+    (void)unused;
+    for (int n = 0; n < 20; n++)
+    {
+        const double ends[2][3] = {
+            {2e-6 * test_signed(&seed), 3e-6 * test_signed(&seed), 2e-6},
+            {2e-6 * test_signed(&seed), 3e-6 * test_signed(&seed),
+             n % 4 == 3 ? 14e-6 : 2.5e-6}};
+        arc shape = {n % 4 == 1 ? -1 : 1, 8e-6};
+        double q[4], coarse, fine;
+        wall_mesh mesh;
+
+        wall_mesh_init(&mesh);
+        if (n % 4 == 0)
+        {
+            add_landscape(&mesh);
+        }
+        else
+        {
+            wall_mesh_grid(&mesh, n % 4 == 3 ? 7 : 24, 3, bend, &shape, 2, 0);
+        }
+        wall_mesh_finish(&mesh);
+        test_orientation(&seed, q);
+        ellipsoid_contact_cache_clear(&cache);
+        coarse =
+            largest_change(&model, &mesh, ends[0], ends[1], q, 400);
+        fine = largest_change(&model, &mesh, ends[0], ends[1], q, 4000);
+        print_message("%d: %.1e %.1e\n", n % 4, coarse, fine);
+        assert_true(fine < 0.35 * coarse);
+        wall_mesh_free(&mesh);
+    }
+}
+
+/* The result is that of the pose, to the last bit, whatever the cache holds. */
+static void test_cache(void **unused)
+{
+    static ellipsoid_contact_cache fresh;
+    const ellipsoid_options o = near_walls();
+    const ellipsoid_model model = test_model(&o);
+    test_quadratic flow = test_shear(1000);
+    ellipsoid_state state = {.x = {-2e-6, -3e-6, -1e-6}};
+    uint64_t seed = 24;
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_landscape(&mesh);
+    wall_mesh_finish(&mesh);
+    ellipsoid_contact_cache_clear(&cache);
+    for (int n = 0; n < 300; n++)
+    {
+        const ellipsoid_surroundings s = around(&mesh, &flow);
+        ellipsoid_state a, b;
+
+        state.x[n % 3] += 0.3e-6 * test_signed(&seed);
+        test_orientation(&seed, state.q);
+        ellipsoid_contact_cache_clear(&fresh);
+        assert_ok(ellipsoid_rhs(&model, &s, &state, &cache, &a));
+        assert_ok(ellipsoid_rhs(&model, &s, &state, &fresh, &b));
+        assert_memory_equal(&a, &b, sizeof(a));
+    }
+    wall_mesh_free(&mesh);
+}
+
+/* A slit: two walls add up (Oseen's superposition); a wall out of range, or
+   none at all, is no wall. */
+static void test_slit(void **unused)
+{
+    const ellipsoid_options o = near_walls(), free = test_free_cell();
+    const ellipsoid_model model = test_model(&o), bare = test_model(&free);
+    const double low[3] = {-1e-4, -1e-4, 0}, high[3] = {1e-4, 1e-4, 6e-6};
+    const double q[4] = {0.1, 0.2, 0.3, 0.927361849549570};
+    const double x[3] = {0, 0, 2.5e-6}, off[3] = {0, 0, 10.1e-6 * 4};
+    double one[6][6], other[6][6], both[6][6], none[6][6];
+    wall_mesh floor, lid, slit;
+
+    (void)unused;
+    wall_mesh_init(&floor);
+    wall_mesh_init(&lid);
+    wall_mesh_init(&slit);
+    add_floor(&floor, 0, 1, 1);
+    {
+        const double a[3] = {1e-4, -1e-4, 6e-6}, u[3] = {-2e-4, 0, 0};
+        const double v[3] = {0, 2e-4, 0};
+
+        wall_mesh_plane(&lid, a, u, v, 1, 1, 0, 0);
+    }
+    wall_mesh_box(&slit, low, high, 1, 0, 0);
+    wall_mesh_finish(&floor);
+    wall_mesh_finish(&lid);
+    wall_mesh_finish(&slit);
+    ellipsoid_contact_cache_clear(&cache);
+    lab_resistance(&model, &floor, x, q, one);
+    ellipsoid_contact_cache_clear(&cache);
+    lab_resistance(&model, &lid, x, q, other);
+    ellipsoid_contact_cache_clear(&cache);
+    lab_resistance(&model, &slit, x, q, both);
+    lab_resistance(&bare, &slit, x, q, none);
+    for (int n = 0; n < 6; n++)
+    {
+        for (int i = 0; i < 6; i++)
+        {
+            one[i][n] += other[i][n] - none[i][n];
+        }
+    }
+    assert_true(difference(one, both) < 1e-11);
+    ellipsoid_contact_cache_clear(&cache);
+    lab_resistance(&model, &floor, off, q, both);
+    assert_true(difference(none, both) < 1e-13);
+    wall_mesh_free(&floor);
+    wall_mesh_free(&lid);
+    wall_mesh_free(&slit);
+}
+
+/*
+    The paper's cell, weighed down by 2 pN, comes down on a floor in a shear
+    flow, touches it and rolls on: with and without inertia the same way.
+    Inertia acts for 1e-7 s; 2 nm as in the flow without walls
+    (test_inertialess.c).
+*/
+static void test_coming_down(void **unused)
+{
+    wall_mesh mesh;
+    ellipsoid_state end[2];
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_floor(&mesh, 0, 1, 1);
+    wall_mesh_finish(&mesh);
+    for (int n = 0; n < 2; n++)
+    {
+        test_quadratic flow = {.answer = 0};
+        const ellipsoid_surroundings s = around(&mesh, &flow);
+        ellipsoid_options o = near_walls();
+        ellipsoid_state state = {.x = {0, 0, 3e-6}, .q = {0.3, 0.1, 0.2, 0.9}};
+        ellipsoid_controller controller = {0};
+        ellipsoid_statistics statistics = {0};
+        ellipsoid_model model;
+        double t = 0;
+
+        flow.g[1][2] = 20;
+        o.motion =
+            n ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL;
+        o.contact = 1;
+        o.external_force[2] = -2e-12;
+        model = test_model(&o);
+        ellipsoid_normalise(state.q);
+        ellipsoid_contact_cache_clear(&cache);
+        assert_ok(ellipsoid_balance(&model, &s, &state, &cache));
+        assert_ok(ellipsoid_advance(&model, &s, &state, &t, 0.5, &controller,
+                                    &cache, NULL, NULL, &statistics));
+        print_message("%ld steps, %ld rejected, deepest %.1e m\n",
+                      statistics.accepted, statistics.rejected,
+                      statistics.deepest);
+        assert_true(statistics.deepest > 0);
+        end[n] = state;
+    }
+    assert_near(test_distance(end[0].x, end[1].x, 3), 0, 2e-9);
+    assert_near(test_distance(end[0].q, end[1].q, 4), 0, 1e-3);
+    wall_mesh_free(&mesh);
+}
+
+/* Two cells that overlap by some nanometres near a floor are pushed apart, with
+   and without inertia the same way. Those with inertia start
+   from rest: 1e-7 s at some mm/s, 1 nm of the 20 nm. */
+static void test_two_cells(void **unused)
+{
+    static ellipsoid_contact_cache caches[2];
+    static double memory[200000];
+    ellipsoid_state end[2][2];
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_floor(&mesh, 0, 1, 1);
+    wall_mesh_finish(&mesh);
+    assert_true(ellipsoid_group_size(2) <= sizeof(memory));
+    for (int n = 0; n < 2; n++)
+    {
+        test_quadratic rest = {.answer = 0};
+        ellipsoid_surroundings s[2] = {around(&mesh, &rest),
+                                       around(&mesh, &rest)};
+        ellipsoid_options o = near_walls();
+        ellipsoid_controller controller[2] = {{0}};
+        ellipsoid_statistics statistics[2] = {{0}};
+        ellipsoid_member members[2];
+        ellipsoid_model model;
+        double t = 0;
+        int which;
+
+        o.motion =
+            n ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL;
+        o.contact = 1;
+        model = test_model(&o);
+        for (int i = 0; i < 2; i++)
+        {
+            const ellipsoid_state state = {
+                .x = {i * 0.88e-6, i * 0.2e-6, 0.7e-6}, .q = {0, 0, 0, 1}};
+
+            s[i].id = (uint32_t)i;
+            end[n][i] = state;
+            ellipsoid_contact_cache_clear(&caches[i]);
+            members[i] = (ellipsoid_member){
+                &model,     &s[i], &end[n][i],    &controller[i],
+                &caches[i], NULL,  &statistics[i]};
+        }
+        assert_ok(ellipsoid_advance_group(2, members, &t, 1e-2, NULL, memory,
+                                          &which));
+    }
+    assert_true(end[0][1].x[0] - end[0][0].x[0] > 0.89e-6);
+    for (int i = 0; i < 2; i++)
+    {
+        assert_near(test_distance(end[0][i].x, end[1][i].x, 3), 0, 1e-9);
+        assert_near(test_distance(end[0][i].q, end[1][i].q, 4), 0, 1e-4);
+    }
+    wall_mesh_free(&mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_jacobian),
+        cmocka_unit_test(test_cuts),
+        cmocka_unit_test(test_continuous),
+        cmocka_unit_test(test_cache),
+        cmocka_unit_test(test_slit),
+        cmocka_unit_test(test_coming_down),
+        cmocka_unit_test(test_two_cells),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
