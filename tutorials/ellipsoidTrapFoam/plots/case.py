@@ -344,14 +344,10 @@ class Case:
         bounds = np.array([mesh.GetBounds() for mesh in self._vtk[0]]) * MICRO
         return bounds[:, 4].min(), bounds[:, 5].max()
 
-    @cached_property
-    def inlet_speed(self):
-        """Mean speed of the flow that comes in, as the solver logged it."""
-        file = self.path("log.ellipsoidTrapFoam")
-        found = re.findall(r"flow: mean inlet speed (\S+) m/s", read_text(file))
-        if not found:
-            raise CaseError(f"{file}: no mean inlet speed")
-        return float(found[-1]) * MILLI
+    @property
+    def entry_speed(self):
+        """Mean speed at which cells enter; they start with the flow's."""
+        return float(np.mean([np.linalg.norm(one.u[0]) for one in self.tracks.values()]))
 
     @property
     def fluxes(self):
