@@ -92,6 +92,17 @@ class Track(namedtuple("Track", "t x u q omega axis")):
         steps = np.diff(self.t)[:, None] * np.arange(parts) / parts
         return self.at(np.append((self.t[:-1, None] + steps).ravel(), self.t[-1]))
 
+    @property
+    def travelled(self):
+        """Length of the path up to every row."""
+        return np.append(0, np.linalg.norm(np.diff(self.x, axis=0), axis=1).cumsum())
+
+    @property
+    def turned(self):
+        """Angle turned through, back and forth, up to every row."""
+        half = np.abs((self.q[1:] * self.q[:-1]).sum(axis=1))
+        return np.append(0, 2 * np.arccos(np.minimum(half, 1)).cumsum())
+
     def until(self, t):
         """The rows up to a time."""
         return Track(*(part[self.t <= t] for part in self))
