@@ -23,17 +23,6 @@ AROUND = 1e-3     # s before and after the flip for the change of u2
 PAPER_FLIP = 55.0   # ms
 
 
-def path_length(track):
-    """Length of a cell's path."""
-    return np.linalg.norm(np.diff(track.x, axis=0), axis=1).sum()
-
-
-def turning(track):
-    """Angle that a cell has turned through, back and forth."""
-    half = np.abs((track.q[1:] * track.q[:-1]).sum(axis=1))
-    return 2 * np.arccos(np.minimum(half, 1)).sum()
-
-
 def flips(track):
     """Times at which O_x2 passes zero between one side and the other."""
     along = track.axis[:, 1]

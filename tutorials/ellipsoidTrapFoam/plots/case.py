@@ -92,6 +92,17 @@ class Track(namedtuple("Track", "t x u q omega axis")):
         steps = np.diff(self.t)[:, None] * np.arange(parts) / parts
         return self.at(np.append((self.t[:-1, None] + steps).ravel(), self.t[-1]))
 
+    @property
+    def travelled(self):
+        """Length of the path up to every row."""
+        return np.append(0, np.linalg.norm(np.diff(self.x, axis=0), axis=1).cumsum())
+
+    @property
+    def turned(self):
+        """Angle turned through, back and forth, up to every row."""
+        half = np.abs((self.q[1:] * self.q[:-1]).sum(axis=1))
+        return np.append(0, 2 * np.arccos(np.minimum(half, 1)).cumsum())
+
     def until(self, t):
         """The rows up to a time."""
         return Track(*(part[self.t <= t] for part in self))
@@ -345,14 +356,10 @@ class Case:
         bounds = np.array([mesh.GetBounds() for mesh in self._vtk[0]]) * MICRO
         return bounds[:, 4].min(), bounds[:, 5].max()
 
-    @cached_property
-    def inlet_speed(self):
-        """Mean speed of the flow that comes in, as the solver logged it."""
-        file = self.path("log.ellipsoidTrapFoam")
-        found = re.findall(r"flow: mean inlet speed (\S+) m/s", read_text(file))
-        if not found:
-            raise CaseError(f"{file}: no mean inlet speed")
-        return float(found[-1]) * MILLI
+    @property
+    def entry_speed(self):
+        """Mean speed at which cells enter; they start with the flow's."""
+        return float(np.mean([np.linalg.norm(one.u[0]) for one in self.tracks.values()]))
 
     @property
     def fluxes(self):

@@ -60,7 +60,9 @@ def read_seen(case, measured):
     for sieve, *numbers in zip(columns["sieve"], columns["t"], columns["fewest"], most):
         if sieve not in case.sieves:
             raise CaseError(f"{file}: the case has no sieve {sieve}")
-        seen.setdefault(sieve, []).append(tuple(numbers))
+        # A shorter run has nothing to compare with it
+        if numbers[0] <= max(case.end_time, case.loading):
+            seen.setdefault(sieve, []).append(tuple(numbers))
     return seen
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 import account
 import style
-from account import flips, path_length, turning
+from account import flips
 from case import MILLI, NotApplicable
 from files import CaseError, read_measured
 
@@ -57,9 +57,9 @@ def choose(case, sieve):
     if caught:
         # A held cell may still roll: that is no way made
         return max(
-            caught, key=lambda cell: path_length(case.tracks[cell].until(case.fates[cell].t))
+            caught, key=lambda cell: case.tracks[cell].until(case.fates[cell].t).travelled[-1]
         )
-    return max(case.tracks, key=lambda cell: turning(case.tracks[cell]))
+    return max(case.tracks, key=lambda cell: case.tracks[cell].turned[-1])
 
 
 def draw_measured(file, pose, motion):

@@ -163,11 +163,10 @@ def sequence(case, cell):
     side. Also whether they are so."""
     found = account.of_cell(case, cell)
     track = case.tracks[cell].finer(10)
-    length = np.append(0, np.cumsum(np.linalg.norm(np.diff(track.x, axis=0), axis=1)))
+    length = track.travelled
     total = min(SPAN, length[-1])
     if total < 2 * case.semi_axes.max():
-        half = np.abs((track.q[1:] * track.q[:-1]).sum(axis=1))
-        angle = np.append(0, np.cumsum(2 * np.arccos(np.minimum(half, 1))))
+        angle = track.turned
         shown = track.at(np.interp(np.linspace(0, min(np.pi, angle[-1]), POSES), angle, track.t))
         shown.x[:, 0] += 2.3 * case.semi_axes.max() * (np.arange(POSES) - POSES // 2)
         return shown, True
@@ -209,8 +208,8 @@ def draw_sequence(ax, case, cell, scale):
                     fontsize=7.5, path_effects=style.framed("white", 2))
     told = "the cell stays in its place; poses drawn side by side" if apart else \
         f"black: velocity, longest {fastest:.2f} mm/s; walls at the cell's height"
-    ax.annotate(f"{told};\nblue: angular velocity (right-hand rule), longest {quickest:.0f} rad/s"
-                "\nseen 35° off the vertical", (0, 0), xycoords="axes fraction", fontsize=7.5, va="top")
+    ax.annotate(f"{told};\nblue: angular velocity (right-hand rule), longest "
+                f"{quickest:.0f} rad/s\nseen 35° off the vertical", (0, 0), xycoords="axes fraction", fontsize=7.5, va="top")
 
 
 def draw(case, cell=None):

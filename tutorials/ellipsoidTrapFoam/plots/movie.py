@@ -24,7 +24,9 @@ MARGIN = 9.0        # shown about the sieve, in micrometres
 SCALE = 15          # pixels a micrometre
 STEP = 0.5e-3       # s between frames
 FRAME = 50          # ms that a frame is seen
-LONGEST = 0.11      # s that are shown
+LONGEST = 0.1       # s that are shown at most, and
+SHORTEST = 0.06     # at least, so that a caught cell comes to rest
+BEFORE = 0.018      # s from the first entry to the first frame, which shows some cells
 PASSING = 7         # cells that pass
 APART = 9e-3        # s between their entries
 QUALITY = 55
@@ -62,7 +64,7 @@ def visit(track, window):
 
 
 def cast(case, sieve, window):
-    """(cell, when its visit begins) of the cells to show: one caught, and those that pass
+    """(cell, when its visit begins and ends) of the cells to show: one caught, and those that pass
     nearest to the sieve."""
     passing, staying = [], []
     reach = 0.7 * MARGIN
@@ -76,15 +78,14 @@ def cast(case, sieve, window):
         if fate.name == "escaped":
             near = walls.distance(case, [sieve], track.finer(3).x, within=reach).min()
             if np.isfinite(near) and end - begin < LONGEST / 2:
-                passing.append((near, cell, begin))
+                passing.append((near, cell, begin, end))
         elif fate.name == "caught" and fate.patch == sieve:
-            staying.append((fate.t, cell, begin))
-    chosen = [(cell, begin) for _, cell, begin in sorted(passing)[:PASSING]]
+            staying.append((fate.t, cell, begin, begin))
+    chosen = [one[1:] for one in sorted(passing)[:PASSING]]
     # In the order of their ids, which is none, so that not the nearest come first
     chosen.sort()
     if staying:
-        _, cell, begin = min(staying)
-        chosen.insert(min(1, len(chosen)), (cell, begin))
+        chosen.insert(min(1, len(chosen)), min(staying)[1:])
     return chosen
 
 
@@ -138,11 +139,12 @@ def draw(case, sieve=None):
 
     stage, left, top = draw_stage(case, sieve, window)
     font = ImageFont.truetype(font_manager.findfont("DejaVu Sans"), 15)
-    times = np.arange(0, LONGEST, STEP)
+    last = max(end - begin + k * APART - BEFORE for k, (_, begin, end) in enumerate(shown))
+    times = np.arange(0, np.clip(last, SHORTEST, LONGEST), STEP)
     poses = []
-    for k, (cell, begin) in enumerate(shown):
+    for k, (cell, begin, _) in enumerate(shown):
         track = case.tracks[cell]
-        clock = begin + times - k * APART
+        clock = begin + BEFORE + times - k * APART
         there = (clock >= track.t[0]) & (clock <= track.t[-1])
         colours = STAYS if case.fates[cell].name == "caught" else PASSES
         poses.append((there, track.at(clock), colours))
@@ -163,10 +165,10 @@ def draw(case, sieve=None):
         frames.append(np.asarray(image))
 
     film = Film(frames)
-    caught = sum(case.fates[cell].name == "caught" for cell, _ in shown)
+    caught = sum(case.fates[cell].name == "caught" for cell, *_ in shown)
     style.describe(film, f"""{len(shown) - caught} cells that pass {sieve} and {caught} that it
         catches, true ellipsoids seen from above, {FRAME / (MILLI * STEP):.0f} times slowed
         down. Light and dark halves tell the ends of a cell apart. The cells came at different
         times of the run and are put together; they do not see one another. Cells:
-        {", ".join(str(cell) for cell, _ in shown)}.""")
+        {", ".join(str(cell) for cell, *_ in shown)}.""")
     return film

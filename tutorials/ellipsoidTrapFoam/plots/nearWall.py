@@ -30,7 +30,7 @@ def moving_rows(case):
     """Distance [µm] from the sieves, spin rate [rad/s], and whether in the middle of the
     depth and of a cell that escapes, of all rows in the chamber at which it is not slow."""
     share = float(case.properties.get("capture", {}).get("speedFraction", 0.01))
-    slow = share * case.inlet_speed
+    slow = share * case.entry_speed
     low, high = case.depth
     parts = []
     for cell, track in case.tracks.items():
@@ -63,6 +63,8 @@ def draw(case):
     """The figure."""
     if not case.sieves:
         raise NotApplicable("the case has no sieves")
+    if not case.tracks:
+        raise NotApplicable("no cell has been injected")
     rows = moving_rows(case)
     kinds = (
         ("cells that pass", rows.passing, style.BLUE, "o", "-"),
@@ -99,7 +101,7 @@ def draw(case):
         one.grid(True)
     ax.legend(loc="upper right", markerscale=1.5)
 
-    table = [["centre from the sieves' walls", *(label for label, *_ in kinds)]]
+    table = [["|ω| [rad/s], centre from the sieves' walls", *(label for label, *_ in kinds)]]
     facts = []
     for title, there in (
         (f"below {CLOSE:g} µm", rows.distance < CLOSE),
@@ -108,7 +110,7 @@ def draw(case):
         sets = [rows.spin[there & chosen] for _, chosen, *_ in kinds]
         facts.append([np.median(one) if len(one) else np.nan for one in sets])
         table.append([title] + [
-            "{1:.0f} ({0:.0f} to {2:.0f}) rad/s".format(*np.percentile(one, (25, 50, 75)))
+            "{1:.0f} ({0:.0f} to {2:.0f})".format(*np.percentile(one, (25, 50, 75)))
             if len(one) else "none" for one in sets
         ])
     ratios = np.divide(*facts)

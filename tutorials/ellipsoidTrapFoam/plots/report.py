@@ -73,6 +73,7 @@ th, td { padding: .22rem .8rem .22rem 0; text-align: right; vertical-align: top;
   border-bottom: 1px solid var(--line); }
 th:first-child, td:first-child, table.words td, table.words th { text-align: left; }
 thead th { border-bottom: 1.5px solid var(--ink); }
+table.words td:first-child { white-space: nowrap; }
 code { font: .85em ui-monospace, "DejaVu Sans Mono", Consolas, monospace; }
 @media print {
   body { max-width: none; padding: 0; font-size: 10.5pt; }
