@@ -147,8 +147,11 @@ void Foam::captureStatistics::judgeHeld(List<cellMove>& moves)
 
         if
         (
-            (cell.fate == cellState::inFlight || cell.fate == cellState::stalled)
-         && cell.slowTime >= holdTime_
+            cell.slowTime >= holdTime_
+         && (
+                cell.fate == cellState::inFlight
+             || cell.fate == cellState::stalled
+            )
         )
         {
             open.append(i);

@@ -22,9 +22,9 @@ namespace Foam
     //- How often an interval is halved at most
     static const label maxDepth = 8;
 
-    //- In bead radii: the gap below which cells are one unit; what is not known
-    //  of a path between the poses looked at; the travel below which it does not
-    //  pay to halve the time
+    //- In bead radii: the gap below which cells are one unit; what is not
+    //  known of a path between the poses looked at; the travel below which it
+    //  does not pay to halve the time
     static const scalar unitGap = 0.5;
     static const scalar unseenGap = 0.1;
     static const scalar shortTravel = 2;

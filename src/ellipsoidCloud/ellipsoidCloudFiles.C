@@ -251,7 +251,8 @@ void Foam::ellipsoidCloud::reportWork() const
         returnReduce(int64_t(done.steps.accepted), sumOp<int64_t>());
     const int64_t rejected =
         returnReduce(int64_t(done.steps.rejected), sumOp<int64_t>());
-    const int64_t nGroups = returnReduce(int64_t(done.nGroups), sumOp<int64_t>());
+    const int64_t nGroups =
+        returnReduce(int64_t(done.nGroups), sumOp<int64_t>());
     const label largest = returnReduce(done.largest, maxOp<label>());
     const scalar inGroups = returnReduce(done.groupTime, sumOp<scalar>());
     const scalar inAll = returnReduce(done.time, sumOp<scalar>());
