@@ -133,49 +133,6 @@ void Foam::frozenFlow::makeTets
 }
 
 
-Foam::vectorField Foam::frozenFlow::pointVelocities
-(
-    const volVectorField& U,
-    const volTensorField& gradU,
-    const pointTensorField& pointGradU
-)
-{
-    const fvMesh& mesh = U.mesh();
-    const volPointInterpolation& toPoints = volPointInterpolation::New(mesh);
-    const dimensionedVector middle
-    (
-        "middle", dimLength, boundBox(mesh.points(), false).centre()
-    );
-
-    // The mean of cells about a point is not at the point where they are of
-    // different size. What is left without the linear part does not mind.
-    const volVectorField rest(U - ((mesh.C() - middle) & gradU));
-    vectorField pointU(toPoints.interpolate(rest)().primitiveField());
-
-    forAll(pointU, pointi)
-    {
-        pointU[pointi] +=
-            (mesh.points()[pointi] - middle.value()) & pointGradU[pointi];
-    }
-
-    // At cyclic and symmetry patches not what is left, but the velocity goes on
-    const pointVectorField plain(toPoints.interpolate(U));
-
-    for (const polyPatch& pp : mesh.boundaryMesh())
-    {
-        if (polyPatch::constraintType(pp.type()))
-        {
-            for (const label pointi : pp.meshPoints())
-            {
-                pointU[pointi] = plain[pointi];
-            }
-        }
-    }
-
-    return pointU;
-}
-
-
 void Foam::frozenFlow::makeVertices
 (
     const undecomposedFlow& whole,
@@ -191,9 +148,9 @@ void Foam::frozenFlow::makeVertices
 
     const volPointInterpolation& toPoints = volPointInterpolation::New(mesh);
 
+    const pointVectorField pointU(toPoints.interpolate(whole.U()));
     const pointTensorField pointGradU(toPoints.interpolate(gradU));
     const pointVectorField pointGradp(toPoints.interpolate(gradp));
-    const vectorField pointU(pointVelocities(whole.U(), gradU, pointGradU));
 
     // A point that a wall shares with an open patch moves with the wall
     vectorField wallU(mesh.nPoints(), Zero);
