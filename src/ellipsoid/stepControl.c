@@ -10,18 +10,49 @@
 #include <float.h>
 #include <math.h>
 
+/* m u^2 + omega I omega, of velocities or of their errors */
+static double twice_kinetic(const ellipsoid_model *m, const double y[UNKNOWNS])
+{
+    const double *w = y + AT_OMEGA;
+
+    return m->mass * ellipsoid_dot(y + AT_U, y + AT_U)
+         + m->inertia[0] * w[0] * w[0] + m->inertia[1] * w[1] * w[1]
+         + m->inertia[2] * w[2] * w[2];
+}
+
+/*
+    In vacuum errors of u and omega last, and change the energy: the root of
+    what they make against the body's own, in motion at either end or in the
+    contact at the start (Hertz: 2/5 of force times depth).
+*/
+static double lasting_error(const ellipsoid_model *m,
+                            const ellipsoid_point *start,
+                            const ellipsoid_stages *stages)
+{
+    const ellipsoid_contact *c = &start->contact;
+    const double kinetic = fmax(twice_kinetic(m, start->y),
+                                twice_kinetic(m, stages->y));
+    const double elastic =
+        0.8
+        * (ellipsoid_length(c->force) * fmax(c->deepest, 0)
+           + ellipsoid_length(c->cell_force) * fmax(c->cell_deepest, 0));
+    const double all = kinetic + elastic;
+
+    return all > 0 ? sqrt(twice_kinetic(m, stages->error) / all) : 0;
+}
+
 /*
     The error in units of the tolerance. Errors of u and omega count by what
     they do to x and q: they last one relaxation time or one step, whichever is
     shorter. So the stiff components do not govern the step.
 */
 static double scaled_error(const ellipsoid_problem *p,
-                           const double error[UNKNOWNS], double h)
+                           const ellipsoid_point *start,
+                           const ellipsoid_stages *stages, double h)
 {
-    const double per_h = 1 / h;
-    const double *q = error + AT_Q;
+    const double per_h = 1 / h, *error = stages->error;
     const double ex = ellipsoid_length(error + AT_X) / p->length;
-    const double eq = sqrt(ellipsoid_square4(q));
+    const double eq = sqrt(ellipsoid_square4(error + AT_Q));
     double eu = 0, ew = 0, sum;
 
     if (p->inertial)
@@ -29,6 +60,10 @@ static double scaled_error(const ellipsoid_problem *p,
         eu =
             ellipsoid_length(error + AT_U) / (p->length * fmax(p->rate, per_h));
         ew = ellipsoid_length(error + AT_OMEGA) / fmax(p->rotation_rate, per_h);
+        if (!(p->rate > 0))
+        {
+            eu += lasting_error(p->model, start, stages);
+        }
     }
     sum = ex + eu + ew + eq;
 
@@ -209,7 +244,7 @@ ellipsoid_status ellipsoid_judge_step(const ellipsoid_group *g, double h,
     {
         const ellipsoid_problem *p = &g->cell[cell];
         const ellipsoid_stages *stages = &g->stages[cell];
-        const double made = scaled_error(p, stages->error, h);
+        const double made = scaled_error(p, &g->start[cell], stages, h);
 
         if (!isfinite(made))
         {

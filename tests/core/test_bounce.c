@@ -5,9 +5,8 @@
 
     test_bounce.c - impacts on a wall in vacuum: energy, duration, restitution.
 
-    The tolerance is one of x against the body's length L, and u may be off by
-    L/h in units of it. An impact is over in 2.94 d/v, d being its depth, so the
-    tolerance lets the energy be off by 2 L/(2.94 d) in every such time.
+    In vacuum the step control bounds errors of the velocities against the
+    body's own energy, so that it is kept to a few times the tolerance.
 */
 #include "contactTest.h"
 
@@ -45,26 +44,28 @@ static void throw_down(contact_run *r, int is_ball, double modulus,
     r->state.x[2] = r->model.reach + 0.1;
 }
 
-/* Neither gained nor lost beyond ten times what the tolerance allows. */
+/* Neither gained nor lost beyond ten times the tolerance. */
 static void test_energy_is_kept(void **unused)
 {
     static const double modulus[] = {1e3, 1e5, 1e7};
     static contact_run r;
+    double worst = 0;
     uint64_t seed = 21;
 
     (void)unused;
     contact_floor(&r, 100);
     for (int n = 0; n < 300; n++)
     {
-        double before, allowed;
+        double before, change;
 
         throw_down(&r, n % 2, modulus[n % 3], 0, &seed);
         before = contact_energy(&r.model, &r.state);
         bounce(&r);
-        allowed = 10 * r.model.options.tolerance * r.model.options.semi_axes[1]
-                / r.statistics.deepest;
-        assert_relative(contact_energy(&r.model, &r.state), before, allowed);
+        change = contact_energy(&r.model, &r.state) / before - 1;
+        worst = fmax(worst, fabs(change) / r.model.options.tolerance);
     }
+    print_message("# energy kept to %.2g times the tolerance\n", worst);
+    assert_true(worst < 10);
     wall_mesh_free(&r.mesh);
 }
 
@@ -98,7 +99,7 @@ static void test_friction_takes_energy(void **unused)
     contact_floor(&r, 100);
     for (int n = 0; n < 100; n++)
     {
-        double before, after, allowed;
+        double before, after;
 
         throw_down(&r, n % 2, 1e4, 0, &seed);
         r.model.options.friction = 0.4;
@@ -107,9 +108,7 @@ static void test_friction_takes_energy(void **unused)
         before = contact_energy(&r.model, &r.state);
         bounce(&r);
         after = contact_energy(&r.model, &r.state);
-        allowed = 10 * r.model.options.tolerance * r.model.options.semi_axes[1]
-                / r.statistics.deepest;
-        assert_true(after <= before * (1 + allowed));
+        assert_true(after <= before * (1 + 10 * r.model.options.tolerance));
         kept += after / before / 100;
     }
     assert_true(kept < 0.9);
