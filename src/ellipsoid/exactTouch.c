@@ -170,7 +170,7 @@ static scalar rise(const contacts *all, const mix *m, const scalar *c, int i,
 }
 
 /* 3 t^2 - 2 t^3 from 0 to 1 */
-static scalar ramp(scalar t)
+static scalar smooth(scalar t)
 {
     const double v = fmin(fmax(t.value, 0), 1);
 
@@ -210,7 +210,7 @@ static scalar standing(const contacts *all, const mix *m, const scalar *c,
             part.gradient[k] = (s.gradient[k] - part.value * change) / above;
         }
     }
-    return ramp(part);
+    return smooth(part);
 }
 
 static scalar shadow(const contacts *all, const mix *m, int i, int j)
@@ -240,7 +240,7 @@ static scalar shadow(const contacts *all, const mix *m, int i, int j)
                 2 / apart * (arms[l] * arm - width * normals[l] * turn);
         }
     }
-    far = ramp(far);
+    far = smooth(far);
 
     const scalar one = standing(all, m, &c, i, j);
     const scalar other = standing(all, m, &c, j, i);

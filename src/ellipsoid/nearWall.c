@@ -212,7 +212,7 @@ static void curved_change(const plane_geometry *g, const plane_change *d,
 /* One motion of the body, and what it makes. */
 typedef struct response
 {
-    const double *velocity, *omega;
+    const double *omega;
     double at_surface[3], out, across[3]; /* u_s, u_n, u_t */
     double turning[3], wedge[3];          /* n x omega, v */
     double bent[3], raw[3];               /* rho v; E v */
@@ -225,7 +225,7 @@ typedef struct response
 static response respond(plane_geometry *g, const double rates[6])
 {
     const double *k = g->model->resistance, *c = g->model->rotation_resistance;
-    response r = {.velocity = rates, .omega = rates + 3};
+    response r = {.omega = rates + 3};
     double rolled[3];
 
     ellipsoid_cross(r.omega, g->arm, r.at_surface);

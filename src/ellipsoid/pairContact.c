@@ -27,13 +27,13 @@ typedef struct meeting
 {
     const ellipsoid_body *a, *b;
     const ellipsoid_state *state_a, *state_b; /* read where they rub */
-    double stiffness; /* [N/m^1.5] 4/3 E* sqrt(R) */
+    double stiffness;                         /* [N/m^1.5] 4/3 E* sqrt(R) */
     ellipsoid_contact_law law;
     int rubs;
-    double gap;       /* [m] the smallest found */
-    int touching;     /* beads */
+    double gap;   /* [m] the smallest found */
+    int touching; /* beads */
     int derivatives;
-    side of_a, of_b;
+    side *of_a, *of_b;
 } meeting;
 
 static double stiffness_between(const ellipsoid_options *a,
@@ -90,8 +90,8 @@ static void add_touch(meeting *m, int bead_a, int bead_b, double force[3],
     ellipsoid_body a = *m->a, b = *m->b;
     double across[3][3];
 
-    ellipsoid_add_force_at(arm_a, a.r, force, m->of_a.force, m->of_a.torque);
-    ellipsoid_add_force_at(arm_b, b.r, back, m->of_b.force, m->of_b.torque);
+    ellipsoid_add_force_at(arm_a, a.r, force, m->of_a->force, m->of_a->torque);
+    ellipsoid_add_force_at(arm_b, b.r, back, m->of_b->force, m->of_b->torque);
     if (!m->derivatives)
     {
         return;
@@ -100,12 +100,12 @@ static void add_touch(meeting *m, int bead_a, int bead_b, double force[3],
     {
         across[n / 3][n % 3] = -force_x[n / 3][n % 3];
     }
-    ellipsoid_add_derivatives(arm_a, a.q, a.r, force, force_x, &m->of_a.own);
-    ellipsoid_add_derivatives(arm_b, b.q, b.r, back, force_x, &m->of_b.own);
+    ellipsoid_add_derivatives(arm_a, a.q, a.r, force, force_x, &m->of_a->own);
+    ellipsoid_add_derivatives(arm_b, b.q, b.r, back, force_x, &m->of_b->own);
     ellipsoid_add_other_derivatives(arm_a, a.r, arm_b, b.q, across,
-                                    &m->of_a.other);
+                                    &m->of_a->other);
     ellipsoid_add_other_derivatives(arm_b, b.r, arm_a, a.q, across,
-                                    &m->of_b.other);
+                                    &m->of_b->other);
 }
 
 /* The contact point divides the line of centres as the radii do. */
@@ -116,7 +116,7 @@ static void add_rub(meeting *m, int bead_a, int bead_b, const double line[3],
     const double r_b = m->b->model->options.bead_radius;
     const double part_a = r_a / (r_a + r_b), part_b = r_b / (r_a + r_b);
     ellipsoid_contact_jacobian *const jacobian[2][2] = {
-        {&m->of_a.own, &m->of_a.other}, {&m->of_b.other, &m->of_b.own}};
+        {&m->of_a->own, &m->of_a->other}, {&m->of_b->other, &m->of_b->own}};
     ellipsoid_body a = *m->a, b = *m->b;
     ellipsoid_rub rub = {.bodies = 2};
 
@@ -139,8 +139,8 @@ static void add_rub(meeting *m, int bead_a, int bead_b, const double line[3],
     {
         return;
     }
-    ellipsoid_add_rub(&rub, 0, m->of_a.force, m->of_a.torque);
-    ellipsoid_add_rub(&rub, 1, m->of_b.force, m->of_b.torque);
+    ellipsoid_add_rub(&rub, 0, m->of_a->force, m->of_a->torque);
+    ellipsoid_add_rub(&rub, 1, m->of_b->force, m->of_b->torque);
     if (m->derivatives)
     {
         ellipsoid_add_rub_derivatives(&rub, jacobian);
@@ -154,7 +154,7 @@ static inline void meet(meeting *m, const double line[3], int bead_a,
     const double both =
         m->a->model->options.bead_radius + m->b->model->options.bead_radius;
     const double far = both + fmax(m->gap, 0);
-    double between[3], distance, force[3], force_x[3][3];
+    double between[3], distance;
 
     ellipsoid_difference(m->a->bead[bead_a], m->b->bead[bead_b], between);
     ellipsoid_add(between, line);
@@ -167,11 +167,13 @@ static inline void meet(meeting *m, const double line[3], int bead_a,
     m->gap = fmin(m->gap, distance - both);
     if (distance < both && distance > 0)
     {
+        double force[3], force_x[3][3];
+
         push_apart(m, between, distance, both - distance, force, force_x);
         if (m->touching++ == 0)
         {
-            begin_side(m, &m->of_a);
-            begin_side(m, &m->of_b);
+            begin_side(m, m->of_a);
+            begin_side(m, m->of_b);
         }
         if (m->rubs)
         {
@@ -216,7 +218,7 @@ static ellipsoid_status push(const ellipsoid_problem *p, ellipsoid_point *at,
     const ellipsoid_model *m = p->model;
     const ellipsoid_contact *c = &at->contact;
     ellipsoid_state *slope = &at->derivative, *state = &at->state;
-    double r[3][3], body[3], moved[3], omega[3], turned[4];
+    double moved[3], omega[3], turned[4];
     ellipsoid_status status = ELLIPSOID_OK;
 
     if (!balanced)
@@ -238,6 +240,8 @@ static ellipsoid_status push(const ellipsoid_problem *p, ellipsoid_point *at,
     }
     else
     {
+        double r[3][3], body[3];
+
         ellipsoid_rotation_inline(state->q, r);
         ellipsoid_to_body(r, c->cell_force, body);
         for (int i = 0; i < 3; i++)
@@ -307,18 +311,23 @@ static ellipsoid_status add_pair(ellipsoid_group *g, ellipsoid_point *points,
     const int a = near->a, b = near->b;
     const ellipsoid_options *of_a = &g->cell[a].model->options;
     const ellipsoid_options *of_b = &g->cell[b].model->options;
-    meeting m;
+    const ellipsoid_contact_law law =
+        ellipsoid_law_between(g->cell[a].model, g->cell[b].model);
+    side felt_by_a, felt_by_b;
+    meeting m = {
+        .a = ellipsoid_placed_body(g, points, a),
+        .b = ellipsoid_placed_body(g, points, b),
+        .state_a = &points[a].state,
+        .state_b = &points[b].state,
+        .stiffness = stiffness_between(of_a, of_b),
+        .law = law,
+        .rubs = law.friction > 0 || law.damping > 0,
+        .gap = ellipsoid_pair_horizon(g->cell[a].model, g->cell[b].model),
+        .derivatives = with_blocks,
+        .of_a = &felt_by_a,
+        .of_b = &felt_by_b,
+    };
 
-    m.a = ellipsoid_placed_body(g, points, a);
-    m.b = ellipsoid_placed_body(g, points, b);
-    m.state_a = &points[a].state;
-    m.state_b = &points[b].state;
-    m.stiffness = stiffness_between(of_a, of_b);
-    m.law = ellipsoid_law_between(g->cell[a].model, g->cell[b].model);
-    m.rubs = m.law.friction > 0 || m.law.damping > 0;
-    m.gap = ellipsoid_pair_horizon(g->cell[a].model, g->cell[b].model);
-    m.touching = 0;
-    m.derivatives = with_blocks;
     meet_all(&m, near);
     if (m.touching > 0 && with_blocks
         && g->pairs->count + 2 > g->pairs->capacity)
@@ -326,8 +335,8 @@ static ellipsoid_status add_pair(ellipsoid_group *g, ellipsoid_point *points,
         g->culprit = b;
         return ELLIPSOID_TOO_MANY_CELLS;
     }
-    keep(g, points, &m, &m.of_a, a, b);
-    keep(g, points, &m, &m.of_b, b, a);
+    keep(g, points, &m, &felt_by_a, a, b);
+    keep(g, points, &m, &felt_by_b, b, a);
     return ELLIPSOID_OK;
 }
 
@@ -373,7 +382,12 @@ double ellipsoid_cell_gap(const ellipsoid_model *a, const double x_a[3],
     double bead_a[ELLIPSOID_MAX_BEADS][3], bead_b[ELLIPSOID_MAX_BEADS][3];
     ellipsoid_body of_a = {.bead = bead_a}, of_b = {.bead = bead_b};
     ellipsoid_near_pair near;
-    meeting m = {.a = &of_a, .b = &of_b, .stiffness = 0, .gap = horizon};
+    side felt_by_a, felt_by_b;
+    meeting m = {.a = &of_a,
+                 .b = &of_b,
+                 .gap = horizon,
+                 .of_a = &felt_by_a,
+                 .of_b = &felt_by_b};
 
     if (ellipsoid_are_apart(a, x_a, b, x_b, horizon))
     {

@@ -27,10 +27,10 @@ typedef struct scaled
     double normal[3], slope[POSE][3];
 } scaled;
 
-static scaled scale(const double axes[3], const ellipsoid_plane *plane)
+static scaled scaled_normal(const double axes[3], const ellipsoid_plane *plane)
 {
     double stretched[3], support;
-    scaled s;
+    scaled s = {{0}, {{0}}};
 
     for (int i = 0; i < 3; i++)
     {
@@ -119,7 +119,7 @@ void ellipsoid_weigh_planes(const ellipsoid_model *model,
 
     for (int i = 0; i < count; i++)
     {
-        s[i] = scale(model->options.semi_axes, &planes->at[i]);
+        s[i] = scaled_normal(model->options.semi_axes, &planes->at[i]);
     }
     for (int i = 0; i < count; i++)
     {

@@ -77,7 +77,7 @@ static void find_contacts(const ellipsoid_bead *bead,
 }
 
 /* How a contact's normal turns as the centre moves: (I - nn - tt)/h. */
-static void turning(const contact *c, double turn[3][3])
+static void set_turning(const contact *c, double turn[3][3])
 {
     for (int i = 0; i < 3; i++)
     {
@@ -150,7 +150,7 @@ static void combine(const ellipsoid_bead *bead, contacts *all, double force[3],
     m.count = adheres ? overlapping_first(all, bead->radius) : all->count;
     for (int i = 0; i < all->count; i++)
     {
-        turning(&all->at[i], m.turn[i]);
+        set_turning(&all->at[i], m.turn[i]);
     }
     for (int law = 0; law <= adheres; law++)
     {

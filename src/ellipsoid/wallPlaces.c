@@ -101,7 +101,7 @@ static int place_on_rim(const ellipsoid_wall_search *s, const double normal[3],
     const ellipsoid_facet *facet = p->facet;
     double best = HUGE_VAL, foot = 0;
     int edge = 0;
-    corners c;
+    corners c = {{{0}}, {{0}}};
 
     for (int k = 0; k < 3; k++)
     {
