@@ -25,7 +25,7 @@
     through, narrower if many.
 */
 static const double first_margin = 0.5, widest = 1, narrowest = 1.0 / 32;
-static const double few = 0.01, many = 0.06; /* poses for each facet listed */
+static const double few = 0.06, many = 0.4; /* poses for each facet listed */
 
 /* Where facets are too many: smaller margins, each by this factor, down to the
    narrowest. */

@@ -233,7 +233,7 @@ void advance
             &controller, &cache, observe, &j, &j.done
         );
 
-        // Held by what it has moved: while a bead bounces its speed tells little
+        // Held by what it has moved: of one that bounces speed tells little
         if (mag(point(body.x[0], body.x[1], body.x[2]) - from)
             < slowSpeed*interval)
         {
