@@ -25,7 +25,7 @@
     through, narrower if many.
 */
 static const double first_margin = 0.5, widest = 1, narrowest = 1.0 / 32;
-static const double few = 0.01, many = 0.06; /* poses for each facet listed */
+static const double few = 0.06, many = 0.4; /* poses for each facet listed */
 
 /* Where facets are too many: smaller margins, each by this factor, down to the
    narrowest. */
@@ -220,6 +220,22 @@ static int beside_box(const swarm *beads, const double normal[3],
     return squared > near * sqrt(squared) + extent;
 }
 
+/* Is the plane farther than `far` from the box, on either side of it? */
+static int above_box(const swarm *beads, const double normal[3],
+                     const double d[3], double far)
+{
+    double extent = 0;
+
+    for (int i = 0; i < 3; i++)
+    {
+        extent += beads->half_box[i]
+                * fabs(beads->rotation[0][i] * normal[0]
+                       + beads->rotation[1][i] * normal[1]
+                       + beads->rotation[2][i] * normal[2]);
+    }
+    return fabs(ellipsoid_dot(d, normal)) > far + extent;
+}
+
 static int has_convex_edge(const ellipsoid_facet *facet)
 {
     return facet->edge[0] == ELLIPSOID_EDGE_CONVEX
@@ -280,6 +296,7 @@ static int collect(const ellipsoid_facet_list *list, const swarm *beads,
 
         ellipsoid_difference(facet->middle, beads->centre, d);
         if (beyond_box(beads, d, far)
+            || above_box(beads, facet->normal, d, far - size)
             || (!has_convex_edge(facet)
                 && beside_box(beads, facet->normal, d, near)))
         {
@@ -291,7 +308,7 @@ static int collect(const ellipsoid_facet_list *list, const swarm *beads,
             const double centre[3] = {beads->x[0][b], beads->x[1][b],
                                       beads->x[2][b]};
 
-            if (beyond[b] > 0
+            if (beyond[b] > 0 || fabs(height[b]) > far - size
                 || !ellipsoid_facet_concerns(facet, centre, reach, margin))
             {
                 continue;
