@@ -187,7 +187,8 @@ void Foam::captureStatistics::write(Ostream& os) const
     cells.precision(12);
     cells
         << "id,tInjected,x1,x2,x3,eps1,eps2,eps3,eta,fate,patch,tFate,"
-        << "firstSieve,tFirstCatch,deepest,deepestCell,tPlanned,imbalance" << nl;
+        << "firstSieve,tFirstCatch,deepest,deepestCell,tPlanned,"
+        << "imbalance" << nl;
 
     Map<DynamicList<scalar>> held;
 
