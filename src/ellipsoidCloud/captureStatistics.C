@@ -63,7 +63,7 @@ void Foam::captureStatistics::count(const packedEvent& event)
 
     if (!cells_.found(id))
     {
-        cells_.insert(id, record{event, event, event[0], -1, -1, 0, 0});
+        cells_.insert(id, record{event, event, event[0], -1, -1, 0, 0, 0});
     }
     else
     {
@@ -124,6 +124,7 @@ void Foam::captureStatistics::judgeSpeed
     }
 
     cell.slowTime = 0;
+    cell.imbalance = 0;
 
     if (cell.fate == cellState::caught || cell.fate == cellState::stalled)
     {
@@ -393,6 +394,7 @@ void Foam::captureStatistics::update(const UList<cellState>& cells)
         {
             cells_[cell.id].deepest = cell.deepest;
             cells_[cell.id].deepestCell = cell.deepestCell;
+            cells_[cell.id].imbalance = cell.imbalance;
         }
     }
 }

@@ -131,6 +131,9 @@ void Foam::captureStatistics::reportContact
     scalar cell = 0;
     scalar delay = 0;
     label nDelayed = 0;
+    label nBalanced = 0;
+    scalar worst = 0;
+    label worstId = -1;
 
     // In order, since a sum depends on it
     for (const label id : cells_.sortedToc())
@@ -144,12 +147,30 @@ void Foam::captureStatistics::reportContact
             delay += r.injection[0] - r.planned;
             ++nDelayed;
         }
+        if (fateAfter(r.last) == cellState::caught)
+        {
+            nBalanced += r.imbalance < 0.01;
+
+            if (r.imbalance > worst)
+            {
+                worst = r.imbalance;
+                worstId = id;
+            }
+        }
     }
 
     os  << "deepest overlap of a bead with a wall: " << wall*1e9 << " nm, "
         << 100*wall/beadRadius << " % of its radius" << nl
         << "deepest overlap of a bead with another cell's: " << cell*1e9
-        << " nm, " << 100*cell/beadRadius << " % of its radius" << nl;
+        << " nm, " << 100*cell/beadRadius << " % of its radius" << nl
+        << "held: " << nBalanced << " of " << counts_[cellState::caught]
+        << " caught cells balanced to 1 %";
+
+    if (worstId >= 0)
+    {
+        os  << ", worst " << 100*worst << " % (cell " << worstId << ')';
+    }
+    os  << nl;
 
     if (nDelayed || counts_[cellState::waiting])
     {
@@ -166,7 +187,8 @@ void Foam::captureStatistics::write(Ostream& os) const
     cells.precision(12);
     cells
         << "id,tInjected,x1,x2,x3,eps1,eps2,eps3,eta,fate,patch,tFate,"
-        << "firstSieve,tFirstCatch,deepest,deepestCell,tPlanned" << nl;
+        << "firstSieve,tFirstCatch,deepest,deepestCell,tPlanned,"
+        << "imbalance" << nl;
 
     Map<DynamicList<scalar>> held;
 
@@ -199,12 +221,14 @@ void Foam::captureStatistics::write(Ostream& os) const
         }
         cells
             << ',' << cell.deepest << ',' << cell.deepestCell
-            << ',' << cell.planned << nl;
+            << ',' << cell.planned << ',';
 
         if (fate == cellState::caught)
         {
+            cells << cell.imbalance;
             held(label(cell.last[3])).append(cell.last[0]);
         }
+        cells << nl;
     }
 
     OFstream captures(folder_/"captures.csv");

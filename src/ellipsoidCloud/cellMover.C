@@ -162,6 +162,46 @@ void Foam::cellMover::admit
 }
 
 
+Foam::scalar Foam::cellMover::imbalance(const cellJourney& journey) const
+{
+    const ellipsoid_state& body = journey.cell.state.body;
+    const ellipsoid_contact& contact = journey.last.contact;
+
+    frozenFlow::probe at(journey.here.home());
+    ellipsoid_flow_sample flow;
+    if (flow_.sample(body.x, at, false, flow))
+    {
+        return 1;
+    }
+
+    double rotation[3][3];
+    ellipsoid_rotation(body.q, rotation);
+
+    vector drag(Zero);
+    for (int k = 0; k < 3; ++k)
+    {
+        scalar along = 0;
+        for (int i = 0; i < 3; ++i)
+        {
+            along += rotation[i][k]*flow.velocity[i];
+        }
+        for (int i = 0; i < 3; ++i)
+        {
+            drag[i] +=
+                model_.viscosity*model_.resistance[k]*along*rotation[i][k];
+        }
+    }
+
+    vector sum(drag);
+    for (int i = 0; i < 3; ++i)
+    {
+        sum[i] += contact.force[i] + contact.cell_force[i];
+    }
+
+    return mag(sum)/max(mag(drag), VSMALL);
+}
+
+
 void Foam::cellMover::takeOut
 (
     cellMove& cell,
@@ -322,6 +362,18 @@ bool Foam::cellMover::move
                 std::copy_n(contact.touched, cell.nWalls, cell.walls);
                 cell.nCells = contact.touched_cell_count;
                 std::copy_n(contact.touched_cell, cell.nCells, cell.cells);
+
+                // Slow before, or perhaps from now on: what touches nothing
+                // costs nothing
+                if
+                (
+                    cell.state.fate != cellState::caught
+                 && (cell.state.slowTime > 0 || cell.nWalls || cell.nCells)
+                )
+                {
+                    cell.state.imbalance =
+                        max(cell.state.imbalance, imbalance(journey));
+                }
             }
             else
             {

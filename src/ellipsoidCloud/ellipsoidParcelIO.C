@@ -57,6 +57,7 @@ namespace Foam
         { "time", offsetof(cellState, time), 1 },
         { "planned", offsetof(cellState, planned), 1 },
         { "slowTime", offsetof(cellState, slowTime), 1 },
+        { "imbalance", offsetof(cellState, imbalance), 1 },
         { "nextRow", offsetof(cellState, nextRow), 1 },
         { "lastRow", offsetof(cellState, lastRow), 8 },
         { "deepest", offsetof(cellState, deepest), 1 },

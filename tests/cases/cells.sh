@@ -176,3 +176,29 @@ def finish():
 
 EOT
 )
+
+# All centres of tracks.csv, more than so many, are inside the circular trap. Dimensions of
+# its README, in micrometres. A centre stays a semi-minor axis, 0.5, from every wall, less
+# what a corner reaches in between beads; found 0.45.
+centres_in_chamber()    # CASE COUNT
+{
+    numbers "$1" "$2" << 'EOT'
+MARGIN = 0.4
+x, y, z = 1e6*columns(table("tracks.csv"), "x1", "x2", "x3").T
+expect(len(x) > int(sys.argv[1]), f"{len(x)} centres")
+
+
+def beyond(u, v, x0, x1, y0, y1):
+    """Distance from a rectangle."""
+    return np.hypot(np.maximum(np.maximum(x0 - u, u - x1), 0), np.maximum(np.maximum(y0 - v, v - y1), 0))
+
+
+free = (z > MARGIN) & (z < 10 - MARGIN) & (np.abs(y) < 70 + 1e-6)
+free &= (np.hypot(x, y) < 40 - MARGIN) | (np.abs(x) < 10 - MARGIN)
+for a, b in ((-18, -17), (0, -17), (18, -17), (-9, 0), (9, 0), (-18, 17), (0, 17), (18, 17)):
+    u, v = np.abs(x - a), y - b
+    free &= (beyond(u, v, 2.4, 4.4, -4, 1) > MARGIN) & (beyond(u, v, 0.4, 1.6, 0, 1) > MARGIN)
+expect(free.all(), f"{np.count_nonzero(~free)} not free, at {list(zip(x[~free], y[~free], z[~free]))[:5]} um")
+finish()
+EOT
+}
