@@ -81,4 +81,33 @@ ellipsoid_exact_contact_add(const ellipsoid_model *model,
                             ellipsoid_contact *contact,
                             ellipsoid_contact_jacobian *jacobian);
 
+/* Derivatives by q, row[i][n], from those by small rotations about the lab's
+   axes, slope[axis][i]: a change dq is the rotation 2 (dq q*)/q.q, with the
+   conjugate q*; a stretch of q is none (exactTouch.c). */
+void ellipsoid_exact_by_components(const double q[4], double slope[3][3],
+                                   double row[3][4]);
+
+/* Derivatives of a pair are by x_a - x_b, a small rotation of a, and one of b;
+   all in the lab. */
+#define ELLIPSOID_EXACT_PAIR_VARIABLES 9
+
+/* Where two ellipsoids are nearest, or deepest in one another (exactPair.c). */
+typedef struct ellipsoid_exact_pair
+{
+    double depth;      /* [m] minus the distance where they are apart */
+    double normal[3];  /* unit, from b to a */
+    double point_a[3]; /* [m] on a, from its centre */
+    double point_b[3]; /* [m] on b, from its centre */
+
+    /* set where derivatives are asked for */
+    double depth_slope[ELLIPSOID_EXACT_PAIR_VARIABLES];
+    double normal_slope[3][ELLIPSOID_EXACT_PAIR_VARIABLES];
+    double point_a_slope[3][ELLIPSOID_EXACT_PAIR_VARIABLES];
+    double point_b_slope[3][ELLIPSOID_EXACT_PAIR_VARIABLES];
+} ellipsoid_exact_pair;
+
+void ellipsoid_exact_pair_set(const ellipsoid_exact_body *a,
+                              const ellipsoid_exact_body *b, int derivatives,
+                              ellipsoid_exact_pair *pair);
+
 #endif

@@ -345,10 +345,8 @@ static void combine(const ellipsoid_options *o,
     }
 }
 
-/* Derivatives by q: a change dq is the rotation 2 (dq q*)/q.q about the lab's
-   axes, with the conjugate q*; a stretch of q is none. */
-static void by_components(const double q[4], double slope[VARIABLES][3],
-                          double row[3][4])
+void ellipsoid_exact_by_components(const double q[4], double slope[3][3],
+                                   double row[3][4])
 {
     const double scale = 2 / (ellipsoid_dot(q, q) + q[3] * q[3]);
 
@@ -368,8 +366,8 @@ static void by_components(const double q[4], double slope[VARIABLES][3],
         for (int i = 0; i < 3; i++)
         {
             row[i][n] = scale
-                      * (slope[3][i] * rotation[0] + slope[4][i] * rotation[1]
-                         + slope[5][i] * rotation[2]);
+                      * (slope[0][i] * rotation[0] + slope[1][i] * rotation[1]
+                         + slope[2][i] * rotation[2]);
         }
     }
 }
@@ -410,8 +408,8 @@ static void report_wrench(ellipsoid_exact_body *body, const double q[4],
             jacobian->torque_x[i][k] = in_body[k][i];
         }
     }
-    by_components(q, sum->force_slope, jacobian->force_q);
-    by_components(q, in_body, jacobian->torque_q);
+    ellipsoid_exact_by_components(q, sum->force_slope + 3, jacobian->force_q);
+    ellipsoid_exact_by_components(q, in_body + 3, jacobian->torque_q);
 }
 
 ellipsoid_status

@@ -306,6 +306,14 @@ static inline ellipsoid_status ellipsoid_group_evaluate(ellipsoid_group *g,
 double ellipsoid_pair_horizon(const ellipsoid_model *a,
                               const ellipsoid_model *b);
 
+/* Do two cells touch with their ellipsoids, not with their beads? */
+static inline int ellipsoid_pair_is_exact(const ellipsoid_model *a,
+                                          const ellipsoid_model *b)
+{
+    return a->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID
+        && b->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID;
+}
+
 /* Are two cells farther apart than `far` [m]? Errs towards 0. */
 int ellipsoid_are_apart(const ellipsoid_model *a, const double x_a[3],
                         const ellipsoid_model *b, const double x_b[3],
@@ -323,6 +331,9 @@ const ellipsoid_body *ellipsoid_placed_body(ellipsoid_group *group,
 /* Lists beads with gaps below `far` [m]. */
 void ellipsoid_list_beads(ellipsoid_body *a, ellipsoid_body *b, double far,
                           ellipsoid_near_pair *near);
+
+/* The gap between the ellipsoids themselves [m] (pairContact.c). */
+double ellipsoid_exact_gap(const ellipsoid_body *a, const ellipsoid_body *b);
 
 /* Sees to it that all pairs that may touch in these states are listed.
    TOO_MANY_CELLS: there is no memory for so many. */

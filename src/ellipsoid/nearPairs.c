@@ -170,7 +170,17 @@ static ellipsoid_status collect(ellipsoid_group *g,
             }
             ellipsoid_placed_body(g, points, a);
             ellipsoid_placed_body(g, points, b);
-            ellipsoid_list_beads(&pairs->body[a], &pairs->body[b], far, near);
+            if (ellipsoid_pair_is_exact(of_a, of_b))
+            {
+                near->listed = ellipsoid_exact_gap(&pairs->body[a],
+                                                   &pairs->body[b])
+                             < far;
+            }
+            else
+            {
+                ellipsoid_list_beads(&pairs->body[a], &pairs->body[b], far,
+                                     near);
+            }
             near->a = a;
             near->b = b;
             pairs->near_count += near->listed != 0;

@@ -81,12 +81,30 @@ static void crowd_advance(crowd *c, double *t, double end,
     assert_int_equal(which, -1);
 }
 
+/* Everything is tested for cells that touch with beads, and with themselves. */
+static ellipsoid_contact_shape shape;
+
+static int with_beads(void **unused)
+{
+    (void)unused;
+    shape = ELLIPSOID_CONTACT_BEADS;
+    return 0;
+}
+
+static int with_ellipsoids(void **unused)
+{
+    (void)unused;
+    shape = ELLIPSOID_CONTACT_ELLIPSOID;
+    return 0;
+}
+
 /* The paper's cell, weightless, that touches. */
 static ellipsoid_options touching_cell(void)
 {
     ellipsoid_options o = test_free_cell();
 
     o.contact = 1;
+    o.contact_shape = shape;
     return o;
 }
 
@@ -568,18 +586,22 @@ static void test_heap_at_rest(void **unused)
     crowd_free(&c);
 }
 
+#define BOTH(test)                                                             \
+    cmocka_unit_test_setup(test, with_beads),                                  \
+        cmocka_unit_test_setup(test, with_ellipsoids)
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_equal_and_opposite),
-        cmocka_unit_test(test_two_spheres),
-        cmocka_unit_test(test_jacobian),
-        cmocka_unit_test(test_coupled_system),
-        cmocka_unit_test(test_group_of_one),
-        cmocka_unit_test(test_converges),
-        cmocka_unit_test(test_inertialess),
-        cmocka_unit_test(test_fifty),
-        cmocka_unit_test(test_heap_at_rest),
+        BOTH(test_equal_and_opposite),
+        BOTH(test_two_spheres),
+        BOTH(test_jacobian),
+        BOTH(test_coupled_system),
+        BOTH(test_group_of_one),
+        BOTH(test_converges),
+        BOTH(test_inertialess),
+        BOTH(test_fifty),
+        BOTH(test_heap_at_rest),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
