@@ -659,7 +659,8 @@ size_t ellipsoid_group_size(int count);
     a bead and a wall do, with the radius r_1 r_2/(r_1 + r_2) and the modulus
     E_1 E_2/(E_1 + E_2), the geometric mean of both frictions, the larger slip
     speed and the mean damping; what one cell feels the other does with the
-    opposite sign. As ellipsoid_advance() for the rest, for every member; members share
+    opposite sign. Two of contact_shape ELLIPSOID touch with that, not with their
+    beads. As ellipsoid_advance() for the rest, for every member; members share
     motion, noise interval, and the limits of steps of the first one.
     `memory` is ellipsoid_group_size(count) bytes aligned as by malloc(); it
     holds nothing between calls. *which is the member that stopped the group or
@@ -677,8 +678,8 @@ ellipsoid_status ellipsoid_advance_group(int count,
                                          int *which);
 
 /*
-    The smallest gap [m] between the beads of two cells in given poses, negative
-    where they overlap; at most `horizon` [m], beyond which nobody looks.
+    The smallest gap [m] between two cells in given poses, of their beads or of
+    themselves by contact_shape, negative where they overlap; at most `horizon` [m], beyond which nobody looks.
 */
 double ellipsoid_cell_gap(const ellipsoid_model *a, const double x_a[3],
                           const double q_a[4], const ellipsoid_model *b,

@@ -8,10 +8,10 @@
     With the support functions h(n) = |A R^T n| the depth of one in the other is
     the least over unit vectors n of
         phi(n) = h_a(n) + h_b(n) - n.(x_a - x_b),
-    the way that a has to be moved along n until they part; where they are apart,
-    minus the distance. At the minimum w = p_a + p_b - (x_a - x_b) is along n,
-    p = R A^2 R^T n/h being the points of support: the surfaces are nearest, or
-    deepest, at x_a - p_a and x_b + p_b, phi apart along n.
+    the way that a has to be moved along n until they part; where they are
+   apart, minus the distance. At the minimum w = p_a + p_b - (x_a - x_b) is
+   along n, p = R A^2 R^T n/h being the points of support: the surfaces are
+   nearest, or deepest, at x_a - p_a and x_b + p_b, phi apart along n.
 
     phi is minimised by Newton's method on the sphere. Its derivatives by the
     poses are those at fixed n; n and p follow from the implicit function.
@@ -26,9 +26,9 @@
 /* What one body has in a direction. */
 typedef struct support
 {
-    double height;      /* [m] h(n) */
-    double point[3];    /* [m] p, from the centre */
-    double bend[3][3];  /* [m] dp/dn = (S - p p^T)/h */
+    double height;     /* [m] h(n) */
+    double point[3];   /* [m] p, from the centre */
+    double bend[3][3]; /* [m] dp/dn = (S - p p^T)/h */
 } support;
 
 static void set_support(const ellipsoid_exact_body *body, const double n[3],
@@ -59,8 +59,9 @@ static void set_support(const ellipsoid_exact_body *body, const double n[3],
 /* Two unit vectors that span the plane across n. */
 static void span(const double n[3], double e[2][3])
 {
-    const int least = fabs(n[0]) < fabs(n[1]) ? (fabs(n[0]) < fabs(n[2]) ? 0 : 2)
-                                              : (fabs(n[1]) < fabs(n[2]) ? 1 : 2);
+    const int least = fabs(n[0]) < fabs(n[1])
+                        ? (fabs(n[0]) < fabs(n[2]) ? 0 : 2)
+                        : (fabs(n[1]) < fabs(n[2]) ? 1 : 2);
     double axis[3] = {0, 0, 0}, length;
 
     axis[least] = 1;
@@ -136,8 +137,8 @@ static void move(const double n[3], double across[2][3], const double d[2],
 /* The direction from one to the other, were both one ellipsoid of half the
    size; a function of the poses alone, as is then the minimum that is found. */
 static void first_direction(const ellipsoid_exact_body *a,
-                            const ellipsoid_exact_body *b,
-                            const double line[3], double n[3])
+                            const ellipsoid_exact_body *b, const double line[3],
+                            double n[3])
 {
     double both[3][3], inverse[3][3], length;
 
@@ -236,7 +237,7 @@ void ellipsoid_exact_pair_set(const ellipsoid_exact_body *a,
     for (int k = 0; derivatives && k < ELLIPSOID_EXACT_PAIR_VARIABLES; k++)
     {
         const double *n = pair->normal;
-        double unit[3] = {0, 0, 0}, fixed[3] = {0, 0, 0}, w[3], turned[3];
+        double unit[3] = {0, 0, 0}, fixed[3] = {0, 0, 0}, w[3];
         double dn[3], d[2], down[2], lever[3];
 
         unit[k % 3] = 1;
@@ -251,6 +252,7 @@ void ellipsoid_exact_pair_set(const ellipsoid_exact_body *a,
         {
             /* p turns with the body, and slides as n does not */
             const support *s = k < 6 ? &at.a : &at.b;
+            double turned[3];
 
             ellipsoid_cross(s->point, n, lever);
             pair->depth_slope[k] = lever[k % 3];

@@ -332,7 +332,7 @@ const ellipsoid_body *ellipsoid_placed_body(ellipsoid_group *group,
 void ellipsoid_list_beads(ellipsoid_body *a, ellipsoid_body *b, double far,
                           ellipsoid_near_pair *near);
 
-/* The gap between the ellipsoids themselves [m] (pairContact.c). */
+/* The gap between the ellipsoids themselves [m] (exactMeeting.c). */
 double ellipsoid_exact_gap(const ellipsoid_body *a, const ellipsoid_body *b);
 
 /* Sees to it that all pairs that may touch in these states are listed.

@@ -172,9 +172,8 @@ static ellipsoid_status collect(ellipsoid_group *g,
             ellipsoid_placed_body(g, points, b);
             if (ellipsoid_pair_is_exact(of_a, of_b))
             {
-                near->listed = ellipsoid_exact_gap(&pairs->body[a],
-                                                   &pairs->body[b])
-                             < far;
+                near->listed =
+                    ellipsoid_exact_gap(&pairs->body[a], &pairs->body[b]) < far;
             }
             else
             {

@@ -10,32 +10,11 @@
     spheres. One force acts on both, with opposite signs, at the beads' centres,
     which lie on its line: momentum and its moment are kept.
 */
-#include "exact.h"
-#include "integrator.h"
+#include "meeting.h"
 
 #include <math.h>
 
 /* ------------------------------------------------------- beads that touch */
-
-/* What one cell feels of the other, and its derivatives. */
-typedef struct side
-{
-    double force[3], torque[3];
-    ellipsoid_contact_jacobian own, other;
-} side;
-
-typedef struct meeting
-{
-    const ellipsoid_body *a, *b;
-    const ellipsoid_state *state_a, *state_b; /* read where they rub */
-    double stiffness;                         /* [N/m^1.5] 4/3 E* sqrt(R) */
-    ellipsoid_contact_law law;
-    int rubs;
-    double gap;   /* [m] the smallest found */
-    int touching; /* beads */
-    int derivatives;
-    side *of_a, *of_b;
-} meeting;
 
 static double stiffness_between(const ellipsoid_options *a,
                                 const ellipsoid_options *b)
@@ -50,8 +29,9 @@ static double stiffness_between(const ellipsoid_options *a,
 
 /* The force on a's bead, `line` from b's bead and `distance` long, and its
    derivative by the bead's centre; by that of b's it is the negative. */
-static void push_apart(const meeting *m, const double line[3], double distance,
-                       double depth, double force[3], double force_x[3][3])
+static void push_apart(const ellipsoid_meeting *m, const double line[3],
+                       double distance, double depth, double force[3],
+                       double force_x[3][3])
 {
     const double root = m->stiffness * sqrt(depth), size = root * depth;
     double n[3];
@@ -71,19 +51,8 @@ static void push_apart(const meeting *m, const double line[3], double distance,
     }
 }
 
-static void begin_side(const meeting *m, side *s)
-{
-    memset(s->force, 0, sizeof(s->force));
-    memset(s->torque, 0, sizeof(s->torque));
-    if (m->derivatives)
-    {
-        memset(&s->own, 0, sizeof(s->own));
-        memset(&s->other, 0, sizeof(s->other));
-    }
-}
-
-static void add_touch(meeting *m, int bead_a, int bead_b, double force[3],
-                      double force_x[3][3])
+static void add_touch(ellipsoid_meeting *m, int bead_a, int bead_b,
+                      double force[3], double force_x[3][3])
 {
     const double *arm_a = m->a->model->bead[bead_a];
     const double *arm_b = m->b->model->bead[bead_b];
@@ -110,8 +79,9 @@ static void add_touch(meeting *m, int bead_a, int bead_b, double force[3],
 }
 
 /* The contact point divides the line of centres as the radii do. */
-static void add_rub(meeting *m, int bead_a, int bead_b, const double line[3],
-                    const double force[3], double force_x[3][3])
+static void add_rub(ellipsoid_meeting *m, int bead_a, int bead_b,
+                    const double line[3], const double force[3],
+                    double force_x[3][3])
 {
     const double r_a = m->a->model->options.bead_radius;
     const double r_b = m->b->model->options.bead_radius;
@@ -149,7 +119,7 @@ static void add_rub(meeting *m, int bead_a, int bead_b, const double line[3],
 }
 
 /* A bead of each; `line` is between the centres of the cells. */
-static inline void meet(meeting *m, const double line[3], int bead_a,
+static inline void meet(ellipsoid_meeting *m, const double line[3], int bead_a,
                         int bead_b)
 {
     const double both =
@@ -173,8 +143,8 @@ static inline void meet(meeting *m, const double line[3], int bead_a,
         push_apart(m, between, distance, both - distance, force, force_x);
         if (m->touching++ == 0)
         {
-            begin_side(m, m->of_a);
-            begin_side(m, m->of_b);
+            ellipsoid_begin_side(m, m->of_a);
+            ellipsoid_begin_side(m, m->of_b);
         }
         if (m->rubs)
         {
@@ -187,147 +157,9 @@ static inline void meet(meeting *m, const double line[3], int bead_a,
     }
 }
 
-/* ------------------------------------------------ ellipsoids that touch */
-
-/* Into the body's frame, which turns under the torque where the k-th variable
-   is its own rotation. */
-static void torque_in_body(double r[3][3], const double torque[3],
-                           const double change[3], int own_axis,
-                           double in_body[3])
-{
-    double axis[3] = {0, 0, 0}, turned[3], all[3];
-
-    ellipsoid_copy(change, all);
-    if (own_axis >= 0)
-    {
-        axis[own_axis] = 1;
-        ellipsoid_cross(torque, axis, turned);
-        ellipsoid_add(all, turned);
-    }
-    ellipsoid_to_body(r, all, in_body);
-}
-
-/* Derivatives by x_a - x_b, a's rotation and b's become those by x and q of
-   both. is_a: what is differentiated belongs to a, so that its own are a's. */
-static void spread(const meeting *m, double slope[9][3], double sign, int is_a,
-                   double own_x[3][3], double own_q[3][4], double other_x[3][3],
-                   double other_q[3][4])
-{
-    const double of_line = is_a ? sign : -sign;
-    double(*by_a)[4] = is_a ? own_q : other_q;
-    double(*by_b)[4] = is_a ? other_q : own_q;
-
-    for (int k = 0; k < 3; k++)
-    {
-        for (int i = 0; i < 3; i++)
-        {
-            own_x[i][k] = of_line * slope[k][i];
-            other_x[i][k] = -of_line * slope[k][i];
-        }
-    }
-    ellipsoid_exact_by_components(m->a->q, slope + 3, by_a);
-    ellipsoid_exact_by_components(m->b->q, slope + 6, by_b);
-    for (int n = 0; n < 12; n++)
-    {
-        by_a[n / 4][n % 4] *= sign;
-        by_b[n / 4][n % 4] *= sign;
-    }
-}
-
-static void spread_pair(const meeting *m, ellipsoid_exact_body *a,
-                        ellipsoid_exact_body *b,
-                        const ellipsoid_exact_pair *pair, double root,
-                        const double force[3], const double torque_a[3],
-                        const double torque_b[3])
-{
-    double df[9][3], da[9][3], db[9][3];
-
-    for (int k = 0; k < 9; k++)
-    {
-        double point_a[3], point_b[3], moved[3], turned[3], change[3];
-
-        for (int i = 0; i < 3; i++)
-        {
-            df[k][i] = root
-                     * (1.5 * pair->depth_slope[k] * pair->normal[i]
-                        + pair->depth * pair->normal_slope[i][k]);
-            point_a[i] = pair->point_a_slope[i][k];
-            point_b[i] = pair->point_b_slope[i][k];
-        }
-        ellipsoid_cross(point_a, force, moved);
-        ellipsoid_cross(pair->point_a, df[k], turned);
-        ellipsoid_copy(moved, change);
-        ellipsoid_add(change, turned);
-        torque_in_body(a->rotation, torque_a, change, k / 3 == 1 ? k - 3 : -1, da[k]);
-        ellipsoid_cross(force, point_b, moved);
-        ellipsoid_cross(df[k], pair->point_b, turned);
-        ellipsoid_copy(moved, change);
-        ellipsoid_add(change, turned);
-        torque_in_body(b->rotation, torque_b, change, k / 3 == 2 ? k - 6 : -1, db[k]);
-    }
-    spread(m, df, 1, 1, m->of_a->own.force_x, m->of_a->own.force_q,
-           m->of_a->other.force_x, m->of_a->other.force_q);
-    spread(m, da, 1, 1, m->of_a->own.torque_x, m->of_a->own.torque_q,
-           m->of_a->other.torque_x, m->of_a->other.torque_q);
-    spread(m, df, -1, 0, m->of_b->own.force_x, m->of_b->own.force_q,
-           m->of_b->other.force_x, m->of_b->other.force_q);
-    spread(m, db, 1, 0, m->of_b->own.torque_x, m->of_b->own.torque_q,
-           m->of_b->other.torque_x, m->of_b->other.torque_q);
-}
-
-static ellipsoid_exact_body itself(const ellipsoid_body *body)
-{
-    ellipsoid_exact_body result;
-
-    ellipsoid_exact_place(body->model->options.semi_axes, body->x, body->q,
-                          &result);
-    return result;
-}
-
-double ellipsoid_exact_gap(const ellipsoid_body *a, const ellipsoid_body *b)
-{
-    const ellipsoid_exact_body of_a = itself(a), of_b = itself(b);
-    ellipsoid_exact_pair pair;
-
-    ellipsoid_exact_pair_set(&of_a, &of_b, 0, &pair);
-    return -pair.depth;
-}
-
-static void meet_exactly(meeting *m)
-{
-    ellipsoid_exact_body a = itself(m->a), b = itself(m->b);
-    ellipsoid_exact_pair pair;
-    double force[3], torque_a[3], torque_b[3], root;
-
-    ellipsoid_exact_pair_set(&a, &b, m->derivatives, &pair);
-    m->gap = fmin(m->gap, -pair.depth);
-    if (!(pair.depth > 0))
-    {
-        return;
-    }
-    m->touching = 1;
-    begin_side(m, m->of_a);
-    begin_side(m, m->of_b);
-    root = m->stiffness * sqrt(pair.depth);
-    for (int i = 0; i < 3; i++)
-    {
-        force[i] = root * pair.depth * pair.normal[i];
-        m->of_a->force[i] = force[i];
-        m->of_b->force[i] = -force[i];
-    }
-    ellipsoid_cross(pair.point_a, force, torque_a);
-    ellipsoid_cross(force, pair.point_b, torque_b);
-    ellipsoid_to_body(a.rotation, torque_a, m->of_a->torque);
-    ellipsoid_to_body(b.rotation, torque_b, m->of_b->torque);
-    if (m->derivatives)
-    {
-        spread_pair(m, &a, &b, &pair, root, force, torque_a, torque_b);
-    }
-}
-
 /* All beads that may; their number is listed < 0 if they are too many to list.
  */
-static void meet_all(meeting *m, const ellipsoid_near_pair *near)
+static void meet_all(ellipsoid_meeting *m, const ellipsoid_near_pair *near)
 {
     const int all_b = m->b->model->bead_count;
     const int count =
@@ -336,7 +168,7 @@ static void meet_all(meeting *m, const ellipsoid_near_pair *near)
 
     if (ellipsoid_pair_is_exact(m->a->model, m->b->model))
     {
-        meet_exactly(m);
+        ellipsoid_meet_exactly(m);
         return;
     }
     ellipsoid_difference(m->a->x, m->b->x, line);
@@ -415,8 +247,9 @@ static void note_cell(ellipsoid_contact *contact, uint32_t id)
 }
 
 /* What a cell feels of another goes into its point and the couplings. */
-static void keep(ellipsoid_group *g, ellipsoid_point *points, const meeting *m,
-                 const side *felt, int row, int column)
+static void keep(ellipsoid_group *g, ellipsoid_point *points,
+                 const ellipsoid_meeting *m, const ellipsoid_side *felt,
+                 int row, int column)
 {
     const ellipsoid_model *model = g->cell[row].model;
     ellipsoid_contact *contact = &points[row].contact;
@@ -457,8 +290,8 @@ static ellipsoid_status add_pair(ellipsoid_group *g, ellipsoid_point *points,
     const ellipsoid_options *of_b = &g->cell[b].model->options;
     const ellipsoid_contact_law law =
         ellipsoid_law_between(g->cell[a].model, g->cell[b].model);
-    side felt_by_a, felt_by_b;
-    meeting m = {
+    ellipsoid_side felt_by_a, felt_by_b;
+    ellipsoid_meeting m = {
         .a = ellipsoid_placed_body(g, points, a),
         .b = ellipsoid_placed_body(g, points, b),
         .state_a = &points[a].state,
@@ -526,12 +359,12 @@ double ellipsoid_cell_gap(const ellipsoid_model *a, const double x_a[3],
     double bead_a[ELLIPSOID_MAX_BEADS][3], bead_b[ELLIPSOID_MAX_BEADS][3];
     ellipsoid_body of_a = {.bead = bead_a}, of_b = {.bead = bead_b};
     ellipsoid_near_pair near;
-    side felt_by_a, felt_by_b;
-    meeting m = {.a = &of_a,
-                 .b = &of_b,
-                 .gap = horizon,
-                 .of_a = &felt_by_a,
-                 .of_b = &felt_by_b};
+    ellipsoid_side felt_by_a, felt_by_b;
+    ellipsoid_meeting m = {.a = &of_a,
+                           .b = &of_b,
+                           .gap = horizon,
+                           .of_a = &felt_by_a,
+                           .of_b = &felt_by_b};
 
     if (ellipsoid_are_apart(a, x_a, b, x_b, horizon))
     {

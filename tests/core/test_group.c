@@ -593,14 +593,10 @@ static void test_heap_at_rest(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        BOTH(test_equal_and_opposite),
-        BOTH(test_two_spheres),
-        BOTH(test_jacobian),
-        BOTH(test_coupled_system),
-        BOTH(test_group_of_one),
-        BOTH(test_converges),
-        BOTH(test_inertialess),
-        BOTH(test_fifty),
+        BOTH(test_equal_and_opposite), BOTH(test_two_spheres),
+        BOTH(test_jacobian),           BOTH(test_coupled_system),
+        cmocka_unit_test_setup(test_group_of_one, with_beads),       BOTH(test_converges),
+        BOTH(test_inertialess),        BOTH(test_fifty),
         BOTH(test_heap_at_rest),
     };
 
