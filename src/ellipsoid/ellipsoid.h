@@ -168,8 +168,9 @@ typedef struct ellipsoid_options
     double friction;          /* [-] Coulomb's coefficient, 0; of BEADS, without
                                  adhesion */
     double slip_speed;        /* [m/s] below which friction yields, 1e-5 */
-    double contact_damping;   /* [s/m] Hunt and Crossley's factor, 0: restitution
-                                 is 1 less this times the speed of impact */
+    double contact_damping;   /* [s/m] Hunt and Crossley's factor, 0:
+                                 restitution is 1 less this times the speed of
+                                 impact */
     double adhesion;          /* [N] pull-off force of a contact, 0: none */
     double adhesion_range;    /* [m] beyond which it does not pull, 20e-9; up
                                  to bead_radius */
@@ -323,11 +324,11 @@ typedef struct ellipsoid_facet
 int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3]);
 
 /*
-    Makes `other` the facet across edge k if it has that edge the other way round
-    and none that was joined there before is met sooner on turning about the edge
-    through the fluid. So baffles may be joined with all that meets at an edge,
-    in any order. Vertices are one if they are equal to the last bit. Returns 1
-    if it is the one across now.
+    Makes `other` the facet across edge k if it has that edge the other way
+    round and none that was joined there before is met sooner on turning about
+    the edge through the fluid. So baffles may be joined with all that meets at
+    an edge, in any order. Vertices are one if they are equal to the last bit.
+    Returns 1 if it is the one across now.
 */
 int ellipsoid_facet_join(ellipsoid_facet *facet, int k,
                          const ellipsoid_facet *other);
@@ -353,9 +354,9 @@ typedef int (*ellipsoid_walls_function)(void *context,
                                         ellipsoid_facet_list *list);
 
 /*
-    What surrounds a cell; each may be NULL. Without a flow there is vacuum: drag
-    and pressure gradient are zero. Without velocities, FLOW_BODY asks the flow
-    point by point and takes an answer > 0 for a place beyond a wall.
+    What surrounds a cell; each may be NULL. Without a flow there is vacuum:
+    drag and pressure gradient are zero. Without velocities, FLOW_BODY asks the
+    flow point by point and takes an answer > 0 for a place beyond a wall.
 */
 typedef struct ellipsoid_surroundings
 {
@@ -366,8 +367,8 @@ typedef struct ellipsoid_surroundings
     ellipsoid_velocities_function velocities;
     ellipsoid_field_function field;
     void *field_context;
-    /* The key of the cell's Brownian motion. Noise interval n begins at the time
-       n noise_interval. */
+    /* The key of the cell's Brownian motion. Noise interval n begins at the
+       time n noise_interval. */
     uint64_t seed;
     uint32_t id;
 } ellipsoid_surroundings;
@@ -409,9 +410,9 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 #define ELLIPSOID_MAX_NEAR 4096
 
 /*
-    Which facets each bead, or the ellipsoid, may touch, and which the resistance
-    may know of, kept while the cell moves little. One per cell; its content
-    never changes a result, only its cost. Opaque.
+    Which facets each bead, or the ellipsoid, may touch, and which the
+    resistance may know of, kept while the cell moves little. One per cell; its
+    content never changes a result, only its cost. Opaque.
 */
 typedef struct ellipsoid_contact_cache
 {
@@ -482,8 +483,8 @@ typedef struct ellipsoid_contact_jacobian
     with the depth of the ellipsoid itself, the force where it is deepest
     (exactFacets.c); q turns the ellipsoid and does not stretch it. Friction and
     damping come on top (contactLaw.c); without them u and omega are not read.
-    jacobian may be NULL. The result is that of the state alone, to the last bit,
-    whatever the cache has seen before. STEP_UNDERFLOW: the walls ask for a
+    jacobian may be NULL. The result is that of the state alone, to the last
+    bit, whatever the cache has seen before. STEP_UNDERFLOW: the walls ask for a
     shorter step.
 */
 ellipsoid_status ellipsoid_contact_evaluate(
@@ -596,8 +597,8 @@ typedef struct ellipsoid_statistics
 /*
     An accepted step, for dense output: see ellipsoid_step_state(). It begins
     where the last one ended but for INERTIAL Brownian motion in long noise
-    intervals, where u and omega have jumped and x and q moved by what they do in
-    a relaxation time (docs/theory.md, "Brownian force and torque").
+    intervals, where u and omega have jumped and x and q moved by what they do
+    in a relaxation time (docs/theory.md, "Brownian force and torque").
 */
 typedef struct ellipsoid_step
 {
@@ -620,10 +621,9 @@ typedef int (*ellipsoid_observer)(void *context, const ellipsoid_step *step);
     every accepted step; on a failure they are those of the last accepted step.
     Statistics count failed attempts as well. observer may be NULL, and so may
     cache where there are no walls. INERTIALESS motion needs a flow: BAD_OPTION.
-    With Brownian motion steps end where noise intervals do; the noise is that of
-    the interval, whatever the steps.
-    Returns OK, STOPPED (by the observer; *t is the end of that step), or why
-    it could not go on.
+    With Brownian motion steps end where noise intervals do; the noise is that
+    of the interval, whatever the steps. Returns OK, STOPPED (by the observer;
+    *t is the end of that step), or why it could not go on.
 */
 ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
                                    const ellipsoid_surroundings *surroundings,
@@ -659,15 +659,14 @@ size_t ellipsoid_group_size(int count);
     a bead and a wall do, with the radius r_1 r_2/(r_1 + r_2) and the modulus
     E_1 E_2/(E_1 + E_2), the geometric mean of both frictions, the larger slip
     speed and the mean damping; what one cell feels the other does with the
-    opposite sign. Two of contact_shape ELLIPSOID touch with that, not with their
-    beads. As ellipsoid_advance() for the rest, for every member; members share
-    motion, noise interval, and the limits of steps of the first one.
+    opposite sign. Two of contact_shape ELLIPSOID touch with that, not with
+    their beads. As ellipsoid_advance() for the rest, for every member; members
+    share motion, noise interval, and the limits of steps of the first one.
     `memory` is ellipsoid_group_size(count) bytes aligned as by malloc(); it
     holds nothing between calls. *which is the member that stopped the group or
-    failed, -1 if it is none in particular; others have gone as far.
-    The members' order decides the rounding.
-    BAD_OPTION: the members do not go together. TOO_MANY_CELLS: more of them
-    overlap than there is memory for.
+    failed, -1 if it is none in particular; others have gone as far. The
+    members' order decides the rounding. BAD_OPTION: the members do not go
+    together. TOO_MANY_CELLS: more of them overlap than there is memory for.
 */
 ellipsoid_status ellipsoid_advance_group(int count,
                                          const ellipsoid_member members[],
@@ -679,7 +678,8 @@ ellipsoid_status ellipsoid_advance_group(int count,
 
 /*
     The smallest gap [m] between two cells in given poses, of their beads or of
-    themselves by contact_shape, negative where they overlap; at most `horizon` [m], beyond which nobody looks.
+    themselves by contact_shape, negative where they overlap; at most `horizon`
+    [m], beyond which nobody looks.
 */
 double ellipsoid_cell_gap(const ellipsoid_model *a, const double x_a[3],
                           const double q_a[4], const ellipsoid_model *b,
