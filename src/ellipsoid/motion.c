@@ -114,7 +114,7 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
     status =
         ellipsoid_group_evaluate(g, g->next, !g->inertial, g->next_has_blocks);
     /* there is room for the couplings of one time only */
-    g->has_blocks = !(g->pairs && g->next_has_blocks);
+    g->has_blocks = g->has_blocks && !(g->pairs && g->next_has_blocks);
     if (status == ELLIPSOID_OK && is_one_held_back(g, planned->h))
     {
         *error = far_too_large;
@@ -205,8 +205,11 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
         const ellipsoid_plan planned = ellipsoid_plan_step(proposal, t, end);
         double error = 0;
         int explicitly;
-        const ellipsoid_status status =
-            try_step(g, &planned, &error, &explicitly);
+        ellipsoid_status status;
+
+        g->culprit = -1;
+        status = try_step(g, &planned, &error, &explicitly);
+
         const int accepted = status == ELLIPSOID_OK && error <= 1;
         const int order = g->stages[0].order;
 

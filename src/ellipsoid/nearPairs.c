@@ -163,11 +163,6 @@ static ellipsoid_status collect(ellipsoid_group *g,
             {
                 continue;
             }
-            if (pairs->near_count == pairs->near_capacity)
-            {
-                g->culprit = b;
-                return ELLIPSOID_TOO_MANY_CELLS;
-            }
             ellipsoid_placed_body(g, points, a);
             ellipsoid_placed_body(g, points, b);
             if (ellipsoid_pair_is_exact(of_a, of_b))
@@ -183,6 +178,12 @@ static ellipsoid_status collect(ellipsoid_group *g,
             near->a = a;
             near->b = b;
             pairs->near_count += near->listed != 0;
+            if (pairs->near_count > pairs->near_capacity)
+            {
+                pairs->is_listed = 0;
+                g->culprit = b;
+                return ELLIPSOID_TOO_MANY_CELLS;
+            }
         }
     }
     return ELLIPSOID_OK;

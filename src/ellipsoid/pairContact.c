@@ -255,7 +255,10 @@ static void keep(ellipsoid_group *g, ellipsoid_point *points,
     ellipsoid_contact *contact = &points[row].contact;
     ellipsoid_pairs *pairs = g->pairs;
 
-    contact->cell_gap = fmin(contact->cell_gap, m->gap);
+    if (m->gap < ellipsoid_pair_horizon(model, g->cell[column].model))
+    {
+        contact->cell_gap = fmin(contact->cell_gap, m->gap);
+    }
     contact->cell_deepest = fmax(0, -contact->cell_gap);
     if (m->touching == 0)
     {

@@ -358,6 +358,8 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
                                 const double x[3], double range,
                                 double slimness, ellipsoid_contact_cache *cache)
 {
+    /* a plane's place is up to so far beside its facet */
+    const double wide = range * hypot(1, ellipsoid_fading * slimness);
     const double margin = margin_part * range;
     ellipsoid_facet_list list;
     double d[3];
@@ -371,7 +373,7 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
     }
     cache->near_count = -1;
     answer = surroundings->walls(surroundings->walls_context, x,
-                                 range + margin, &list);
+                                 wide + margin, &list);
     if (answer != 0)
     {
         return answer > 0 ? ELLIPSOID_STEP_UNDERFLOW : ELLIPSOID_WALLS_FAILED;
@@ -383,7 +385,7 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
 
     for (int k = 0; k < list.count; k++)
     {
-        if (!may_matter(&list.facets[list.index[k]], x, range + margin, margin,
+        if (!may_matter(&list.facets[list.index[k]], x, wide + margin, margin,
                         slimness))
         {
             continue;
@@ -395,8 +397,8 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
         cache->near_facet[count++] = list.index[k];
     }
     cache->near_count = count;
-    cache->near_margin = list.count == 0 && list.reach > range + margin
-                           ? list.reach - range
+    cache->near_margin = list.count == 0 && list.reach > wide + margin
+                           ? list.reach - wide
                            : margin;
     return ELLIPSOID_OK;
 }
