@@ -134,6 +134,9 @@ int ellipsoid_facet_concerns(const ellipsoid_facet *facet,
                              const double centre[3], double reach,
                              double margin);
 
+/* Does it have a convex edge? (facets.c) */
+int ellipsoid_facet_has_rim(const ellipsoid_facet *facet);
+
 /* A vertex is answered for by the facets that have a convex edge there and, for
    the sake of rounding, by those that the point is right above. */
 int ellipsoid_facet_answers(const ellipsoid_facet *facet, int k);

@@ -24,6 +24,13 @@ static const double slack = 1e-9;
 /* A turn smaller than this [rad] is the mesh's rounding. */
 static const double flat = 1e-6;
 
+int ellipsoid_facet_has_rim(const ellipsoid_facet *facet)
+{
+    return facet->edge[0] == ELLIPSOID_EDGE_CONVEX
+        || facet->edge[1] == ELLIPSOID_EDGE_CONVEX
+        || facet->edge[2] == ELLIPSOID_EDGE_CONVEX;
+}
+
 int ellipsoid_facet_answers(const ellipsoid_facet *facet, int k)
 {
     return facet->edge[k] == ELLIPSOID_EDGE_CONVEX

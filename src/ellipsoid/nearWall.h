@@ -48,9 +48,6 @@ static inline void ellipsoid_shrink(const ellipsoid_wall_search *s,
 int ellipsoid_find_place(const ellipsoid_wall_search *s,
                          const ellipsoid_facet *facet, ellipsoid_wall_place *p);
 
-/* Does it have a convex edge? */
-int ellipsoid_facet_has_rim(const ellipsoid_facet *facet);
-
 /* Walls that act at once; of more, the nearest. */
 #define ELLIPSOID_MAX_PLANES 24
 

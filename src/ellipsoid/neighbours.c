@@ -236,13 +236,6 @@ static int above_box(const swarm *beads, const double normal[3],
     return fabs(ellipsoid_dot(d, normal)) > far + extent;
 }
 
-static int has_convex_edge(const ellipsoid_facet *facet)
-{
-    return facet->edge[0] == ELLIPSOID_EDGE_CONVEX
-        || facet->edge[1] == ELLIPSOID_EDGE_CONVEX
-        || facet->edge[2] == ELLIPSOID_EDGE_CONVEX;
-}
-
 /*
     How far beads are, squared, beyond what a facet may concern: beyond the
     reach of its ball and, unless an edge is convex, beside it. height: above
@@ -253,7 +246,7 @@ static void glance(const ellipsoid_facet *facet, const swarm *beads,
                    double height[ELLIPSOID_MAX_BEADS],
                    double beyond[ELLIPSOID_MAX_BEADS])
 {
-    const double beside = has_convex_edge(facet) ? far * far : near * near;
+    const double beside = ellipsoid_facet_has_rim(facet) ? far * far : near * near;
     const double *n = facet->normal, *middle = facet->middle;
 
     for (int b = 0; b < beads->count; b++)
@@ -297,7 +290,7 @@ static int collect(const ellipsoid_facet_list *list, const swarm *beads,
         ellipsoid_difference(facet->middle, beads->centre, d);
         if (beyond_box(beads, d, far)
             || above_box(beads, facet->normal, d, far - size)
-            || (!has_convex_edge(facet)
+            || (!ellipsoid_facet_has_rim(facet)
                 && beside_box(beads, facet->normal, d, near)))
         {
             continue;

@@ -137,13 +137,6 @@ static int place_on_rim(const ellipsoid_wall_search *s, const double normal[3],
     return place_on_edge(s, &c, edge, foot, normal, p);
 }
 
-int ellipsoid_facet_has_rim(const ellipsoid_facet *facet)
-{
-    return facet->edge[0] == ELLIPSOID_EDGE_CONVEX
-        || facet->edge[1] == ELLIPSOID_EDGE_CONVEX
-        || facet->edge[2] == ELLIPSOID_EDGE_CONVEX;
-}
-
 /* Finds the plane that this facet gives; 0 if there is none. */
 int ellipsoid_find_place(const ellipsoid_wall_search *s,
                          const ellipsoid_facet *facet, ellipsoid_wall_place *p)
