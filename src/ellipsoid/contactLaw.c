@@ -135,7 +135,7 @@ ellipsoid_grip ellipsoid_grip_of(const ellipsoid_state *state, double r[3][3],
 int ellipsoid_rub_traction(const ellipsoid_contact_law *law, ellipsoid_rub *rub,
                            int derivatives)
 {
-    double velocity[3], spun[3];
+    double velocity[3] = {0, 0, 0}, spun[3];
 
     for (int k = rub->bodies - 1; k >= 0; k--)
     {
