@@ -165,6 +165,19 @@ void Foam::ellipsoidCloud::updateParticles()
 
 Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
 :
+    ellipsoidCloud
+    (
+        mesh, autoPtr<ellipsoidProperties>(new ellipsoidProperties(mesh))
+    )
+{}
+
+
+Foam::ellipsoidCloud::ellipsoidCloud
+(
+    const fvMesh& mesh,
+    autoPtr<ellipsoidProperties>&& properties
+)
+:
     // Empty: what was written is looked at before it is read
     Cloud<ellipsoidParcel>
     (
@@ -173,7 +186,8 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
         IDLList<ellipsoidParcel>()
     ),
     mesh_(mesh),
-    properties_(mesh),
+    read_(std::move(properties)),
+    properties_(*read_),
     earlier_(mesh.time()),
     whole_(new undecomposedFlow(mesh)),
     model_(),
