@@ -125,6 +125,11 @@ ellipsoid_status ellipsoid_contact_evaluate(
     contact->gap = gap_horizon * model->options.bead_radius;
     if (model->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID)
     {
+        /* it turns by q of length one */
+        if (!isnormal(ellipsoid_square4(state->q)))
+        {
+            return ELLIPSOID_NON_FINITE;
+        }
         return ellipsoid_exact_contact_add(model, surroundings, state->x,
                                            state->q, cache, contact, jacobian);
     }
