@@ -36,17 +36,6 @@ static const double converged = 1e-12, nearly = 1e-8;
    velocities, if its sign has turned: then the step went too far. */
 static const double too_far = 0.5;
 
-static ellipsoid_status evaluate(ellipsoid_group *g, ellipsoid_point *points,
-                                 int balanced, int with_blocks)
-{
-    if (g->pairs)
-    {
-        return ellipsoid_several_evaluate(g, points, balanced, with_blocks);
-    }
-    g->culprit = 0;
-    return ellipsoid_problem_evaluate(g->cell, points, balanced, with_blocks);
-}
-
 /* Power of the unbalanced forces, [W]. */
 static double power_along(const ellipsoid_group *g,
                           const ellipsoid_point *points)
@@ -137,7 +126,7 @@ static int set_changes(ellipsoid_group *g, ellipsoid_point *points)
 
 static ellipsoid_status iterate(ellipsoid_group *g, ellipsoid_point *points)
 {
-    ellipsoid_status status = evaluate(g, points, 0, 1);
+    ellipsoid_status status = ellipsoid_smooth_evaluate(g, points, 0, 1);
     double previous = HUGE_VAL;
 
     for (int n = 0; status == ELLIPSOID_OK && n < MOST_ITERATIONS; n++)
@@ -156,14 +145,14 @@ static ellipsoid_status iterate(ellipsoid_group *g, ellipsoid_point *points)
             return ELLIPSOID_OK;
         }
         previous = before;
-        status = evaluate(g, points, 0, 1);
+        status = ellipsoid_smooth_evaluate(g, points, 0, 1);
         for (int l = 0; status == ELLIPSOID_OK && l < MOST_HALVINGS
                         && power_along(g, points) / before < -too_far;
              l++)
         {
             part *= 0.5;
             move(g, -part, points);
-            status = evaluate(g, points, 0, 1);
+            status = ellipsoid_smooth_evaluate(g, points, 0, 1);
         }
     }
     return status == ELLIPSOID_OK ? ELLIPSOID_NON_FINITE : status;
@@ -234,7 +223,7 @@ ellipsoid_status ellipsoid_rubbing_evaluate(ellipsoid_group *g,
     int touches = 0;
 
     be_at_rest(g, points);
-    status = evaluate(g, points, 1, with_blocks);
+    status = ellipsoid_smooth_evaluate(g, points, 1, with_blocks);
     for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
         touches = touches || ellipsoid_touches(&points[cell].contact);
@@ -248,7 +237,7 @@ ellipsoid_status ellipsoid_rubbing_evaluate(ellipsoid_group *g,
                       : iterate_alone(g, points);
     if (status == ELLIPSOID_OK)
     {
-        status = evaluate(g, points, 0, with_blocks);
+        status = ellipsoid_smooth_evaluate(g, points, 0, with_blocks);
     }
     for (int cell = 0; cell < g->count; cell++)
     {

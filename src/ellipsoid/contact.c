@@ -10,9 +10,6 @@
 #include <math.h>
 #include <string.h>
 
-/* How far beyond a bead's surface a gap is measured, in bead radii. */
-static const double gap_horizon = 1;
-
 static void add_bead(const ellipsoid_model *model, const ellipsoid_state *state,
                      const double arm[3], double r[3][3], const double force[3],
                      double force_x[3][3], ellipsoid_contact *contact,
@@ -32,12 +29,6 @@ static void add_bead(const ellipsoid_model *model, const ellipsoid_state *state,
     }
 }
 
-/* How far beyond its surface a bead feels the walls */
-static double adhesion_reach(const ellipsoid_model *model)
-{
-    return model->options.adhesion > 0 ? model->options.adhesion_range : 0;
-}
-
 /* A bead in the pose (x, R) */
 static ellipsoid_bead placed(const ellipsoid_model *model, int b,
                              const double x[3], double r[3][3])
@@ -47,7 +38,7 @@ static ellipsoid_bead placed(const ellipsoid_model *model, int b,
         .radius = radius,
         .stiffness = 4.0 / 3 * model->options.contact_modulus * sqrt(radius),
         .adhesion = model->options.adhesion,
-        .adhesion_range = adhesion_reach(model)};
+        .adhesion_range = ellipsoid_adhesion_reach(&model->options)};
 
     for (int i = 0; i < 3; i++)
     {
@@ -69,7 +60,7 @@ static void sum_beads(const ellipsoid_model *model,
 {
     /* the bounds are rounded too */
     const double away = moved + 1e-9 * model->options.bead_radius;
-    const double felt = adhesion_reach(model);
+    const double felt = ellipsoid_adhesion_reach(&model->options);
     double r[3][3], force[3], force_x[3][3];
 
     ellipsoid_rotation_inline(state->q, r);
@@ -122,7 +113,7 @@ ellipsoid_status ellipsoid_contact_evaluate(
         return ELLIPSOID_OK;
     }
 
-    contact->gap = gap_horizon * model->options.bead_radius;
+    contact->gap = ellipsoid_gap_horizon(model);
     if (model->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID)
     {
         /* it turns by q of length one */

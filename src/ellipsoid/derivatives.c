@@ -3,8 +3,8 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    derivatives.c - right-hand side, balanced motion and dense Jacobian for
-    callers; the integrator uses the blocks of equations.c as they are.
+    derivatives.c - right-hand side, balanced motion, drag and dense Jacobian
+    for callers; the integrator uses the blocks of equations.c as they are.
 */
 #include "integrator.h"
 
@@ -50,6 +50,20 @@ ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
         *state = at;
     }
     return status;
+}
+
+void ellipsoid_held_drag(const ellipsoid_model *model, const double q[4],
+                         const double velocity[3], double drag[3])
+{
+    double r[3][3], along[3];
+
+    ellipsoid_rotation_inline(q, r);
+    ellipsoid_to_body(r, velocity, along);
+    for (int i = 0; i < 3; i++)
+    {
+        along[i] *= model->viscosity * model->resistance[i];
+    }
+    ellipsoid_product(r, along, drag);
 }
 
 ellipsoid_status

@@ -564,6 +564,11 @@ ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
                                    ellipsoid_state *state,
                                    ellipsoid_contact_cache *cache);
 
+/* The drag [N, lab] on a body of orientation q held still where the flow has
+   this velocity [m/s, lab]: mu R K^ R^T u_f, far from walls. */
+void ellipsoid_held_drag(const ellipsoid_model *model, const double q[4],
+                         const double velocity[3], double drag[3]);
+
 /*
     Derivatives by the thirteen unknowns, row-major: of INERTIAL motion those of
     ellipsoid_rhs(), paper eqs. (1)-(4); of INERTIALESS those of the index-1

@@ -189,6 +189,25 @@ ellipsoid_contact_collect(ellipsoid_contact_cache *cache,
                           const double x[3], const double q[4], double horizon,
                           double *moved);
 
+/* The walls near a place, with what their answer means (neighbours.c). */
+ellipsoid_status
+ellipsoid_list_facets(const ellipsoid_surroundings *surroundings,
+                      const double centre[3], double reach,
+                      ellipsoid_facet_list *list);
+
+/* How far beyond a surface gaps are measured [m], to walls and to cells: the
+   guard against tunnelling counts on it. */
+static inline double ellipsoid_gap_horizon(const ellipsoid_model *model)
+{
+    return model->options.bead_radius;
+}
+
+/* How far beyond its surface a cell feels the walls [m]. */
+static inline double ellipsoid_adhesion_reach(const ellipsoid_options *o)
+{
+    return o->adhesion > 0 ? o->adhesion_range : 0;
+}
+
 /* -------------------------------------------------- a force on the body */
 
 /* R^T v */

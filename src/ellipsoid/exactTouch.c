@@ -435,7 +435,7 @@ ellipsoid_exact_contact_add(const ellipsoid_model *model,
         const ellipsoid_candidates from = {cache->facets, cache->facet,
                                            cache->first[1]};
 
-        find_contacts(&body, &from, o->adhesion > 0 ? o->adhesion_range : 0,
+        find_contacts(&body, &from, ellipsoid_adhesion_reach(o),
                       &all, contact);
         contact->deepest = fmax(0, -contact->gap);
         contact->touching_beads = all.count > 0;

@@ -281,6 +281,19 @@ ellipsoid_status ellipsoid_rubbing_evaluate(ellipsoid_group *group,
                                             ellipsoid_point *points,
                                             int with_blocks);
 
+/* As below, for contacts that do not depend on velocities, or not balanced. */
+static inline ellipsoid_status
+ellipsoid_smooth_evaluate(ellipsoid_group *g, ellipsoid_point *points,
+                          int balanced, int with_blocks)
+{
+    if (g->pairs)
+    {
+        return ellipsoid_several_evaluate(g, points, balanced, with_blocks);
+    }
+    g->culprit = 0;
+    return ellipsoid_problem_evaluate(g->cell, points, balanced, with_blocks);
+}
+
 /*
     Evaluates the equations in the states of all points. balanced says whether u
     and omega are set first. with_blocks: and the Jacobian, with couplings.
@@ -294,12 +307,7 @@ static inline ellipsoid_status ellipsoid_group_evaluate(ellipsoid_group *g,
     {
         return ellipsoid_rubbing_evaluate(g, points, with_blocks);
     }
-    if (g->pairs)
-    {
-        return ellipsoid_several_evaluate(g, points, balanced, with_blocks);
-    }
-    g->culprit = 0;
-    return ellipsoid_problem_evaluate(g->cell, points, balanced, with_blocks);
+    return ellipsoid_smooth_evaluate(g, points, balanced, with_blocks);
 }
 
 /* How far beyond beads of two cells gaps are measured [m] (nearPairs.c). */

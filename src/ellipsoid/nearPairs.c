@@ -13,14 +13,13 @@
 
 #include <math.h>
 
-/* How far beyond a bead's surface a gap is measured, and how far two beads may
-   come nearer before the list is made anew, in bead radii. */
-static const double gap_horizon = 1, margin = 0.5;
+/* How far two beads may come nearer before the list is made anew, in radii. */
+static const double margin = 0.5;
 
 double ellipsoid_pair_horizon(const ellipsoid_model *a,
                               const ellipsoid_model *b)
 {
-    return gap_horizon * fmin(a->options.bead_radius, b->options.bead_radius);
+    return fmin(ellipsoid_gap_horizon(a), ellipsoid_gap_horizon(b));
 }
 
 int ellipsoid_are_apart(const ellipsoid_model *a, const double x_a[3],

@@ -75,7 +75,6 @@ typedef struct ellipsoid_plane
 typedef struct ellipsoid_planes
 {
     int count;
-    int sloped; /* were slopes asked for? */
     ellipsoid_plane at[ELLIPSOID_MAX_PLANES];
 } ellipsoid_planes;
 

@@ -136,9 +136,10 @@ static double nearest_facet(const ellipsoid_facet_list *list,
     return nearest;
 }
 
-static ellipsoid_status list_facets(const ellipsoid_surroundings *surroundings,
-                                    const double centre[3], double reach,
-                                    ellipsoid_facet_list *list)
+ellipsoid_status
+ellipsoid_list_facets(const ellipsoid_surroundings *surroundings,
+                      const double centre[3], double reach,
+                      ellipsoid_facet_list *list)
 {
     const int answer = surroundings->walls(surroundings->walls_context, centre,
                                            reach, list);
@@ -246,7 +247,8 @@ static void glance(const ellipsoid_facet *facet, const swarm *beads,
                    double height[ELLIPSOID_MAX_BEADS],
                    double beyond[ELLIPSOID_MAX_BEADS])
 {
-    const double beside = ellipsoid_facet_has_rim(facet) ? far * far : near * near;
+    const double beside =
+        ellipsoid_facet_has_rim(facet) ? far * far : near * near;
     const double *n = facet->normal, *middle = facet->middle;
 
     for (int b = 0; b < beads->count; b++)
@@ -403,7 +405,7 @@ static ellipsoid_status fill(ellipsoid_contact_cache *cache,
     const double reach =
         (model->reach - radius) * product(q, q) + radius + horizon;
 
-    status = list_facets(surroundings, x, reach + margin, &list);
+    status = ellipsoid_list_facets(surroundings, x, reach + margin, &list);
     if (status != ELLIPSOID_OK)
     {
         return status;
@@ -423,7 +425,8 @@ static ellipsoid_status fill(ellipsoid_contact_cache *cache,
         /* Far from all walls. If they do not say how far, a wider look spares
            many later ones; it may fail where the first did not. */
         if (nearest >= list.reach && list.reach <= reach + margin
-            && list_facets(surroundings, x, 2 * reach, &list) == ELLIPSOID_OK)
+            && ellipsoid_list_facets(surroundings, x, 2 * reach, &list)
+                   == ELLIPSOID_OK)
         {
             nearest = fmax(nearest, nearest_facet(&list, x));
         }

@@ -362,8 +362,8 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
     const double wide = range * hypot(1, ellipsoid_fading * slimness);
     const double margin = margin_part * range;
     ellipsoid_facet_list list;
+    ellipsoid_status status;
     double d[3];
-    int answer;
 
     ellipsoid_difference(x, cache->near_x, d);
     if (cache->near_count >= 0
@@ -372,11 +372,10 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
         return ELLIPSOID_OK;
     }
     cache->near_count = -1;
-    answer = surroundings->walls(surroundings->walls_context, x,
-                                 wide + margin, &list);
-    if (answer != 0)
+    status = ellipsoid_list_facets(surroundings, x, wide + margin, &list);
+    if (status != ELLIPSOID_OK)
     {
-        return answer > 0 ? ELLIPSOID_STEP_UNDERFLOW : ELLIPSOID_WALLS_FAILED;
+        return status;
     }
     cache->near_facets = list.facets;
     ellipsoid_copy(x, cache->near_x);
@@ -441,7 +440,6 @@ ellipsoid_find_planes(const ellipsoid_model *model,
     double unit[3][3], turned[4][3][3];
 
     planes->count = 0;
-    planes->sloped = axis_derivatives != NULL;
     if (status != ELLIPSOID_OK || cache->near_count == 0)
     {
         return status;

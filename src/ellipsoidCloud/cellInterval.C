@@ -526,7 +526,7 @@ Foam::cellInterval::cellInterval
     model_(model),
     pushing_(properties.pushing()),
     margin_(unitGap*model.options.bead_radius),
-    mover_(model, flow, walls, tracks, properties.seed())
+    mover_(model, flow, walls, tracks, properties.seed(), pushing_)
 {}
 
 

@@ -18,11 +18,6 @@ License
 
 namespace Foam
 {
-    static inline point pointOf(const scalar x[3])
-    {
-        return point(x[0], x[1], x[2]);
-    }
-
     //- What the observer of a cell's steps needs
     struct cellJourney
     {
@@ -30,7 +25,10 @@ namespace Foam
         cellMove& cell;
         const cellTracks& tracks;
         DynamicList<cellTracks::row>& rows;
-        const ellipsoid_model& model;
+
+        //- Whose sweep is asked for; or null
+        const ellipsoid_model* swept;
+
         frozenFlow::placeType place;
         ellipsoid_step last;
 
@@ -41,18 +39,40 @@ namespace Foam
             cellMove& move,
             const cellTracks& to,
             DynamicList<cellTracks::row>& buffer,
-            const ellipsoid_model& of
+            const ellipsoid_model* sweptModel
         )
         :
             here(flow, walls, frozenFlow::probe{move.state.tet, -1}),
             cell(move),
             tracks(to),
             rows(buffer),
-            model(of),
+            swept(sweptModel),
             place(frozenFlow::pInside),
             last()
         {}
     };
+
+    //- Add what a cell sweeps in a step
+    static void sweep
+    (
+        const ellipsoid_step& step,
+        const ellipsoid_model& model,
+        cellMove& cell
+    )
+    {
+        // A path bends between the ends of a long step
+        const label nParts = 4;
+        for (label i = 1; i < nParts; ++i)
+        {
+            ellipsoid_state body;
+            ellipsoid_step_state
+            (
+                &step, step.start + i*(step.end - step.start)/nParts, &body
+            );
+            cell.sweep(body, model);
+        }
+        cell.sweep(step.after, model);
+    }
 
     //- An ellipsoid_observer: stops a cell that has left the mesh
     static int observe(void* context, const ellipsoid_step* step)
@@ -65,18 +85,10 @@ namespace Foam
         state.deepestCell = max(state.deepestCell, step->contact.cell_deepest);
         journey.place = journey.here.settle(pointOf(step->after.x));
 
-        // A path bends between the ends of a long step
-        const label nParts = 4;
-        for (label i = 1; i < nParts; ++i)
+        if (journey.swept)
         {
-            ellipsoid_state body;
-            ellipsoid_step_state
-            (
-                step, step->start + i*(step->end - step->start)/nParts, &body
-            );
-            journey.cell.sweep(body, journey.model);
+            sweep(*step, *journey.swept, journey.cell);
         }
-        journey.cell.sweep(step->after, journey.model);
 
         if (journey.place == frozenFlow::pInside)
         {
@@ -174,23 +186,8 @@ Foam::scalar Foam::cellMover::imbalance(const cellJourney& journey) const
         return 1;
     }
 
-    double rotation[3][3];
-    ellipsoid_rotation(body.q, rotation);
-
-    vector drag(Zero);
-    for (int k = 0; k < 3; ++k)
-    {
-        scalar along = 0;
-        for (int i = 0; i < 3; ++i)
-        {
-            along += rotation[i][k]*flow.velocity[i];
-        }
-        for (int i = 0; i < 3; ++i)
-        {
-            drag[i] +=
-                model_.viscosity*model_.resistance[k]*along*rotation[i][k];
-        }
-    }
+    vector drag;
+    ellipsoid_held_drag(&model_, body.q, flow.velocity, drag.v_);
 
     vector sum(drag);
     for (int i = 0; i < 3; ++i)
@@ -237,7 +234,8 @@ Foam::cellMover::cellMover
     const frozenFlow& flow,
     const wallFacets& walls,
     const cellTracks& tracks,
-    const label seed
+    const label seed,
+    const bool sweeping
 )
 :
     model_(model),
@@ -245,6 +243,7 @@ Foam::cellMover::cellMover
     walls_(walls),
     tracks_(tracks),
     seed_(seed),
+    sweeping_(sweeping),
     caches_(),
     memory_(),
     done_()
@@ -277,7 +276,15 @@ bool Foam::cellMover::move
         journeys.set
         (
             i,
-            new cellJourney(flow_, walls_, cell, tracks_, rows, model_)
+            new cellJourney
+            (
+                flow_,
+                walls_,
+                cell,
+                tracks_,
+                rows,
+                sweeping_ ? &model_ : nullptr
+            )
         );
         around[i] = journeys[i].here.core();
         around[i].seed = seed_;

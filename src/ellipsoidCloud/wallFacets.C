@@ -20,11 +20,6 @@ License
 
 namespace Foam
 {
-    static inline point pointOf(const scalar v[3])
-    {
-        return point(v[0], v[1], v[2]);
-    }
-
     static inline void copyTo(scalar to[3], const vector& from)
     {
         std::copy_n(from.v_, 3, to);

@@ -148,6 +148,21 @@ static inline ellipsoid_model test_model(const ellipsoid_options *options)
     return model;
 }
 
+/* Adds the moment about the origin of what the other cells of its group do to a
+   cell. */
+static inline void test_add_moment(const ellipsoid_state *state,
+                                   const ellipsoid_contact *contact,
+                                   double moment[3])
+{
+    double r[3][3], turned[3], part[3];
+
+    ellipsoid_rotation(state->q, r);
+    ellipsoid_product(r, contact->cell_torque, turned);
+    ellipsoid_cross(state->x, contact->cell_force, part);
+    ellipsoid_add(moment, turned);
+    ellipsoid_add(moment, part);
+}
+
 /* Advances without walls or observer. */
 static inline ellipsoid_status test_advance(const ellipsoid_model *model,
                                             test_quadratic *flow,

@@ -122,6 +122,12 @@ static void test_with_and_without_inertia(void **unused)
     wall_mesh_free(&r.mesh);
 }
 
+static int note_touch(void *context, const ellipsoid_step *step)
+{
+    *(int *)context += step->contact.touched_cell_count > 0;
+    return 0;
+}
+
 /* Two cells that a flow presses together and shears, likewise. */
 static void test_two_cells(void **unused)
 {
@@ -144,7 +150,7 @@ static void test_two_cells(void **unused)
         ellipsoid_statistics statistics[2] = {{0}};
         ellipsoid_member members[2];
         double t = 0;
-        int which;
+        int which, touching = 0;
 
         for (int n = 0; n < 2; n++)
         {
@@ -158,11 +164,12 @@ static void test_two_cells(void **unused)
             ellipsoid_quaternion_from_axis(axis, 0.2, s->q);
             ellipsoid_set(s->x, 0.1 * um, (n ? 0.6 : -0.6) * um, 0);
             members[n] = (ellipsoid_member){
-                &model, &around[n], s, &controller[n], NULL, NULL,
+                &model, &around[n], s, &controller[n], NULL, &touching,
                 &statistics[n]};
         }
-        assert_ok(ellipsoid_advance_group(2, members, &t, 0.02, NULL, memory,
-                                          &which));
+        assert_ok(ellipsoid_advance_group(2, members, &t, 0.02, note_touch,
+                                          memory, &which));
+        assert_true(touching > 0);
     }
     for (int n = 0; n < 2; n++)
     {

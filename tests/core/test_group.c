@@ -199,14 +199,12 @@ static void test_equal_and_opposite(void **unused)
         for (int i = 0; i < 2; i++)
         {
             const ellipsoid_contact *contact = &g.start[i].contact;
-            double r[3][3], arm[3], lab[3];
+            double arm[3];
 
-            ellipsoid_rotation(c.state[i].q, r);
-            ellipsoid_product(r, contact->cell_torque, lab);
+            test_add_moment(&c.state[i], contact, moment);
             ellipsoid_cross(c.state[i].x, contact->cell_force, arm);
-            ellipsoid_add(moment, lab);
-            ellipsoid_add(moment, arm);
-            size += ellipsoid_length(lab) + ellipsoid_length(arm);
+            size += ellipsoid_length(contact->cell_torque)
+                  + ellipsoid_length(arm);
             assert_int_equal(contact->touched_cell_count, 1);
             assert_int_equal(contact->touched_cell[0], 101 - i);
             assert_near(contact->cell_deepest, 2e-8, 1e-12);

@@ -278,13 +278,8 @@ static void test_forces_balance(void **unused)
         for (int k = 0; k < 2; k++)
         {
             const ellipsoid_contact *c = &group.start[k].contact;
-            double r[3][3], turned[3], part[3];
 
-            ellipsoid_rotation(e.state[k].q, r);
-            ellipsoid_product(r, c->cell_torque, turned);
-            ellipsoid_cross(e.state[k].x, c->cell_force, part);
-            ellipsoid_add(moment, turned);
-            ellipsoid_add(moment, part);
+            test_add_moment(&e.state[k], c, moment);
             ellipsoid_add(force, c->cell_force);
             size += ellipsoid_length(c->cell_force)
                   + ellipsoid_length(c->cell_torque);
