@@ -358,8 +358,9 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
                                 const double x[3], double range,
                                 double slimness, ellipsoid_contact_cache *cache)
 {
-    /* a plane's place is up to so far beside its facet */
-    const double wide = range * hypot(1, ellipsoid_fading * slimness);
+    /* a plane's place is up to so far beside its facet, not square to the way
+       to it where the body is not a sphere */
+    const double wide = range * (1 + ellipsoid_fading * slimness);
     const double margin = margin_part * range;
     ellipsoid_facet_list list;
     ellipsoid_status status;

@@ -385,6 +385,57 @@ static void test_cache(void **unused)
     wall_mesh_free(&mesh);
 }
 
+/* So too where a small wall is as far beside the place as it may be. */
+static void test_cache_far_beside(void **unused)
+{
+    static ellipsoid_contact_cache fresh;
+    const double corner[3] = {0, 0, 0}, size = 2e-7;
+    const double along[3] = {size, 0, 0}, across[3] = {0, size, 0};
+    const ellipsoid_options o = near_walls();
+    const ellipsoid_model model = test_model(&o);
+    test_quadratic flow = test_shear(1000);
+    uint64_t seed = 25;
+    int felt = 0;
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    wall_mesh_plane(&mesh, corner, along, across, 1, 1, 2, 0);
+    wall_mesh_finish(&mesh);
+    for (int n = 0; n < 100000; n++)
+    {
+        const ellipsoid_surroundings s = around(&mesh, &flow);
+        const double away = o.wall_range * (1.2 + 0.9 * test_uniform(&seed));
+        double to[3];
+        ellipsoid_state near = {.u = {0}}, a, b, free;
+        ellipsoid_surroundings none = s;
+
+        none.walls = NULL;
+        test_orientation(&seed, near.q);
+        test_long_axis(&near, to);
+        test_orientation(&seed, near.q);
+        for (int i = 0; i < 3; i++)
+        {
+            near.x[i] = away * (i == 2 ? fabs(to[i]) : to[i]);
+        }
+        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_contact_cache_clear(&fresh);
+        assert_ok(ellipsoid_rhs(&model, &s, &near, &cache, &a));
+        for (int i = 0; i < 3; i++)
+        {
+            near.x[i] -= 0.099 * o.wall_range * to[i];
+        }
+        assert_ok(ellipsoid_rhs(&model, &s, &near, &cache, &a));
+        assert_ok(ellipsoid_rhs(&model, &s, &near, &fresh, &b));
+        assert_memory_equal(&a, &b, sizeof(a));
+        assert_ok(ellipsoid_rhs(&model, &none, &near, NULL, &free));
+        felt += memcmp(&a, &free, sizeof(a)) != 0;
+    }
+    print_message("%d of the poses felt the wall\n", felt);
+    assert_true(felt > 0);
+    wall_mesh_free(&mesh);
+}
+
 /* A slit: two walls add up (Oseen's superposition); a wall out of range, or
    none at all, is no wall. */
 static void test_slit(void **unused)
@@ -546,6 +597,7 @@ int main(void)
         cmocka_unit_test(test_cuts),
         cmocka_unit_test(test_continuous),
         cmocka_unit_test(test_cache),
+        cmocka_unit_test(test_cache_far_beside),
         cmocka_unit_test(test_slit),
         cmocka_unit_test(test_coming_down),
         cmocka_unit_test(test_two_cells),
