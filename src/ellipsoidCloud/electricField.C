@@ -70,13 +70,13 @@ Foam::autoPtr<FieldType> Foam::electricField::read
     else if (!fits)
     {
         fault
-            << io.instance()/name << " is a " << io.headerClassName()
+            << (io.instance()/name).c_str() << " is a " << io.headerClassName()
             << ", not a " << FieldType::typeName;
     }
     else if (field->dimensions() != dimensions)
     {
         fault
-            << io.instance()/name << " has the dimensions "
+            << (io.instance()/name).c_str() << " has the dimensions "
             << field->dimensions() << ", not " << dimensions;
     }
 
