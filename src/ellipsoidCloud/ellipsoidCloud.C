@@ -190,6 +190,7 @@ Foam::ellipsoidCloud::ellipsoidCloud
     properties_(*read_),
     earlier_(mesh.time()),
     whole_(new undecomposedFlow(mesh)),
+    field_(new electricField(properties_.section("forces"), mesh)),
     model_(),
     flow_(),
     walls_(),
@@ -249,7 +250,13 @@ void Foam::ellipsoidCloud::setFlow
 
     flow_.reset
     (
-        new frozenFlow(*whole_, options.fluid_density, properties_.scheme())
+        new frozenFlow
+        (
+            *whole_,
+            options.fluid_density,
+            properties_.scheme(),
+            field_->onWhole(*whole_)
+        )
     );
     walls_.reset
     (
@@ -271,6 +278,7 @@ void Foam::ellipsoidCloud::setFlow
 
     checkPlaces();
     makeInjections();
+    field_.clear();
     whole_.clear();
 
     interval_.reset

@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "ellipsoidProperties.H"
+#include "electricField.H"
 #include "readViscosity.H"
 #include "Switch.H"
 
@@ -143,7 +144,14 @@ void Foam::ellipsoidProperties::readOptions()
     readVector(forces, "externalTorque", options_.external_torque);
     options_.charge = forces.getOrDefault("charge", options_.charge);
     readVector(forces, "dipole", options_.dipole);
-    readVector(forces, "electricField", options_.electric_field);
+    if (electricField::isNamed(forces))
+    {
+        electricField::checkEntries(forces);
+    }
+    else
+    {
+        readVector(forces, "electricField", options_.electric_field);
+    }
 
     const dictionary& brownian = section("brownian");
     checkKeywords(brownian, {"active", "temperature", "interval"});

@@ -151,6 +151,37 @@ Foam::frozenFlow::placeType Foam::frozenFlow::walk
 }
 
 
+void Foam::frozenFlow::interpolate
+(
+    const scalar* const values[4],
+    const scalar coordinates[4],
+    const scalar gradients[4][3],
+    scalar value[3],
+    scalar (*jacobian)[3]
+)
+{
+    for (int i = 0; i < 3; ++i)
+    {
+        value[i] = 0;
+
+        for (int a = 0; a < 4; ++a)
+        {
+            value[i] += coordinates[a]*values[a][i];
+        }
+
+        for (int j = 0; jacobian && j < 3; ++j)
+        {
+            jacobian[i][j] = 0;
+
+            for (int a = 0; a < 4; ++a)
+            {
+                jacobian[i][j] += gradients[a][j]*values[a][i];
+            }
+        }
+    }
+}
+
+
 void Foam::frozenFlow::interpolateVelocity
 (
     const vertex* const v[4],
@@ -160,25 +191,9 @@ void Foam::frozenFlow::interpolateVelocity
     scalar (*jacobian)[3]
 ) const
 {
-    for (int i = 0; i < 3; ++i)
-    {
-        velocity[i] = 0;
+    const scalar* const u[4] = {v[0]->u, v[1]->u, v[2]->u, v[3]->u};
 
-        for (int a = 0; a < 4; ++a)
-        {
-            velocity[i] += coordinates[a]*v[a]->u[i];
-        }
-
-        for (int j = 0; jacobian && j < 3; ++j)
-        {
-            jacobian[i][j] = 0;
-
-            for (int a = 0; a < 4; ++a)
-            {
-                jacobian[i][j] += gradients[a][j]*v[a]->u[i];
-            }
-        }
-    }
+    interpolate(u, coordinates, gradients, velocity, jacobian);
 
     if (scheme_ != stCellPointQuadratic)
     {
@@ -247,7 +262,8 @@ Foam::frozenFlow::frozenFlow
 (
     const undecomposedFlow& whole,
     const scalar rho,
-    const schemeType scheme
+    const schemeType scheme,
+    const autoPtr<volVectorField>& E
 )
 :
     scheme_(scheme)
@@ -260,6 +276,11 @@ Foam::frozenFlow::frozenFlow
 
         makeTets(whole.mesh(), baffles);
         makeVertices(whole, rho, baffles);
+
+        if (E.valid())
+        {
+            makeFields(*E, baffles);
+        }
 
         checkOpenPatches(whole);
 
@@ -278,6 +299,7 @@ Foam::frozenFlow::frozenFlow
     }
 
     Pstream::scatter(vertices_);
+    Pstream::scatter(fields_);
     Pstream::scatter(tets_);
     Pstream::scatter(cellTets_);
 
@@ -421,6 +443,37 @@ int Foam::frozenFlow::sample
             }
         }
     }
+
+    return 0;
+}
+
+
+int Foam::frozenFlow::field
+(
+    const scalar x[3],
+    probe& at,
+    scalar field[3],
+    scalar (*jacobian)[3]
+) const
+{
+    scalar coordinates[4];
+    scalar gradients[4][3];
+
+    const placeType place = walk(x, at, coordinates, gradients);
+
+    if (place == pBeyondWall || place == pBeyondCoupled)
+    {
+        return 1;
+    }
+
+    const scalar* E[4];
+
+    for (int a = 0; a < 4; ++a)
+    {
+        E[a] = &fields_[3*tetRef(at.tet).vertices[a]];
+    }
+
+    interpolate(E, coordinates, gradients, field, jacobian);
 
     return 0;
 }

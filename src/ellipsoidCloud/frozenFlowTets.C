@@ -18,6 +18,67 @@ Description
 #include "wallPolyPatch.H"
 #include "EdgeMap.H"
 
+#include <algorithm>
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- A field at a side of a baffle: of the faces around the point, as at all
+    //  points of the boundary
+    template<class Type>
+    static Type atSide
+    (
+        const GeometricField<Type, fvPatchField, volMesh>& field,
+        const baffleSides::side& side
+    )
+    {
+        const polyMesh& mesh = field.mesh();
+        const point& x = mesh.points()[side.point];
+
+        Type value(Zero);
+        scalar sum = 0;
+
+        for (const label facei : side.faces)
+        {
+            const label patchi = mesh.boundaryMesh().whichPatch(facei);
+            const polyPatch& pp = mesh.boundaryMesh()[patchi];
+            const fvPatchField<Type>& pf = field.boundaryField()[patchi];
+
+            if (!pp.coupled() && pf.size())
+            {
+                const scalar weight = 1/mag(x - mesh.faceCentres()[facei]);
+
+                value += weight*pf[facei - pp.start()];
+                sum += weight;
+            }
+        }
+
+        return value/sum;
+    }
+
+    //- End the run if a value at a vertex is not finite
+    static void checkFinite
+    (
+        const scalarList& values,
+        const char* field,
+        const char* advice
+    )
+    {
+        for (const scalar value : values)
+        {
+            if (std::isnan(value) || std::isinf(value))
+            {
+                FatalErrorInFunction
+                    << "the " << field << " field holds a value that is not "
+                    << "finite: " << advice << exit(FatalError);
+            }
+        }
+    }
+}
+
+
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::frozenFlow::makeTets
@@ -229,60 +290,70 @@ void Foam::frozenFlow::makeVertices
         );
     }
 
-    // Either side of a baffle by itself: of the faces around the point, as at
-    // all points of the boundary
+    // Either side of a baffle by itself
     for (label sidei = 0; sidei < nSides; ++sidei)
     {
         const baffleSides::side& side = baffles.sides()[sidei];
-        const point& x = mesh.points()[side.point];
 
         vector u(Zero);
-        tensor gradu(Zero);
-        vector gradientp(Zero);
-        scalar sum = 0;
         label nWalls = 0;
 
         for (const label facei : side.faces)
         {
             const label patchi = mesh.boundaryMesh().whichPatch(facei);
             const polyPatch& pp = mesh.boundaryMesh()[patchi];
-            const label i = facei - pp.start();
 
             if (isA<wallPolyPatch>(pp))
             {
-                u += whole.U().boundaryField()[patchi][i];
+                u += whole.U().boundaryField()[patchi][facei - pp.start()];
                 ++nWalls;
-            }
-            if (!pp.coupled() && gradU.boundaryField()[patchi].size())
-            {
-                const scalar weight = 1/mag(x - mesh.faceCentres()[facei]);
-
-                gradu += weight*gradU.boundaryField()[patchi][i];
-                gradientp += weight*gradp.boundaryField()[patchi][i];
-                sum += weight;
             }
         }
 
         setVertex
         (
             nCells + mesh.nPoints() + sidei,
-            x,
+            mesh.points()[side.point],
             nWalls ? u/scalar(nWalls) : pointU[side.point],
-            gradu/sum,
-            gradientp/sum
+            atSide(gradU, side),
+            atSide(gradp, side)
         );
     }
 
-    for (const scalar value : vertices_)
+    checkFinite(vertices_, "flow", "solve the flow again from clean fields");
+}
+
+
+void Foam::frozenFlow::makeFields
+(
+    const volVectorField& E,
+    const baffleSides& baffles
+)
+{
+    const fvMesh& mesh = E.mesh();
+    const label nCells = mesh.nCells();
+    const label nWhole = nCells + mesh.nPoints();
+
+    const pointVectorField pointE
+    (
+        volPointInterpolation::New(mesh).interpolate(E)
+    );
+
+    fields_.setSize(3*(nWhole + baffles.sides().size()));
+
+    for (label i = 0; i < fields_.size()/3; ++i)
     {
-        if (std::isnan(value) || std::isinf(value))
-        {
-            FatalErrorInFunction
-                << "the flow field holds a value that is not finite: solve the "
-                << "flow again from clean fields"
-                << exit(FatalError);
-        }
+        const vector value
+        (
+            i < nCells ? E[i]
+          : i < nWhole ? pointE[i - nCells]
+          : atSide(E, baffles.sides()[i - nWhole])
+        );
+
+        std::copy_n(value.v_, 3, &fields_[3*i]);
     }
+
+    checkFinite(fields_, "electric", "look at what forces/electricField names");
 }
 
 

@@ -126,11 +126,11 @@ Foam::undecomposedFlow::gather
 {
     typedef GeometricField<Type, fvPatchField, volMesh> fieldType;
 
-    const polyMesh& mesh = field.mesh();
+    const polyMesh& part = field.mesh();
 
     // Boundary values go with the label of their face in the whole mesh;
     // those of processor patches are inner faces there
-    DynamicList<label> faces(mesh.nFaces() - mesh.nInternalFaces());
+    DynamicList<label> faces(part.nFaces() - part.nInternalFaces());
     DynamicList<Type> faceValues(faces.capacity());
 
     forAll(field.boundaryField(), patchi)
@@ -176,12 +176,13 @@ Foam::undecomposedFlow::gather
             IOobject
             (
                 field.name(),
-                time_->timeName(),
-                *mesh_,
+                mesh().time().timeName(),
+                mesh(),
                 IOobject::NO_READ,
-                IOobject::NO_WRITE
+                IOobject::NO_WRITE,
+                false
             ),
-            *mesh_,
+            mesh(),
             dimensioned<Type>("zero", field.dimensions(), Zero),
             calculatedFvPatchField<Type>::typeName
         )
@@ -196,7 +197,7 @@ Foam::undecomposedFlow::gather
         forAll(allFaces[ranki], i)
         {
             const label facei = allFaces[ranki][i];
-            const label patchi = mesh_->boundaryMesh().whichPatch(facei);
+            const label patchi = mesh().boundaryMesh().whichPatch(facei);
             fvPatchField<Type>& pf = whole->boundaryFieldRef()[patchi];
 
             // An empty patch has faces but no values
@@ -344,6 +345,7 @@ Foam::undecomposedFlow::undecomposedFlow(const fvMesh& mesh)
     else
     {
         cellAddressing_ = identity(mesh.nCells());
+        faceAddressing_ = identity(mesh.nFaces(), 1);
     }
 
     List<labelList> allCells(Pstream::nProcs());
@@ -417,6 +419,18 @@ void Foam::undecomposedFlow::gather
         phi_ = phiGathered_.get();
     }
 }
+
+
+// What others gather
+template Foam::autoPtr<Foam::volScalarField> Foam::undecomposedFlow::gather
+(
+    const volScalarField&
+) const;
+
+template Foam::autoPtr<Foam::volVectorField> Foam::undecomposedFlow::gather
+(
+    const volVectorField&
+) const;
 
 
 // ************************************************************************* //

@@ -301,6 +301,12 @@ class Case:
             given[name] = tuple(float(word) * MILLI for word in words.split())
         return given
 
+    @property
+    def potential_name(self):
+        """Name of the electric potential that acts on the cells, or None."""
+        field = self.properties.get("forces", {}).get("electricField")
+        return field.get("potential") if isinstance(field, dict) else None
+
     @cached_property
     def _vtk(self):
         """(mesh pieces, patch name to pieces, number of mesh cells) from VTK's reader."""
@@ -330,7 +336,7 @@ class Case:
                 reader.SetPatchArrayStatus(name, 0)
         for i in range(reader.GetNumberOfCellArrays()):
             name = reader.GetCellArrayName(i)
-            reader.SetCellArrayStatus(name, name == "U")
+            reader.SetCellArrayStatus(name, name in ("U", self.potential_name))
         reader.UpdateTimeStep(self.flow_time[0])
 
         pieces = {}
@@ -412,6 +418,7 @@ class Case:
         points = vtk_to_numpy(section.GetPoints().GetData())[:, :2] * MICRO
         polygons = section.GetPolys()
         U = vtk_to_numpy(section.GetCellData().GetArray("U"))
+        potential = section.GetCellData().GetArray(self.potential_name or "")
 
         outlines = {}
         walls = []
@@ -433,4 +440,5 @@ class Case:
             U.astype(float) * MILLI,
             outlines,
             walls,
+            None if potential is None else vtk_to_numpy(potential).astype(float),
         )

@@ -8,6 +8,7 @@ usage: makePictures CASE                          all but figure4, and the repor
        makePictures CASE report                   the report of the pictures that are there
 
 PICTURE is one of
+    deflection      an electric potential, tracks of all cells
     figure1         cells held by every sieve against time
     figure2         orientation, velocity and spin of one cell
     figure3         the model drawn, and a cell at discrete times
@@ -35,7 +36,7 @@ from files import CaseError
 # The longest first, so that none of them comes last alone
 PICTURES = (
     "movie", "figure3", "speedAndTracks", "figure2", "trappedCells", "figure5", "nearWall",
-    "figure1",
+    "figure1", "deflection",
 )
 # Compares designs, which takes runs of its own
 BY_ITSELF = ("figure4",)

@@ -16,16 +16,20 @@ class Plane:
     points      (n, 2) corners
     connectivity, offsets   polygon i has the corners connectivity[offsets[i]:offsets[i+1]]
     velocity    (m, 3) of the flow in every polygon
+    potential   (m) the electric one in every polygon [V], or None
     outlines    patch name to (k, 2, 2) segments
     walls       (which points, their velocity) where it is known
     """
 
-    def __init__(self, points, connectivity, offsets, velocity, outlines, walls):
+    def __init__(
+        self, points, connectivity, offsets, velocity, outlines, walls, potential=None
+    ):
         self.points = points
         self.connectivity = connectivity
         self.offsets = offsets
         self.velocity = velocity
         self.outlines = outlines
+        self.potential = potential
         self._walls = walls
 
     @property

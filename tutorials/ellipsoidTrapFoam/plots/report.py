@@ -23,7 +23,10 @@ from files import CaseError, read_dictionary, read_text
 
 # Chapter to (picture, title)
 CHAPTERS = {
-    "Flow": (("speedAndTracks", "Flow and tracks"),),
+    "Flow": (
+        ("speedAndTracks", "Flow and tracks"),
+        ("deflection", "Electric potential and tracks"),
+    ),
     "Catches": (
         ("figure1", "Cells caught against time (Figure 1 of the paper)"),
         ("trappedCells", "The cells at rest"),

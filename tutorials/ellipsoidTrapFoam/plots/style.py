@@ -29,6 +29,9 @@ PALE = 0.3
 SPEED_MAP = ListedColormap(
     plt.get_cmap("viridis")(np.linspace(0, 1, 256)) * (1 - PALE) + PALE, "paleViridis"
 )
+POTENTIAL_MAP = ListedColormap(
+    plt.get_cmap("RdBu_r")(np.linspace(0, 1, 256)) * (1 - PALE) + PALE, "paleRdBu"
+)
 SOLID = "0.82"
 
 # Okabe and Ito's colours, which the colour-blind can tell apart
