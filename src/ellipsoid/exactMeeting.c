@@ -32,30 +32,31 @@ double ellipsoid_exact_gap(const ellipsoid_body *a, const ellipsoid_body *b)
     return -pair.depth;
 }
 
-/* The point in the middle of both surfaces' points, and derivatives. */
+/* Both are held in the middle between the points on their surfaces. */
 static void set_push(const ellipsoid_exact_pair *pair, double stiffness,
                      int derivatives, ellipsoid_exact_push *p)
 {
     const double root = stiffness * sqrt(pair->depth);
-    const double half = 0.5 * pair->depth;
+    double line[3]; /* from b's centre to a's */
 
+    ellipsoid_difference(p->body[0]->centre, p->body[1]->centre, line);
     for (int i = 0; i < 3; i++)
     {
-        const double n = pair->normal[i];
+        const double sum = pair->point_a[i] + pair->point_b[i];
 
-        p->push[i] = root * pair->depth * n;
-        p->point[0][i] = pair->point_a[i] + half * n;
-        p->point[1][i] = pair->point_b[i] - half * n;
+        p->push[i] = root * pair->depth * pair->normal[i];
+        p->point[0][i] = 0.5 * (sum - line[i]);
+        p->point[1][i] = 0.5 * (sum + line[i]);
         for (int k = 0; derivatives && k < ELLIPSOID_EXACT_PAIR_VARIABLES; k++)
         {
-            const double deeper = pair->depth_slope[k];
-            const double turned = pair->normal_slope[i][k];
-            const double shift = 0.5 * deeper * n + half * turned;
+            const double change =
+                pair->point_a_slope[i][k] + pair->point_b_slope[i][k];
 
             p->push_slope[k][i] =
-                root * (1.5 * deeper * n + pair->depth * turned);
-            p->point_slope[0][k][i] = pair->point_a_slope[i][k] + shift;
-            p->point_slope[1][k][i] = pair->point_b_slope[i][k] - shift;
+                root * (1.5 * pair->depth_slope[k] * pair->normal[i]
+                        + pair->depth * pair->normal_slope[i][k]);
+            p->point_slope[0][k][i] = 0.5 * (change - (k == i));
+            p->point_slope[1][k][i] = 0.5 * (change + (k == i));
         }
     }
 }
