@@ -104,8 +104,8 @@ void ellipsoid_exact_pair_set(const ellipsoid_exact_body *a,
                               const ellipsoid_exact_body *b, int derivatives,
                               ellipsoid_exact_pair *pair);
 
-/* Derivatives of a force of exact contact are by those nine, by u_a - u_b in the
-   lab, and by omega of a and of b, each in its body. */
+/* Derivatives of a force of exact contact are by those nine, by u_a - u_b in
+   the lab, and by omega of a and of b, each in its body. */
 #define ELLIPSOID_EXACT_FORCE_VARIABLES 18
 
 /* What pushes an ellipsoid off a wall, or off another one, at one place. */
