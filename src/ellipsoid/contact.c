@@ -10,22 +10,38 @@
 #include <math.h>
 #include <string.h>
 
+static void add_elastic(const ellipsoid_state *state, const double arm[3],
+                        double r[3][3], ellipsoid_bead_feels *felt,
+                        ellipsoid_contact *contact,
+                        ellipsoid_contact_jacobian *jacobian)
+{
+    ellipsoid_add_force_at(arm, r, felt->force, contact->force,
+                           contact->torque);
+    if (jacobian)
+    {
+        ellipsoid_add_derivatives(arm, state->q, r, felt->force, felt->force_x,
+                                  jacobian);
+    }
+}
+
 static void add_bead(const ellipsoid_model *model, const ellipsoid_state *state,
-                     const double arm[3], double r[3][3], const double force[3],
-                     double force_x[3][3], ellipsoid_contact *contact,
+                     const double arm[3], double r[3][3],
+                     ellipsoid_bead_feels *push, ellipsoid_bead_feels *pull,
+                     ellipsoid_contact *contact,
                      ellipsoid_contact_jacobian *jacobian)
 {
     contact->touching_beads++;
     if (model->dissipative)
     {
-        ellipsoid_rub_wall(model, state, r, arm, force, force_x, contact,
-                           jacobian);
-        return;
+        ellipsoid_rub_wall(model, state, r, arm, push, contact, jacobian);
     }
-    ellipsoid_add_force_at(arm, r, force, contact->force, contact->torque);
-    if (jacobian)
+    else
     {
-        ellipsoid_add_derivatives(arm, state->q, r, force, force_x, jacobian);
+        add_elastic(state, arm, r, push, contact, jacobian);
+    }
+    if (model->options.adhesion > 0)
+    {
+        add_elastic(state, arm, r, pull, contact, jacobian);
     }
 }
 
@@ -61,7 +77,8 @@ static void sum_beads(const ellipsoid_model *model,
     /* the bounds are rounded too */
     const double away = moved + 1e-9 * model->options.bead_radius;
     const double felt = ellipsoid_adhesion_reach(&model->options);
-    double r[3][3], force[3], force_x[3][3];
+    ellipsoid_bead_feels push, pull;
+    double r[3][3];
 
     ellipsoid_rotation_inline(state->q, r);
     for (int round = 0; round < 2 && contact->gap > 0; round++)
@@ -82,11 +99,11 @@ static void sum_beads(const ellipsoid_model *model,
 
             const ellipsoid_bead bead = placed(model, b, state->x, r);
 
-            if (ellipsoid_bead_touch(&bead, &from, &contact->gap, force,
-                                     jacobian ? force_x : NULL, contact)
+            if (ellipsoid_bead_touch(&bead, &from, &contact->gap,
+                                     jacobian != NULL, &push, &pull, contact)
                 > 0)
             {
-                add_bead(model, state, model->bead[b], r, force, force_x,
+                add_bead(model, state, model->bead[b], r, &push, &pull,
                          contact, jacobian);
             }
         }
@@ -121,8 +138,8 @@ ellipsoid_status ellipsoid_contact_evaluate(
         {
             return ELLIPSOID_NON_FINITE;
         }
-        return ellipsoid_exact_contact_add(model, surroundings, state->x,
-                                           state->q, cache, contact, jacobian);
+        return ellipsoid_exact_contact_add(model, surroundings, state, cache,
+                                           contact, jacobian);
     }
 
     double moved;

@@ -10,8 +10,9 @@
     v_t = v - v_n n,
         F = N max(0, 1 - 3/2 alpha v_n) (n - mu v_t / sqrt(v_t^2 + v_s^2)).
     The first factor is Hunt & Crossley's (1975): v_n > 0 is separation, and
-    nothing ever pulls. The last is Coulomb's friction, regularised below the
-    slip speed v_s so that it is smooth, as the Jacobian wants it.
+    this never pulls. The last is Coulomb's friction, regularised below the
+    slip speed v_s so that it is smooth, as the Jacobian wants it. Adhesion is a
+    force of its own: it pulls a contact the deeper, and so adds to N.
 */
 #include "ellipsoidInternal.h"
 
@@ -176,12 +177,12 @@ void ellipsoid_add_rub(const ellipsoid_rub *rub, int body, double force[3],
 */
 void ellipsoid_rub_wall(const ellipsoid_model *model,
                         const ellipsoid_state *state, double r[3][3],
-                        const double arm[3], const double push[3],
-                        double push_x[3][3], ellipsoid_contact *contact,
+                        const double arm[3], ellipsoid_bead_feels *push,
+                        ellipsoid_contact *contact,
                         ellipsoid_contact_jacobian *jacobian)
 {
     const ellipsoid_contact_law law = ellipsoid_law_of(model);
-    const double size = ellipsoid_length(push);
+    const double size = ellipsoid_length(push->force);
     const double lever = size > 0 ? model->options.bead_radius / size : 0;
     ellipsoid_contact_jacobian *const by_own[2][2] = {{jacobian, NULL},
                                                       {NULL, NULL}};
@@ -190,8 +191,8 @@ void ellipsoid_rub_wall(const ellipsoid_model *model,
     rub.grip[0] = ellipsoid_grip_of(state, r, arm);
     for (int i = 0; i < 3; i++)
     {
-        rub.push[i] = push[i];
-        rub.grip[0].point[i] -= lever * push[i];
+        rub.push[i] = push->force[i];
+        rub.grip[0].point[i] -= lever * push->force[i];
     }
     if (!ellipsoid_rub_traction(&law, &rub, jacobian != NULL))
     {
@@ -201,7 +202,8 @@ void ellipsoid_rub_wall(const ellipsoid_model *model,
     for (int j = 0; jacobian && j < 3; j++)
     {
         const double *n = rub.traction.normal;
-        const double column[3] = {push_x[0][j], push_x[1][j], push_x[2][j]};
+        const double column[3] = {push->force_x[0][j], push->force_x[1][j],
+                                  push->force_x[2][j]};
         const double along = ellipsoid_dot(n, column);
 
         for (int i = 0; i < 3; i++)

@@ -165,8 +165,7 @@ typedef struct ellipsoid_options
     int bead_count;           /* 32; 1 to ELLIPSOID_MAX_BEADS */
     double bead_radius;       /* [m] 0.285e-6; below the smallest semi-axis */
     double contact_modulus;   /* [Pa] effective modulus E*, 1e6 */
-    double friction;          /* [-] Coulomb's coefficient, 0; of BEADS, without
-                                 adhesion */
+    double friction;          /* [-] Coulomb's coefficient, 0 to 100; 0 */
     double slip_speed;        /* [m/s] below which friction yields, 1e-5 */
     double contact_damping;   /* [s/m] Hunt and Crossley's factor, 0:
                                  restitution is 1 less this times the speed of

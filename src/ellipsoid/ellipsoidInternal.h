@@ -163,16 +163,23 @@ typedef struct ellipsoid_candidates
     int count;
 } ellipsoid_candidates;
 
+/* A force on a bead [N], and its derivative by the bead's centre [N/m]. */
+typedef struct ellipsoid_bead_feels
+{
+    double force[3], force_x[3][3];
+} ellipsoid_bead_feels;
+
 /*
-    The wall's force on one bead and its derivative by the centre (touch.c),
-    set only where it is felt; returns the number of contacts. *gap [m] is how
-    far beyond the bead to look and is lowered to the smallest gap found (minus
-    the depth of an overlap). Surfaces touched are noted in *report. force_x
-    and report may be NULL.
+    The wall's force on one bead (touch.c), set only where it is felt: that of
+    overlap, which pushes, and that of adhesion, which pulls; returns the number
+    of contacts. *gap [m] is how far beyond the bead to look and is lowered to
+    the smallest gap found (minus the depth of an overlap). Surfaces touched are
+    noted in *report, which may be NULL.
 */
 int ellipsoid_bead_touch(const ellipsoid_bead *bead,
                          const ellipsoid_candidates *from, double *gap,
-                         double force[3], double force_x[3][3],
+                         int derivatives, ellipsoid_bead_feels *push,
+                         ellipsoid_bead_feels *pull,
                          ellipsoid_contact *report);
 
 /*
@@ -318,12 +325,12 @@ void ellipsoid_add_rub(const ellipsoid_rub *rub, int body, double force[3],
 void ellipsoid_add_rub_derivatives(
     ellipsoid_rub *rub, ellipsoid_contact_jacobian *const jacobian[2][2]);
 
-/* A wall's push on a bead, as ellipsoid_bead_touch() gives it, becomes force
-   and torque with friction and damping; jacobian may be NULL. */
+/* A wall's push on a bead becomes force and torque with friction and damping;
+   jacobian may be NULL. */
 void ellipsoid_rub_wall(const ellipsoid_model *model,
                         const ellipsoid_state *state, double r[3][3],
-                        const double arm[3], const double push[3],
-                        double push_x[3][3], ellipsoid_contact *contact,
+                        const double arm[3], ellipsoid_bead_feels *push,
+                        ellipsoid_contact *contact,
                         ellipsoid_contact_jacobian *jacobian);
 
 /* Are walls felt at all? */

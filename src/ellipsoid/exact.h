@@ -76,16 +76,10 @@ int ellipsoid_exact_pushed_out(const ellipsoid_facet *facet,
 ellipsoid_status
 ellipsoid_exact_contact_add(const ellipsoid_model *model,
                             const ellipsoid_surroundings *surroundings,
-                            const double x[3], const double q[4],
+                            const ellipsoid_state *state,
                             ellipsoid_contact_cache *cache,
                             ellipsoid_contact *contact,
                             ellipsoid_contact_jacobian *jacobian);
-
-/* Derivatives by q, row[i][n], from those by small rotations about the lab's
-   axes, slope[axis][i]: a change dq is the rotation 2 (dq q*)/q.q, with the
-   conjugate q*; a stretch of q is none (exactTouch.c). */
-void ellipsoid_exact_by_components(const double q[4], double slope[3][3],
-                                   double row[3][4]);
 
 /* Derivatives of a pair are by x_a - x_b, a small rotation of a, and one of b;
    all in the lab. */
@@ -109,5 +103,44 @@ typedef struct ellipsoid_exact_pair
 void ellipsoid_exact_pair_set(const ellipsoid_exact_body *a,
                               const ellipsoid_exact_body *b, int derivatives,
                               ellipsoid_exact_pair *pair);
+
+/* Derivatives of a force of exact contact are by those nine, by u_a - u_b in
+   the lab, and by omega of a and of b, each in its body. */
+#define ELLIPSOID_EXACT_FORCE_VARIABLES 18
+
+/* What pushes an ellipsoid off a wall, or off another one, at one place. */
+typedef struct ellipsoid_exact_push
+{
+    int bodies;                     /* 1 at a wall: no variables of b */
+    ellipsoid_exact_body *body[2];
+    const ellipsoid_state *state[2];
+    double push[3];                 /* [N] lab, elastic, on the first */
+    double point[2][3];             /* [m] lab, from each one's centre */
+
+    /* read where derivatives are asked for */
+    double push_slope[ELLIPSOID_EXACT_PAIR_VARIABLES][3];
+    double point_slope[2][ELLIPSOID_EXACT_PAIR_VARIABLES][3];
+} ellipsoid_exact_push;
+
+/* Sums over such places: the force on the first, torques about the centres. */
+typedef struct ellipsoid_exact_wrench
+{
+    double force[3], torque[2][3]; /* [N], [N m] lab */
+    double force_slope[ELLIPSOID_EXACT_FORCE_VARIABLES][3];
+    double torque_slope[2][ELLIPSOID_EXACT_FORCE_VARIABLES][3];
+} ellipsoid_exact_wrench;
+
+/* Adds a push, with friction and damping unless law is NULL (exactForce.c). */
+void ellipsoid_exact_add_push(const ellipsoid_exact_push *push,
+                              const ellipsoid_contact_law *law, int derivatives,
+                              ellipsoid_exact_wrench *sum);
+
+/* What body b feels: force [N, lab], torque [N m, body] and, unless `by` is
+   NULL, their derivatives by the states of the first body and the second. Of
+   the push, bodies and states are read. */
+void ellipsoid_exact_report(const ellipsoid_exact_push *push,
+                            const ellipsoid_exact_wrench *sum, int b,
+                            double force[3], double torque[3],
+                            ellipsoid_contact_jacobian *const by[2]);
 
 #endif

@@ -255,16 +255,11 @@ static scalar shadow(const contacts *all, const mix *m, int i, int j)
     return product(&c, &kept);
 }
 
-/* The sum of forces and torques about the centre, in the lab. */
-typedef struct wrench
-{
-    double force[3], torque[3];
-    double force_slope[VARIABLES][3], torque_slope[VARIABLES][3];
-} wrench;
-
-/* Adds the forces of one law along the normals (sign 1) or against. */
+/* Adds the forces of one law along the normals (sign 1) or against; with
+   friction and damping unless `rubs` is NULL. */
 static void add_mixed(const contacts *all, const mix *m, double sign,
-                      int derivatives, wrench *sum)
+                      const ellipsoid_contact_law *rubs, int derivatives,
+                      ellipsoid_exact_push *push, ellipsoid_exact_wrench *sum)
 {
     scalar size[MAX_CONTACTS];
 
@@ -273,41 +268,31 @@ static void add_mixed(const contacts *all, const mix *m, double sign,
     {
         const contact *c = &all->at[n];
         const double f = sign * size[n].value;
-        double turning[3];
 
-        /* at the point x - arm */
-        ellipsoid_cross(c->normal, c->arm, turning);
         for (int i = 0; i < 3; i++)
         {
-            sum->force[i] += f * c->normal[i];
-            sum->torque[i] += f * turning[i];
-        }
-        for (int k = 0; derivatives && k < VARIABLES; k++)
-        {
-            const double df = sign * size[n].gradient[k];
-            double dn[3], darm[3], of_normal[3], of_arm[3];
-
-            for (int i = 0; i < 3; i++)
+            push->push[i] = f * c->normal[i];
+            push->point[0][i] = -c->arm[i];
+            for (int k = 0; derivatives && k < VARIABLES; k++)
             {
-                dn[i] = c->normal_slope[i][k];
-                darm[i] = c->arm_slope[i][k];
-            }
-            ellipsoid_cross(dn, c->arm, of_normal);
-            ellipsoid_cross(c->normal, darm, of_arm);
-            for (int i = 0; i < 3; i++)
-            {
-                sum->force_slope[k][i] += df * c->normal[i] + f * dn[i];
-                sum->torque_slope[k][i] +=
-                    df * turning[i] + f * (of_normal[i] + of_arm[i]);
+                push->push_slope[k][i] = sign * size[n].gradient[k]
+                                           * c->normal[i]
+                                       + f * c->normal_slope[i][k];
+                push->point_slope[0][k][i] = -c->arm_slope[i][k];
             }
         }
+        ellipsoid_exact_add_push(push, rubs, derivatives, sum);
     }
 }
 
-static void combine(const ellipsoid_options *o,
-                    const ellipsoid_exact_body *body, contacts *all,
-                    int derivatives, wrench *sum)
+/* Friction and damping go with the push: adhesion pulls as it does. */
+static void combine(const ellipsoid_model *model, contacts *all,
+                    int derivatives, ellipsoid_exact_push *push,
+                    ellipsoid_exact_wrench *sum)
 {
+    const ellipsoid_options *o = &model->options;
+    const ellipsoid_exact_body *body = push->body[0];
+    const ellipsoid_contact_law rough = ellipsoid_law_of(model);
     const int adheres = o->adhesion > 0;
     const double stiffness =
         4.0 / 3 * o->contact_modulus * sqrt(o->bead_radius);
@@ -339,96 +324,32 @@ static void combine(const ellipsoid_options *o,
         }
         if (m.count > 0)
         {
-            add_mixed(all, &m, law == 0 ? 1 : -1, derivatives, sum);
+            add_mixed(all, &m, law == 0 ? 1 : -1,
+                      law == 0 && model->dissipative ? &rough : NULL,
+                      derivatives, push, sum);
         }
         m.count = all->count;
     }
 }
 
-void ellipsoid_exact_by_components(const double q[4], double slope[3][3],
-                                   double row[3][4])
-{
-    const double scale = 2 / (ellipsoid_dot(q, q) + q[3] * q[3]);
-
-    for (int n = 0; n < 4; n++)
-    {
-        double rotation[3], unit[3] = {0, 0, 0};
-
-        if (n < 3)
-        {
-            unit[n] = 1;
-        }
-        ellipsoid_cross(q, unit, rotation);
-        for (int i = 0; i < 3; i++)
-        {
-            rotation[i] += n < 3 ? q[3] * unit[i] : -q[i];
-        }
-        for (int i = 0; i < 3; i++)
-        {
-            row[i][n] = scale
-                      * (slope[0][i] * rotation[0] + slope[1][i] * rotation[1]
-                         + slope[2][i] * rotation[2]);
-        }
-    }
-}
-
-/* To the torque in the body frame, which turns under it. */
-static void report_wrench(ellipsoid_exact_body *body, const double q[4],
-                          wrench *sum, ellipsoid_contact *contact,
-                          ellipsoid_contact_jacobian *jacobian)
-{
-    double (*r)[3] = body->rotation, in_body[VARIABLES][3];
-    const double *t = sum->torque;
-
-    ellipsoid_copy(sum->force, contact->force);
-    ellipsoid_combination(r, t[0], t[1], t[2], contact->torque);
-    if (!jacobian)
-    {
-        return;
-    }
-    for (int k = 0; k < VARIABLES; k++)
-    {
-        double *d = sum->torque_slope[k];
-
-        if (k >= 3)
-        {
-            double unit[3] = {0, 0, 0}, turned[3];
-
-            unit[k - 3] = 1;
-            ellipsoid_cross(t, unit, turned);
-            ellipsoid_add(d, turned);
-        }
-        ellipsoid_combination(r, d[0], d[1], d[2], in_body[k]);
-    }
-    for (int k = 0; k < 3; k++)
-    {
-        for (int i = 0; i < 3; i++)
-        {
-            jacobian->force_x[i][k] = sum->force_slope[k][i];
-            jacobian->torque_x[i][k] = in_body[k][i];
-        }
-    }
-    ellipsoid_exact_by_components(q, sum->force_slope + 3, jacobian->force_q);
-    ellipsoid_exact_by_components(q, in_body + 3, jacobian->torque_q);
-}
-
 ellipsoid_status
 ellipsoid_exact_contact_add(const ellipsoid_model *model,
                             const ellipsoid_surroundings *surroundings,
-                            const double x[3], const double q[4],
+                            const ellipsoid_state *state,
                             ellipsoid_contact_cache *cache,
                             ellipsoid_contact *contact,
                             ellipsoid_contact_jacobian *jacobian)
 {
     const ellipsoid_options *o = &model->options;
+    ellipsoid_contact_jacobian *const by[2] = {jacobian, NULL};
     ellipsoid_exact_body body;
     contacts all;
     double moved;
 
-    ellipsoid_exact_place(o->semi_axes, x, q, &body);
+    ellipsoid_exact_place(o->semi_axes, state->x, state->q, &body);
 
     const ellipsoid_status status = ellipsoid_contact_collect(
-        cache, model, surroundings, x, body.q, contact->gap, &moved);
+        cache, model, surroundings, state->x, body.q, contact->gap, &moved);
 
     if (status == ELLIPSOID_OK && cache->clearance <= 0)
     {
@@ -441,10 +362,13 @@ ellipsoid_exact_contact_add(const ellipsoid_model *model,
         contact->touching_beads = all.count > 0;
         if (all.count > 0)
         {
-            wrench sum = {.force = {0, 0, 0}};
+            ellipsoid_exact_push push = {
+                .bodies = 1, .body = {&body}, .state = {state}};
+            ellipsoid_exact_wrench sum = {.force = {0, 0, 0}};
 
-            combine(o, &body, &all, jacobian != NULL, &sum);
-            report_wrench(&body, q, &sum, contact, jacobian);
+            combine(model, &all, jacobian != NULL, &push, &sum);
+            ellipsoid_exact_report(&push, &sum, 0, contact->force,
+                                   contact->torque, jacobian ? by : NULL);
         }
     }
     return status;

@@ -31,19 +31,6 @@ typedef struct ellipsoid_meeting
     ellipsoid_side *of_a, *of_b;
 } ellipsoid_meeting;
 
-/* Before the first contact of a pair is added. */
-static inline void ellipsoid_begin_side(const ellipsoid_meeting *m,
-                                        ellipsoid_side *s)
-{
-    memset(s->force, 0, sizeof(s->force));
-    memset(s->torque, 0, sizeof(s->torque));
-    if (m->derivatives)
-    {
-        memset(&s->own, 0, sizeof(s->own));
-        memset(&s->other, 0, sizeof(s->other));
-    }
-}
-
 /* The ellipsoids themselves against one another: gap, force, derivatives. */
 void ellipsoid_meet_exactly(ellipsoid_meeting *m);
 

@@ -166,8 +166,6 @@ static void check_contact(verdict *v, const ellipsoid_options *o)
 {
     const double *a = o->semi_axes;
     const double smallest = fmin(a[0], fmin(a[1], a[2]));
-    const int rubs =
-        o->adhesion == 0 && o->contact_shape == ELLIPSOID_CONTACT_BEADS;
 
     require(v, is_switch(o->contact), "contact", "0 or 1");
     if (!o->contact)
@@ -189,13 +187,11 @@ static void check_contact(verdict *v, const ellipsoid_options *o)
             "above 0, below the smallest semi-axis");
     require(v, within(o->contact_modulus, 1e-12, 1e15), "contact_modulus",
             "1e-12 to 1e15 Pa");
-    require(v, within(o->friction, 0, rubs ? 100 : 0), "friction",
-            "0 to 100; 0 with adhesion or contact_shape ELLIPSOID");
+    require(v, within(o->friction, 0, 100), "friction", "0 to 100");
     require(v, within(o->slip_speed, 1e-15, 1e3), "slip_speed",
             "1e-15 to 1e3 m/s");
-    require(v, within(o->contact_damping, 0, rubs ? 1e12 : 0),
-            "contact_damping",
-            "0 to 1e12 s/m; 0 with adhesion or contact_shape ELLIPSOID");
+    require(v, within(o->contact_damping, 0, 1e12), "contact_damping",
+            "0 to 1e12 s/m");
     require(v, within(o->adhesion, 0, 1e30), "adhesion", "0 to 1e30 N");
     require(v,
             o->adhesion == 0

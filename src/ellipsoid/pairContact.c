@@ -51,6 +51,18 @@ static void push_apart(const ellipsoid_meeting *m, const double line[3],
     }
 }
 
+/* Before the first contact of a pair is added. */
+static void begin_side(const ellipsoid_meeting *m, ellipsoid_side *s)
+{
+    memset(s->force, 0, sizeof(s->force));
+    memset(s->torque, 0, sizeof(s->torque));
+    if (m->derivatives)
+    {
+        memset(&s->own, 0, sizeof(s->own));
+        memset(&s->other, 0, sizeof(s->other));
+    }
+}
+
 static void add_touch(ellipsoid_meeting *m, int bead_a, int bead_b,
                       double force[3], double force_x[3][3])
 {
@@ -143,8 +155,8 @@ static inline void meet(ellipsoid_meeting *m, const double line[3], int bead_a,
         push_apart(m, between, distance, both - distance, force, force_x);
         if (m->touching++ == 0)
         {
-            ellipsoid_begin_side(m, m->of_a);
-            ellipsoid_begin_side(m, m->of_b);
+            begin_side(m, m->of_a);
+            begin_side(m, m->of_b);
         }
         if (m->rubs)
         {

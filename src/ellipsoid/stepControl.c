@@ -42,6 +42,22 @@ static double lasting_error(const ellipsoid_model *m,
 }
 
 /*
+    Where friction may hold a body, errors of its velocities are to be below the
+    slip speed, or each step would find it slipping another way.
+*/
+static double slip_error(const ellipsoid_problem *p,
+                         const ellipsoid_point *start, const double error[])
+{
+    const ellipsoid_options *o = &p->model->options;
+
+    return o->friction > 0 && ellipsoid_touches(&start->contact)
+             ? (ellipsoid_length(error + AT_U)
+                + p->length * ellipsoid_length(error + AT_OMEGA))
+                   / o->slip_speed
+             : 0;
+}
+
+/*
     The error in units of the tolerance. Errors of u and omega count by what
     they do to x and q: they last one relaxation time or one step, whichever is
     shorter. So the stiff components do not govern the step.
@@ -53,7 +69,7 @@ static double scaled_error(const ellipsoid_problem *p,
     const double per_h = 1 / h, *error = stages->error;
     const double ex = ellipsoid_length(error + AT_X) / p->length;
     const double eq = sqrt(ellipsoid_square4(error + AT_Q));
-    double eu = 0, ew = 0, sum;
+    double eu = 0, ew = 0, slip = 0, sum;
 
     if (p->inertial)
     {
@@ -64,12 +80,15 @@ static double scaled_error(const ellipsoid_problem *p,
         {
             eu += lasting_error(p->model, start, stages);
         }
+        slip = slip_error(p, start, error);
     }
-    sum = ex + eu + ew + eq;
+    sum = ex + eu + ew + eq + slip;
 
     /* fmax would drop a NaN */
     return isfinite(sum)
-             ? fmax(fmax(ex, eq), fmax(eu, ew)) / p->model->options.tolerance
+             ? fmax(fmax(fmax(ex, eq), fmax(eu, ew))
+                        / p->model->options.tolerance,
+                    slip)
              : sum;
 }
 

@@ -120,7 +120,7 @@ static scalar shadow(const contacts *all, const mix *m, int i, int j)
 
 /* Adds the forces of one law along the normals (sign 1) or against. */
 static void add_mixed(const contacts *all, const mix *m, double sign,
-                      double force[3], double force_x[3][3])
+                      int derivatives, ellipsoid_bead_feels *felt)
 {
     scalar size[MAX_CONTACTS];
 
@@ -131,18 +131,19 @@ static void add_mixed(const contacts *all, const mix *m, double sign,
         {
             const double n = sign * all->at[c].normal[i];
 
-            force[i] += size[c].value * n;
-            for (int j = 0; force_x && j < 3; j++)
+            felt->force[i] += size[c].value * n;
+            for (int j = 0; derivatives && j < 3; j++)
             {
-                force_x[i][j] += n * size[c].gradient[j]
-                               + sign * size[c].value * m->turn[c][i][j];
+                felt->force_x[i][j] += n * size[c].gradient[j]
+                                     + sign * size[c].value
+                                           * m->turn[c][i][j];
             }
         }
     }
 }
 
-static void combine(const ellipsoid_bead *bead, contacts *all, double force[3],
-                    double force_x[3][3])
+static void combine(const ellipsoid_bead *bead, contacts *all, int derivatives,
+                    ellipsoid_bead_feels *push, ellipsoid_bead_feels *pull)
 {
     const int adheres = bead->adhesion > 0;
     mix m; /* large: set where it is read */
@@ -170,7 +171,8 @@ static void combine(const ellipsoid_bead *bead, contacts *all, double force[3],
         }
         if (m.count > 0)
         {
-            add_mixed(all, &m, law == 0 ? 1 : -1, force, force_x);
+            add_mixed(all, &m, law == 0 ? 1 : -1, derivatives,
+                      law == 0 ? push : pull);
         }
         m.count = all->count;
     }
@@ -178,20 +180,17 @@ static void combine(const ellipsoid_bead *bead, contacts *all, double force[3],
 
 int ellipsoid_bead_touch(const ellipsoid_bead *bead,
                          const ellipsoid_candidates *from, double *gap,
-                         double force[3], double force_x[3][3],
-                         ellipsoid_contact *report)
+                         int derivatives, ellipsoid_bead_feels *push,
+                         ellipsoid_bead_feels *pull, ellipsoid_contact *report)
 {
     contacts all;
 
     find_contacts(bead, from, &all, gap, report);
     if (all.count > 0)
     {
-        memset(force, 0, 3 * sizeof *force);
-        if (force_x)
-        {
-            memset(force_x, 0, 3 * sizeof *force_x);
-        }
-        combine(bead, &all, force, force_x);
+        memset(push, 0, sizeof *push);
+        memset(pull, 0, sizeof *pull);
+        combine(bead, &all, derivatives, push, pull);
     }
     return all.count;
 }
@@ -203,13 +202,17 @@ int ellipsoid_bead_force(const double centre[3], double radius,
 {
     const ellipsoid_candidates from = {facets, index, count};
     ellipsoid_bead bead = {.radius = radius, .stiffness = stiffness};
+    ellipsoid_bead_feels push = {.force = {0, 0, 0}}, pull;
     double gap = 0;
+    int contacts;
 
     ellipsoid_copy(centre, bead.centre);
-    memset(force, 0, 3 * sizeof *force);
+    contacts = ellipsoid_bead_touch(&bead, &from, &gap, force_x != NULL, &push,
+                                    &pull, NULL);
+    ellipsoid_copy(push.force, force);
     if (force_x)
     {
-        memset(force_x, 0, 3 * sizeof *force_x);
+        memcpy(force_x, push.force_x, sizeof push.force_x);
     }
-    return ellipsoid_bead_touch(&bead, &from, &gap, force, force_x, NULL);
+    return contacts;
 }

@@ -12,11 +12,29 @@
 
 static const double um = 1e-6;
 
+/* Every test is run for both shapes. */
+static ellipsoid_contact_shape shape;
+
+static int by_beads(void **unused)
+{
+    (void)unused;
+    shape = ELLIPSOID_CONTACT_BEADS;
+    return 0;
+}
+
+static int by_itself(void **unused)
+{
+    (void)unused;
+    shape = ELLIPSOID_CONTACT_ELLIPSOID;
+    return 0;
+}
+
 static ellipsoid_options rough_cell(ellipsoid_motion motion)
 {
     ellipsoid_options o = ellipsoid_options_default();
 
     o.motion = motion;
+    o.contact_shape = shape;
     o.friction = 0.4;
     o.contact_damping = 50;
     return o;
@@ -225,10 +243,14 @@ static void test_brownian_layer(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nothing_is_left),
-        cmocka_unit_test(test_with_and_without_inertia),
-        cmocka_unit_test(test_two_cells),
-        cmocka_unit_test(test_brownian_layer),
+        cmocka_unit_test_setup(test_nothing_is_left, by_beads),
+        cmocka_unit_test_setup(test_with_and_without_inertia, by_beads),
+        cmocka_unit_test_setup(test_two_cells, by_beads),
+        cmocka_unit_test_setup(test_brownian_layer, by_beads),
+        cmocka_unit_test_setup(test_nothing_is_left, by_itself),
+        cmocka_unit_test_setup(test_with_and_without_inertia, by_itself),
+        cmocka_unit_test_setup(test_two_cells, by_itself),
+        cmocka_unit_test_setup(test_brownian_layer, by_itself),
     };
 
     return cmocka_run_group_tests_name("balance", tests, NULL, NULL);

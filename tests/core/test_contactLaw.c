@@ -233,7 +233,7 @@ static const double law_of_cell[CELLS][3] = {
     differences. Rounding: 1e-16 of forces of 10 over 1e-5; truncation where the
     differences of two widths agree to 1e-5: a third of that.
 */
-static void test_jacobian_of_a_group(void **unused)
+static void check_jacobian(ellipsoid_contact_shape shape, double adhesion)
 {
     static scene s;
     static double rows[CELLS][CELLS][6][SIZE];
@@ -244,7 +244,6 @@ static void test_jacobian_of_a_group(void **unused)
     uint64_t seed = 5;
     int checked = 0, mixed = 0;
 
-    (void)unused;
     wall_mesh_init(&mesh);
     wall_mesh_box(&mesh, low, high, 1, 0, 0);
     wall_mesh_finish(&mesh);
@@ -253,6 +252,9 @@ static void test_jacobian_of_a_group(void **unused)
         options[c] = ellipsoid_options_default();
         ellipsoid_set(options[c].semi_axes, 0.6, 1 - 0.1 * c, 0.5);
         options[c].bead_radius = 0.3 + 0.05 * c;
+        options[c].contact_shape = shape;
+        options[c].adhesion = adhesion;
+        options[c].adhesion_range = 0.1;
         options[c].density = options[c].fluid_density = 1;
         options[c].kinematic_viscosity = 0.1;
         options[c].contact_modulus = 3;
@@ -289,10 +291,25 @@ static void test_jacobian_of_a_group(void **unused)
             }
         }
     }
+    print_message("# %d checked, %d mixed\n", checked, mixed);
     assert_true(checked > 1000);
     assert_true(mixed > 20);
     free(s.memory);
     wall_mesh_free(&mesh);
+}
+
+static void test_jacobian_of_a_group(void **unused)
+{
+    (void)unused;
+    check_jacobian(ELLIPSOID_CONTACT_BEADS, 0);
+    check_jacobian(ELLIPSOID_CONTACT_BEADS, 0.1);
+}
+
+static void test_jacobian_of_exact_contact(void **unused)
+{
+    (void)unused;
+    check_jacobian(ELLIPSOID_CONTACT_ELLIPSOID, 0);
+    check_jacobian(ELLIPSOID_CONTACT_ELLIPSOID, 0.1);
 }
 
 int main(void)
@@ -301,6 +318,7 @@ int main(void)
         cmocka_unit_test(test_limits_of_the_law),
         cmocka_unit_test(test_the_law_takes_power),
         cmocka_unit_test(test_jacobian_of_a_group),
+        cmocka_unit_test(test_jacobian_of_exact_contact),
     };
 
     return cmocka_run_group_tests_name("contactLaw", tests, NULL, NULL);

@@ -10,15 +10,19 @@
 
 static const double um = 1e-6;
 static const double g = 9.81;
+static const ellipsoid_contact_shape shapes[] = {ELLIPSOID_CONTACT_BEADS,
+                                                 ELLIPSOID_CONTACT_ELLIPSOID};
 
 /* ------------------------------------------------------------- an incline */
 
 /* A ball of 1 cm on a floor, gravity turned by an angle; starts in balance. */
-static void on_incline(contact_run *r, double angle, double friction)
+static void on_incline(contact_run *r, ellipsoid_contact_shape shape,
+                       double angle, double friction)
 {
     ellipsoid_options o = contact_ball(0.01, 1000);
     double weight;
 
+    o.contact_shape = shape;
     o.contact_modulus = 1e8;
     o.friction = friction;
     o.slip_speed = 1e-6;
@@ -34,7 +38,8 @@ static void on_incline(contact_run *r, double angle, double friction)
 /*
     Rolling, with I = 2/5 m r^2: 5/7 g sin, as long as tan <= 7/2 mu; sliding
     above: g (sin - mu cos), and 5/2 mu g cos/r for the spin. Friction yields by
-    about a slip speed, 1e-6 m/s, of velocities of 0.07 m/s and more.
+    about a slip speed, 1e-6 m/s, of velocities of 0.07 m/s and more. The ball
+    is a bead, then a sphere.
 */
 static void test_ball_on_an_incline(void **unused)
 {
@@ -44,8 +49,9 @@ static void test_ball_on_an_incline(void **unused)
 
     (void)unused;
     contact_floor(&r, 10);
-    for (int n = 0; n < 6; n++)
+    for (int k = 0; k < 12; k++)
     {
+        const int n = k / 2;
         const double s = sin(angle[n]), c = cos(angle[n]);
         const int rolls = s / c < 3.5 * friction[n];
         const double faster =
@@ -54,10 +60,115 @@ static void test_ball_on_an_incline(void **unused)
             rolls ? faster / 0.01 : 2.5 * friction[n] * g * c / 0.01;
 
         assert_int_equal(rolls, n < 3);
-        on_incline(&r, angle[n], friction[n]);
+        on_incline(&r, shapes[k % 2], angle[n], friction[n]);
         assert_ok(contact_go(&r, 0.1));
         assert_relative(r.state.u[0], 0.1 * faster, 2e-5);
         assert_relative(r.state.omega[1], 0.1 * turning, 2e-5);
+    }
+    wall_mesh_free(&r.mesh);
+}
+
+/*
+    An ellipsoid with its long axis down the incline, in water. The contact's
+    force points to the centre where it stands: with t the tangent of its tilt
+    and alpha the angle between force and normal,
+        (b/a)^2 tan(alpha) t^2 - ((b/a)^2 - 1) t + tan(alpha) = 0.
+    Below the friction angle the force is opposite to the weight, and it creeps
+    at v_s s/sqrt(mu^2 c^2 - s^2). Above, alpha is the friction angle and
+        u (K_xx + mu K_zx) = W (s - mu c)/viscosity.
+    The slip speed, 1e-9 m/s, is 2e-5 of the speed of sinking: of the weight the
+    drag takes no more off the friction, and the speed changes by 9 times that.
+*/
+static void test_ellipsoid_on_an_incline(void **unused)
+{
+    static const double angle[] = {0.2, 0.5, 0.2, 0.5};
+    static const double friction[] = {0.3, 0.8, 0.1, 0.4};
+    static contact_run r;
+
+    (void)unused;
+    contact_floor(&r, 1000 * um);
+    memset(&r.flow, 0, sizeof(r.flow));
+    for (int n = 0; n < 8; n++)
+    {
+        const double s = sin(angle[n / 2]), c = cos(angle[n / 2]);
+        const double mu = friction[n / 2];
+        const int stays = s / c < mu;
+        const double leaning = stays ? s / c : mu;
+        const double tilt =
+            (15 - sqrt(225 - 64 * leaning * leaning)) / (32 * leaning);
+        const double along[3] = {1, 0, 0};
+        ellipsoid_options o = ellipsoid_options_default();
+        double weight, drag_x, drag_z, speed, axis[3];
+
+        o.contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;
+        o.motion = n % 2 ? ELLIPSOID_MOTION_INERTIALESS
+                         : ELLIPSOID_MOTION_INERTIAL;
+        o.friction = mu;
+        o.slip_speed = 1e-9;
+        ellipsoid_set(o.gravity, 1e4 * s, 0, -1e4 * c);
+        contact_start(&r, &o, 0);
+        ellipsoid_quaternion_from_axis(along, 0.4, r.state.q);
+        r.state.x[2] = 0.5 * um;
+        assert_ok(contact_go(&r, 5));
+
+        weight = ellipsoid_length(r.model.constant_force);
+        test_long_axis(&r.state, axis);
+        assert_relative(fabs(axis[2] / axis[0]), tilt, 1e-3);
+        drag_x = r.model.resistance[1] * axis[0] * axis[0]
+               + r.model.resistance[0] * axis[2] * axis[2];
+        drag_z = (r.model.resistance[1] - r.model.resistance[0]) * axis[0]
+               * axis[2];
+        speed = stays ? o.slip_speed * s / sqrt(mu * mu * c * c - s * s)
+                      : weight * (s - mu * c)
+                            / (r.model.viscosity * (drag_x + mu * drag_z));
+        assert_relative(r.state.u[0], speed, 1e-3);
+        assert_true(ellipsoid_length(r.state.omega) < 1e-3);
+        /* 100 to come to rest; 10^5 where errors are above the slip speed */
+        assert_true(r.statistics.accepted < 300);
+    }
+    wall_mesh_free(&r.mesh);
+}
+
+/*
+    A sphere that adhesion A holds at a floor, without weight, is pulled along
+    it by D, and a torque of the friction's size keeps it from rolling: friction
+    is of mu A, the push that bears the pull. It slips at
+    v_s D/sqrt((mu A)^2 - D^2), of which it creeps 4/7 and spins 3/7, as the
+    drags 6 pi r u and 8 pi r^2 (omega r) go; these take 1e-5 of D. Or it slides
+    at (D - mu A)/(6 pi mu r), up to the slip speed.
+*/
+static void test_adhesion_bears_friction(void **unused)
+{
+    static contact_run r;
+    const double adhesion = 1e-11;
+    const double resistance = 6 * test_pi * 997.5e-6 * 0.5 * um;
+
+    (void)unused;
+    contact_floor(&r, 1000 * um);
+    memset(&r.flow, 0, sizeof(r.flow));
+    for (int n = 0; n < 8; n++)
+    {
+        const double held = 0.4 * adhesion;
+        const double pull = n / 4 ? 1.5 * held : 0.8 * held;
+        ellipsoid_options o = contact_ball(0.5 * um, 1000);
+
+        o.contact_shape = shapes[n % 2];
+        o.motion = n / 2 % 2 ? ELLIPSOID_MOTION_INERTIALESS
+                             : ELLIPSOID_MOTION_INERTIAL;
+        o.fluid_density = 997.5;
+        o.buoyancy = 0;
+        o.friction = 0.4;
+        o.slip_speed = 1e-8;
+        o.adhesion = adhesion;
+        o.external_force[0] = pull;
+        o.external_torque[1] = -fmin(pull, held) * 0.5 * um;
+        contact_start(&r, &o, 0);
+        r.state.x[2] = 0.5 * um;
+        assert_ok(contact_go(&r, 1e-3));
+        assert_relative(r.state.u[0],
+                        n / 4 ? (pull - held) / resistance
+                              : 4.0 / 7 * o.slip_speed * 0.8 / 0.6,
+                        1e-3);
     }
     wall_mesh_free(&r.mesh);
 }
@@ -188,6 +299,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ball_on_an_incline),
+        cmocka_unit_test(test_ellipsoid_on_an_incline),
+        cmocka_unit_test(test_adhesion_bears_friction),
         cmocka_unit_test(test_held_cell_creeps_little),
         cmocka_unit_test(test_rest_costs_nothing),
         cmocka_unit_test(test_rolling_does_not_chatter),

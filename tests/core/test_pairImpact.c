@@ -147,13 +147,12 @@ static void part(encounter *e)
     forces keep it to rounding, see below. Energy likewise, without friction and
     damping; with either it falls.
 */
-static void test_what_is_kept(void **unused)
+static void check_what_is_kept(ellipsoid_contact_shape shape)
 {
     encounter e;
     uint64_t seed = 31;
     int met = 0;
 
-    (void)unused;
     for (int n = 0; n < 120; n++)
     {
         const int is_ball = n % 2, head_on = n % 3 == 0, rough = n % 4 > 1;
@@ -167,6 +166,7 @@ static void test_what_is_kept(void **unused)
             options[k].friction = rough ? 0.4 : 0;
             options[k].slip_speed = 1e-3;
             options[k].contact_damping = rough ? 0.3 * k : 0;
+            options[k].contact_shape = shape;
         }
         meet(&e, options, head_on, &seed);
         before = sum_of(&e);
@@ -197,6 +197,13 @@ static void test_what_is_kept(void **unused)
         }
     }
     assert_true(met > 80);
+}
+
+static void test_what_is_kept(void **unused)
+{
+    (void)unused;
+    check_what_is_kept(ELLIPSOID_CONTACT_BEADS);
+    check_what_is_kept(ELLIPSOID_CONTACT_ELLIPSOID);
 }
 
 /* Two balls as in test_bounce.c, with m, R and E* those of the pair (Johnson,
@@ -239,7 +246,7 @@ static void test_duration(void **unused)
 
 /* The forces on two cells that overlap and rub add up to nothing, and so do
    their moments: to rounding. */
-static void test_forces_balance(void **unused)
+static void check_forces_balance(ellipsoid_contact_shape shape)
 {
     void *memory = malloc(ellipsoid_group_size(2));
     ellipsoid_options options[2] = {partner(0, 1), partner(0, 0.8)};
@@ -250,7 +257,6 @@ static void test_forces_balance(void **unused)
     encounter e;
     uint64_t seed = 33;
 
-    (void)unused;
     ellipsoid_group_lay_out(2, memory, &group, &pairs);
     group.inertial = 1;
     for (int k = 0; k < 2; k++)
@@ -258,6 +264,7 @@ static void test_forces_balance(void **unused)
         options[k].friction = 0.4;
         options[k].slip_speed = 0.01;
         options[k].contact_damping = 0.3;
+        options[k].contact_shape = shape;
     }
     for (int n = 0; n < 300; n++)
     {
@@ -290,6 +297,13 @@ static void test_forces_balance(void **unused)
     }
     assert_true(touched > 200);
     free(memory);
+}
+
+static void test_forces_balance(void **unused)
+{
+    (void)unused;
+    check_forces_balance(ELLIPSOID_CONTACT_BEADS);
+    check_forces_balance(ELLIPSOID_CONTACT_ELLIPSOID);
 }
 
 int main(void)

@@ -296,9 +296,12 @@ static void test_random_ground(void **unused)
                     .stiffness = 1};
                 const ellipsoid_candidates from = {wall.facets, index,
                                                    list.count};
-                double force[3] = {0, 0, 0}, gap = 4;
+                ellipsoid_bead_feels push = {.force = {0, 0, 0}}, pull;
+                const double *force = push.force;
+                double gap = 4;
 
-                ellipsoid_bead_touch(&bead, &from, &gap, force, NULL, NULL);
+                ellipsoid_bead_touch(&bead, &from, &gap, 0, &push, &pull,
+                                     NULL);
 
                 /* settles first, then follows the ground */
                 const double rise = aim - gap;

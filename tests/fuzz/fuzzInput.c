@@ -105,11 +105,8 @@ static void read_contact_law(fuzz_input *in, ellipsoid_options *o)
 {
     const int which = fuzz_choice(in, 4);
 
-    const int rubs =
-        o->adhesion == 0 && o->contact_shape == ELLIPSOID_CONTACT_BEADS;
-
-    o->friction = rubs && which & 1 ? fuzz_scaled(in, 1e-3, 10) : 0;
-    o->contact_damping = rubs && which & 2 ? fuzz_scaled(in, 1e-3, 1e6) : 0;
+    o->friction = which & 1 ? fuzz_scaled(in, 1e-3, 10) : 0;
+    o->contact_damping = which & 2 ? fuzz_scaled(in, 1e-3, 1e6) : 0;
     o->slip_speed = fuzz_scaled(in, 1e-9, 1);
 }
 
