@@ -47,7 +47,7 @@ namespace Foam
 
 Foam::label Foam::captureMap::readSquares(const dictionary& dict)
 {
-    return checkedWhole(dict, "squares", 1, 1000, 32);
+    return checkedWhole(dict, "squares", 1, 1000, 64);
 }
 
 
@@ -231,29 +231,45 @@ Foam::DynamicList<Foam::label> Foam::captureMap::on(const square& one) const
 }
 
 
-bool Foam::captureMap::isMixed(const square& one) const
+Foam::labelHashSet Foam::captureMap::kindsOn(const square& one) const
 {
-    const DynamicList<label> ids(on(one));
+    labelHashSet found;
+    for (const label id : on(one))
+    {
+        found.insert(kindOf(id));
+    }
 
-    return std::any_of
-    (
-        ids.begin(),
-        ids.end(),
-        [&](const label id) { return kindOf(id) != kindOf(ids[0]); }
-    );
+    return found;
 }
 
 
-bool Foam::captureMap::mayHide(const square& one) const
+bool Foam::captureMap::isDue(const square& one) const
 {
+    labelHashSet found(kindsOn(one));
+
+    if (found.size() > 1 && one.level < seekLevels_)
+    {
+        return true;
+    }
+
+    // Little flows in between cells that have room and cells that have none
+    const bool atWall = found.erase(noRoom_);
+
+    if (found.size() > 1 || (atWall && found.size() && *found.begin() >= 0))
+    {
+        return true;
+    }
+
     const DynamicList<label> ids(on(one));
 
-    return std::any_of
-    (
-        ids.begin(),
-        ids.end(),
-        [&](const label id) { return starts_[id].end.touched >= 0; }
-    );
+    return
+        one.level < seekLevels_
+     && std::any_of
+        (
+            ids.begin(),
+            ids.end(),
+            [&](const label id) { return starts_[id].end.touched >= 0; }
+        );
 }
 
 
@@ -265,20 +281,14 @@ bool Foam::captureMap::divide()
     {
         forAll(squares_, i)
         {
-            const square& one = squares_[i];
-
-            if
-            (
-                one.level == level
-             && (isMixed(one) || (level < seekLevels_ && mayHide(one)))
-            )
+            if (squares_[i].level == level && isDue(squares_[i]))
             {
                 due.append(i);
             }
         }
     }
 
-    boolList isDivided(squares_.size(), false);
+    labelHashSet divided;
     for (const label i : due)
     {
         if (nFollowed_ + 5 > mostCells_)
@@ -289,7 +299,7 @@ bool Foam::captureMap::divide()
 
         const square one = squares_[i];
         const label half = sideOf(one)/2;
-        isDivided[i] = true;
+        divided.insert(i);
 
         for (label k = 0; k < 9; ++k)
         {
@@ -311,7 +321,7 @@ bool Foam::captureMap::divide()
     {
         square one = squares_[i];
 
-        if (!isDivided[i])
+        if (!divided.found(i))
         {
             squares.append(one);
             continue;
@@ -328,7 +338,7 @@ bool Foam::captureMap::divide()
     }
     squares_.transfer(squares);
 
-    return isDivided.found(true);
+    return divided.size();
 }
 
 

@@ -168,6 +168,7 @@ void Foam::captureMap::writeSquares(Ostream& os) const
     forAll(squares_, i)
     {
         const square& one = squares_[i];
+        const labelHashSet found(kindsOn(one));
         const inletPlane::window w(windowOf(one));
         const point x(plane_.place(0.5*(w.s0 + w.s1), 0.5*(w.t0 + w.t1)));
 
@@ -178,7 +179,7 @@ void Foam::captureMap::writeSquares(Ostream& os) const
         }
         os  << ',' << w.s1 - w.s0 << ',' << w.t1 - w.t0
             << ',' << shares_[i].area << ',' << shares_[i].inflow << ','
-            << (isMixed(one) ? word("mixed") : kindName(kindOf(on(one)[0])))
+            << (found.size() > 1 ? word("mixed") : kindName(*found.begin()))
                .c_str()
             << nl;
     }

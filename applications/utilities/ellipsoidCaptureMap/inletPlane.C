@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "inletPlane.H"
+#include "masterFirst.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -129,20 +130,26 @@ Foam::inletPlane::inletPlane
     width_ = max(s) - min(s);
     height_ = max(t) - min(t);
 
-    if (max(depth) - min(depth) > 1e-3*min(width_, height_))
     {
-        FatalIOErrorInFunction(dict)
-            << "patch " << dict.get<word>("patch") << " is not flat: its points"
-            << " are up to " << max(depth) - min(depth)
-            << " m apart along its normal" << nl
-            << "    allowed: a part in 1000 of its shorter side"
-            << exit(FatalIOError);
+        const masterFirst once;
+
+        // Snapped meshes are not quite flat
+        if (max(depth) - min(depth) > 0.01*min(width_, height_))
+        {
+            FatalIOErrorInFunction(dict)
+                << "patch " << dict.get<word>("patch") << " is not flat: its"
+                << " points are up to "
+                << word::printf("%.3g", max(depth) - min(depth)).c_str()
+                << " m apart along its normal" << nl
+                << "    allowed: 0.01 of its shorter side, "
+                << word::printf("%.3g", min(width_, height_)).c_str() << " m"
+                << exit(FatalIOError);
+        }
     }
 
-    const scalar inside =
-        1e-3*(min(patch.behind() & inward_) - average(depth));
+    const scalar layer = average(patch.behind() & inward_) - average(depth);
     origin_ =
-        min(s)*first_ + min(t)*second_ + (average(depth) + inside)*inward_;
+        min(s)*first_ + min(t)*second_ + (max(depth) + 1e-3*layer)*inward_;
 
     triangles_.setSize(corners.size()/3);
     forAll(triangles_, i)
