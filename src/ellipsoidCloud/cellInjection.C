@@ -9,7 +9,6 @@ License
 \*---------------------------------------------------------------------------*/
 #include "cellInjection.H"
 #include "cellSurroundings.H"
-#include "unitConversion.H"
 #include "StringStream.H"
 #include "polyBoundaryMesh.H"
 
@@ -26,74 +25,55 @@ namespace Foam
     enum randomStream { rsTime, rsPose };
 }
 
-const Foam::Enum<Foam::cellInjection::orientationType>
-Foam::cellInjection::orientationNames_
-({
-    { orientationType::otRandom, "random" },
-    { orientationType::otAligned, "aligned" },
-    { orientationType::otQuaternion, "quaternion" },
-    { orientationType::otEuler, "euler" }
-});
-
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::cellInjection::readOrientation()
+Foam::cellState Foam::cellInjection::newCell::state
+(
+    const frozenFlow& flow
+) const
 {
-    switch (orientation_)
-    {
-        case otRandom:
-        {
-            break;
-        }
-        case otAligned:
-        {
-            const vector axis(dict_.get<vector>("axis"));
+    cellState state = cellState();
+    std::copy_n(x, 3, state.body.x);
+    std::copy_n(q, 4, state.body.q);
+    state.time = time;
+    state.planned = time;
+    state.id = id;
+    state.tet = at.tet;
+    state.fate = cellState::waiting;
+    state.patch = -1;
 
-            if (!(mag(axis) > VSMALL))
-            {
-                FatalIOErrorInFunction(dict_)
-                    << "axis " << axis << " has no direction"
-                    << exit(FatalIOError);
-            }
+    ellipsoid_flow_sample sample;
+    frozenFlow::probe there(at);
+    flow.sample(x, there, false, sample);
+    std::copy_n(sample.velocity, 3, state.body.u);
 
-            ellipsoid_quaternion_from_axis((axis/mag(axis)).v_, 0, q_);
-            break;
-        }
-        case otQuaternion:
-        {
-            setQuaternion(dict_.get<FixedList<scalar, 4>>("quaternion"), q_);
-            break;
-        }
-        case otEuler:
-        {
-            const vector degrees(dict_.get<vector>("eulerAngles"));
-            const vector radians(degrees*degToRad());
-
-            ellipsoid_quaternion_from_euler(radians.v_, q_);
-            break;
-        }
-    }
+    return state;
 }
 
 
-bool Foam::cellInjection::overlaps(const newCell& cell) const
+bool Foam::cellInjection::newCell::overlaps
+(
+    const ellipsoid_model& model,
+    const frozenFlow& flow,
+    const wallFacets& walls
+) const
 {
-    cellSurroundings here(flow_, walls_, cell.at);
+    cellSurroundings here(flow, walls, at);
     const ellipsoid_surroundings around(here.core());
 
     int cuts = 0;
-    ellipsoid_overlaps_walls(&model_, &around, cell.x, cell.q, &cuts);
+    ellipsoid_overlaps_walls(&model, &around, x, q, &cuts);
 
-    if (cuts || !model_.options.contact)
+    if (cuts || !model.options.contact)
     {
         return cuts;
     }
 
     // Beads may stand out of the ellipsoid
-    ellipsoid_state state = {};
-    std::copy_n(cell.x, 3, state.x);
-    std::copy_n(cell.q, 4, state.q);
+    ellipsoid_state pose = {};
+    std::copy_n(x, 3, pose.x);
+    std::copy_n(q, 4, pose.q);
 
     ellipsoid_contact_cache cache;
     ellipsoid_contact contact;
@@ -102,7 +82,7 @@ bool Foam::cellInjection::overlaps(const newCell& cell) const
     return
         ellipsoid_contact_evaluate
         (
-            &model_, &around, &state, &cache, &contact, nullptr
+            &model, &around, &pose, &cache, &contact, nullptr
         )
      || contact.touching_beads;
 }
@@ -124,17 +104,10 @@ void Foam::cellInjection::draw(newCell& cell) const
         const bool inside = position(cell.id - firstId_, uniform, x, cell.at);
         std::copy_n(x.v_, 3, cell.x);
 
-        if (orientation_ == otRandom)
-        {
-            ellipsoid_quaternion_from_uniform(uniform + 3, cell.q);
-        }
-        else
-        {
-            std::copy_n(q_, 4, cell.q);
-        }
+        orientation_.set(uniform + 3, cell.q);
         orientation(cell.id - firstId_, cell.q);
 
-        if (inside && !overlaps(cell))
+        if (inside && !cell.overlaps(model_, flow_, walls_))
         {
             return;
         }
@@ -153,32 +126,6 @@ void Foam::cellInjection::draw(newCell& cell) const
 
 
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
-
-void Foam::cellInjection::setQuaternion
-(
-    const FixedList<scalar, 4>& given,
-    scalar q[4]
-) const
-{
-    scalar sum = 0;
-    for (const scalar component : given)
-    {
-        sum += sqr(component);
-    }
-
-    if (!(mag(sqrt(sum) - 1) < 1e-3))
-    {
-        FatalIOErrorInFunction(dict_)
-            << "quaternion " << given << " is not of length 1"
-            << exit(FatalIOError);
-    }
-
-    for (int d = 0; d < 4; ++d)
-    {
-        q[d] = given[d]/sqrt(sum);
-    }
-}
-
 
 void Foam::cellInjection::setTimes(const label number)
 {
@@ -269,8 +216,7 @@ Foam::cellInjection::cellInjection
     const label firstId
 )
 :
-    orientation_(orientationNames_.getOrDefault("orientation", dict, otRandom)),
-    q_{0, 0, 0, 1},
+    orientation_(dict),
     firstId_(firstId),
     times_(),
     dict_(dict),
@@ -278,9 +224,7 @@ Foam::cellInjection::cellInjection
     walls_(from.walls),
     model_(from.model),
     seed_(from.seed)
-{
-    readOrientation();
-}
+{}
 
 
 void Foam::cellInjection::checkEntries(const dictionary& dict)
@@ -371,6 +315,20 @@ void Foam::cellInjection::check() const
             draw(cell);
         }
     }
+}
+
+
+void Foam::cellInjection::drawOrientation
+(
+    const cellOrientation& orientation,
+    const label seed,
+    const label id,
+    scalar q[4]
+)
+{
+    scalar uniform[6];
+    ellipsoid_random_uniform(seed, id, rsPose, 0, 6, uniform);
+    orientation.set(uniform + 3, q);
 }
 
 

@@ -62,22 +62,7 @@ void Foam::ellipsoidCloud::addNew(const scalar start, const scalar end)
 
     for (const cellInjection::newCell& cell : newCells)
     {
-        cellState state = cellState();
-        std::copy_n(cell.x, 3, state.body.x);
-        std::copy_n(cell.q, 4, state.body.q);
-        state.time = cell.time;
-        state.planned = cell.time;
-        state.id = cell.id;
-        state.tet = cell.at.tet;
-        state.fate = cellState::waiting;
-        state.patch = -1;
-
-        ellipsoid_flow_sample sample;
-        frozenFlow::probe at(cell.at);
-        flow_->sample(cell.x, at, false, sample);
-        std::copy_n(sample.velocity, 3, state.body.u);
-
-        cells_.append(state);
+        cells_.append(cell.state(*flow_));
     }
 
     if (newCells.size())
@@ -191,7 +176,7 @@ Foam::ellipsoidCloud::ellipsoidCloud
     earlier_(mesh.time()),
     whole_(new undecomposedFlow(mesh)),
     field_(new electricField(properties_.section("forces"), mesh)),
-    model_(),
+    model_(properties_.model()),
     flow_(),
     walls_(),
     cellRank_(whole_->cellRank()),
@@ -207,15 +192,6 @@ Foam::ellipsoidCloud::ellipsoidCloud
     trackingTime_(0),
     reportTime_(0)
 {
-    const ellipsoid_options& options = properties_.options();
-
-    if (ellipsoid_model_init(&model_, &options) != ELLIPSOID_OK)
-    {
-        FatalIOErrorInFunction(properties_)
-            << "the options are not those that were checked"
-            << abort(FatalIOError);
-    }
-
     {
         const masterFirst once;
 
@@ -244,8 +220,6 @@ void Foam::ellipsoidCloud::setFlow
     const surfaceScalarField& phi
 )
 {
-    const ellipsoid_options& options = properties_.options();
-
     whole_->gather(U, p, phi);
 
     flow_.reset
@@ -253,7 +227,7 @@ void Foam::ellipsoidCloud::setFlow
         new frozenFlow
         (
             *whole_,
-            options.fluid_density,
+            fluidDensity(),
             properties_.scheme(),
             field_->onWhole(*whole_)
         )
@@ -263,18 +237,11 @@ void Foam::ellipsoidCloud::setFlow
         new wallFacets
         (
             Pstream::master() ? &whole_->mesh() : nullptr,
-            *std::max_element(options.semi_axes, options.semi_axes + 3)
+            properties_.longestSemiAxis()
         )
     );
 
-    scalar speed = 0;
-    if (Pstream::master())
-    {
-        const undecomposedFlow::serialScope serial;
-        speed = throughFlow(whole_->U(), whole_->phi()).speed();
-    }
-    Pstream::scatter(speed);
-    statistics_->setInletSpeed(speed);
+    statistics_->setInletSpeed(throughFlow::speedOf(*whole_));
 
     checkPlaces();
     makeInjections();

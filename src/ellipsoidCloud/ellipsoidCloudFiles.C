@@ -42,7 +42,6 @@ void Foam::ellipsoidCloud::makeTables()
     (
         mesh_.time().globalPath()/"postProcessing"/"ellipsoidCloud"/firstTime_
     );
-    const ellipsoid_options& options = properties_.options();
 
     statistics_.reset
     (
@@ -63,7 +62,7 @@ void Foam::ellipsoidCloud::makeTables()
         (
             cellTracks::setting(properties_.section("tracks")),
             mesh_.boundaryMesh().names(),
-            *std::max_element(options.semi_axes, options.semi_axes + 3),
+            properties_.longestSemiAxis(),
             folder,
             tables.subOrEmptyDict("tracks")
         )

@@ -299,6 +299,27 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+ellipsoid_model Foam::ellipsoidProperties::model() const
+{
+    ellipsoid_model made = ellipsoid_model();
+
+    if (ellipsoid_model_init(&made, &options_) != ELLIPSOID_OK)
+    {
+        FatalIOErrorInFunction(*this)
+            << "the options are not those that were checked"
+            << abort(FatalIOError);
+    }
+
+    return made;
+}
+
+
+Foam::scalar Foam::ellipsoidProperties::longestSemiAxis() const
+{
+    return *std::max_element(options_.semi_axes, options_.semi_axes + 3);
+}
+
+
 void Foam::ellipsoidProperties::checkKeywords
 (
     const dictionary& dict,

@@ -9,7 +9,6 @@ License
 \*---------------------------------------------------------------------------*/
 #include "patchInjection.H"
 #include "addToRunTimeSelectionTable.H"
-#include "triPointRef.H"
 
 #include <algorithm>
 
@@ -19,51 +18,6 @@ namespace Foam
 {
     defineTypeNameAndDebug(patchInjection, 0);
     addToRunTimeSelectionTable(cellInjection, patchInjection, dictionary);
-}
-
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-void Foam::patchInjection::triangulate
-(
-    const undecomposedFlow& whole,
-    const word& patch
-)
-{
-    const fvMesh& mesh = whole.mesh();
-    const label patchi = mesh.boundaryMesh().findPatchID(patch);
-    const polyPatch& pp = mesh.boundaryMesh()[patchi];
-    const fvPatchVectorField& U = whole.U().boundaryField()[patchi];
-
-    DynamicList<point> corners;
-    DynamicList<point> behind;
-    DynamicList<scalar> inflow;
-    scalar sum = 0;
-
-    forAll(pp, i)
-    {
-        const face& f = pp[i];
-
-        for (label trii = 1; trii < f.size() - 1; ++trii)
-        {
-            const point& a = mesh.points()[f[0]];
-            const point& b = mesh.points()[f[trii]];
-            const point& c = mesh.points()[f[trii + 1]];
-
-            // Outward normal; what flows out carries no cell in
-            sum += max(-(U[i] & triPointRef(a, b, c).areaNormal()), scalar(0));
-
-            corners.append(a);
-            corners.append(b);
-            corners.append(c);
-            behind.append(mesh.cellCentres()[pp.faceCells()[i]]);
-            inflow.append(sum);
-        }
-    }
-
-    corners_.transfer(corners);
-    behind_.transfer(behind);
-    inflow_.transfer(inflow);
 }
 
 
@@ -77,16 +31,17 @@ bool Foam::patchInjection::position
     frozenFlow::probe& at
 ) const
 {
+    const scalarList& inflow = inflow_.upTo();
     const auto found = std::upper_bound
     (
-        inflow_.begin(), inflow_.end(), uniform[0]*inflow_.last()
+        inflow.begin(), inflow.end(), uniform[0]*inflow.last()
     );
     const label trii = min
     (
-        label(found - inflow_.begin()), inflow_.size() - 1
+        label(found - inflow.begin()), inflow.size() - 1
     );
 
-    const point* corner = &corners_[3*trii];
+    const point* corner = &inflow_.corners()[3*trii];
     const scalar s = sqrt(uniform[1]);
 
     x =
@@ -95,7 +50,7 @@ bool Foam::patchInjection::position
       + s*uniform[2]*corner[2];
 
     // Just inside, so that the search finds it
-    x += 1e-3*(behind_[trii] - x);
+    x += 1e-3*(inflow_.behind()[trii] - x);
 
     return flow_.find(x, at);
 }
@@ -110,26 +65,10 @@ Foam::patchInjection::patchInjection
     const label firstId
 )
 :
-    cellInjection(dict, from, firstId)
+    cellInjection(dict, from, firstId),
+    inflow_(dict, from.whole)
 {
-    const word patch(dict.get<word>("patch"));
-
-    if (Pstream::master())
-    {
-        triangulate(from.whole, patch);
-    }
-    Pstream::scatter(corners_);
-    Pstream::scatter(behind_);
-    Pstream::scatter(inflow_);
-
-    if (inflow_.empty() || inflow_.last() <= 0)
-    {
-        FatalIOErrorInFunction(dict_)
-            << "nothing flows in through patch " << patch
-            << exit(FatalIOError);
-    }
-
-    setTimes(readNumber(inflow_.last()));
+    setTimes(readNumber(inflow_.upTo().last()));
 }
 
 

@@ -42,7 +42,7 @@ bool Foam::positionsInjection::orientation(const label i, scalar q[4]) const
         return false;
     }
 
-    setQuaternion(orientations_[i], q);
+    cellOrientation::setQuaternion(dict_, orientations_[i], q);
 
     return true;
 }

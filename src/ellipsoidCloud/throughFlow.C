@@ -8,7 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "throughFlow.H"
-#include "fvMesh.H"
+#include "undecomposedFlow.H"
 #include "wallPolyPatch.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -75,6 +75,20 @@ Foam::throughFlow::throughFlow
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::scalar Foam::throughFlow::speedOf(const undecomposedFlow& whole)
+{
+    scalar speed = 0;
+    if (Pstream::master())
+    {
+        const undecomposedFlow::serialScope serial;
+        speed = throughFlow(whole.U(), whole.phi()).speed();
+    }
+    Pstream::scatter(speed);
+
+    return speed;
+}
+
 
 Foam::labelList Foam::throughFlow::openPatches(const polyBoundaryMesh& patches)
 {

@@ -60,9 +60,9 @@ set_decomposition()     # N METHOD '(NX NY NZ)'
     } > system/decomposeParDict
 }
 
-# Runs the solver in the present folder, decomposed if on more than one rank; its
-# output goes to log, and the end of that is shown. A rank that waits for ever shall
-# not hold the test: $run_limit [s], 600 if not set.
+# Runs the solver, or $program, in the present folder, decomposed if on more than one
+# rank; its output goes to log, and the end of that is shown. A rank that waits for
+# ever shall not hold the test: $run_limit [s], 600 if not set.
 run_cells()     # RANKS [OPTION...]
 {
     local status n=$1
@@ -72,7 +72,7 @@ run_cells()     # RANKS [OPTION...]
         run+=(mpirun --oversubscribe -np "$n")
         set -- -parallel "$@"
     fi
-    "${run[@]}" ellipsoidTrapFoam "$@" > log 2>&1
+    "${run[@]}" "${program:-ellipsoidTrapFoam}" "$@" > log 2>&1
     status=$?
     # For whoever reads why a test failed
     sed '1,/^Create time/d' log | tail -n 40
@@ -142,7 +142,7 @@ def table(name):
         rows = list(csv.DictReader(file))
     for row in rows:
         for key, value in row.items():
-            if key not in ("event", "fate", "patch", "sieve", "firstSieve") and " " not in value:
+            if key not in ("event", "fate", "patch", "sieve", "firstSieve", "touched") and " " not in value:
                 row[key] = float(value) if value else None
     return rows
 

@@ -3,11 +3,12 @@
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
 """Make the pictures of a case, in its folder pictures, and the report of them, report.html.
 
-usage: makePictures CASE                          all but figure4, and the report
+usage: makePictures CASE                          all but captureMap and figure4, and the report
        makePictures CASE PICTURE [OPTION...]      one; --help tells its options
        makePictures CASE report                   the report of the pictures that are there
 
 PICTURE is one of
+    captureMap      where a cell must enter to be caught, by ellipsoidCaptureMap
     deflection      an electric potential, tracks of all cells
     figure1         cells held by every sieve against time
     figure2         orientation, velocity and spin of one cell
@@ -38,8 +39,8 @@ PICTURES = (
     "movie", "figure3", "speedAndTracks", "figure2", "trappedCells", "figure5", "nearWall",
     "figure1", "deflection",
 )
-# Compares designs, which takes runs of its own
-BY_ITSELF = ("figure4",)
+# What takes runs of its own
+BY_ITSELF = ("figure4", "captureMap")
 MOST_AT_ONCE = 4   # each reads the case for itself, mesh and tracks
 
 

@@ -30,6 +30,7 @@ CHAPTERS = {
     "Catches": (
         ("figure1", "Cells caught against time (Figure 1 of the paper)"),
         ("trappedCells", "The cells at rest"),
+        ("captureMap", "Where a cell must enter to be caught"),
     ),
     "Motion": (
         ("figure2", "One cell on its way (Figure 2 of the paper)"),

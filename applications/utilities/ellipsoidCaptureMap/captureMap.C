@@ -1,0 +1,448 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "captureMap.H"
+#include "masterFirst.H"
+
+#include <algorithm>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- A whole number with a default, from a least one to a largest
+    static label checkedWhole
+    (
+        const dictionary& dict,
+        const word& keyword,
+        const label least,
+        const label largest,
+        const label deflt
+    )
+    {
+        const label value = dict.getOrDefault(keyword, deflt);
+
+        if (value < least || value > largest)
+        {
+            ellipsoidProperties::refuse
+            (
+                dict, keyword, keyword,
+                "whole numbers from " + Foam::name(least) + " to "
+              + Foam::name(largest)
+            );
+        }
+
+        return value;
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::label Foam::captureMap::readSquares(const dictionary& dict)
+{
+    return checkedWhole(dict, "squares", 1, 1000, 64);
+}
+
+
+Foam::label Foam::captureMap::readLevels(const dictionary& dict)
+{
+    return checkedWhole(dict, "levels", 0, 10, 3);
+}
+
+
+Foam::label Foam::captureMap::readMostCells(const dictionary& dict)
+{
+    return checkedWhole(dict, "mostCells", 1, 10000000, 20000);
+}
+
+
+Foam::List<Foam::captureMap::pose> Foam::captureMap::readPoses
+(
+    const dictionary& dict,
+    const label seed
+)
+{
+    const dictionary& given = dict.subDict("orientations");
+    DynamicList<pose> poses;
+    label nDrawn = 0;
+
+    for (const entry& e : given)
+    {
+        if (!e.isDict())
+        {
+            FatalIOErrorInFunction(given)
+                << e.keyword() << " is not a dictionary of an orientation"
+                << exit(FatalIOError);
+        }
+
+        const dictionary& one = e.dict();
+        const cellOrientation orientation(one);
+
+        ellipsoidProperties::checkKeywords
+        (
+            one,
+            orientation.random()
+          ? wordList({"orientation", "number"})
+          : wordList({"orientation", "axis", "quaternion", "eulerAngles"})
+        );
+
+        const label n = checkedWhole(one, "number", 1, 1000, 1);
+
+        for (label i = 0; i < n; ++i)
+        {
+            pose p;
+            p.name = word(e.keyword());
+            if (n > 1)
+            {
+                p.name += Foam::name(i + 1);
+            }
+            cellInjection::drawOrientation(orientation, seed, nDrawn, p.q);
+            nDrawn += orientation.random();
+            poses.append(p);
+        }
+    }
+
+    if (poses.empty())
+    {
+        FatalIOErrorInFunction(given)
+            << "no orientation is given" << exit(FatalIOError);
+    }
+
+    return List<pose>(std::move(poses));
+}
+
+
+Foam::inletPlane::window Foam::captureMap::windowOf(const square& one) const
+{
+    const scalar ds = plane_.width()/(nPlaces(0) - 1);
+    const scalar dt = plane_.height()/(nPlaces(1) - 1);
+    const label n = sideOf(one);
+
+    return inletPlane::window
+    {
+        one.at.i*ds, (one.at.i + n)*ds, one.at.j*dt, (one.at.j + n)*dt
+    };
+}
+
+
+void Foam::captureMap::begin(const place& at, const label level)
+{
+    const label id = starts_.size();
+
+    if (!startAt_[at.pose].insert(key(at), id))
+    {
+        return;
+    }
+
+    const point x
+    (
+        plane_.place
+        (
+            at.i*(plane_.width()/(nPlaces(0) - 1)),
+            at.j*(plane_.height()/(nPlaces(1) - 1))
+        )
+    );
+
+    cellInjection::newCell cell;
+    cell.id = id;
+    cell.time = 0;
+    std::copy_n(x.v_, 3, cell.x);
+    std::copy_n(poses_[at.pose].q, 4, cell.q);
+
+    if (cells_.fits(cell))
+    {
+        waiting_.append(cell);
+        ++nFollowed_;
+    }
+
+    starts_.append(start{at, level, x, {cellState::waiting, -1, -1}});
+}
+
+
+void Foam::captureMap::followWaiting()
+{
+    const List<loneCells::ending> endings
+    (
+        cells_.follow(waiting_, deltaT_, endTime_)
+    );
+
+    forAll(waiting_, i)
+    {
+        starts_[waiting_[i].id].end = endings[i];
+    }
+    waiting_.clear();
+
+    Info<< "captureMap: " << nFollowed_ << " cells followed, "
+        << squares_.size() << " squares" << endl;
+}
+
+
+void Foam::captureMap::addEdge
+(
+    const place& a,
+    const place& b,
+    DynamicList<label>& ids
+) const
+{
+    const place middle{a.pose, (a.i + b.i)/2, (a.j + b.j)/2};
+
+    // Neighbouring places have no middle
+    if (mag(a.i - b.i) + mag(a.j - b.j) < 2 || startOf(middle) < 0)
+    {
+        return;
+    }
+
+    ids.append(startOf(middle));
+    addEdge(a, middle, ids);
+    addEdge(middle, b, ids);
+}
+
+
+Foam::DynamicList<Foam::label> Foam::captureMap::on(const square& one) const
+{
+    const label n = sideOf(one);
+    const place& at = one.at;
+    const FixedList<place, 4> corners
+    ({
+        at,
+        place{at.pose, at.i + n, at.j},
+        place{at.pose, at.i + n, at.j + n},
+        place{at.pose, at.i, at.j + n}
+    });
+
+    DynamicList<label> ids;
+    for (const place& corner : corners)
+    {
+        ids.append(startOf(corner));
+    }
+    for (label k = 0; k < 4; ++k)
+    {
+        addEdge(corners[k], corners[(k + 1) % 4], ids);
+    }
+
+    return ids;
+}
+
+
+Foam::labelHashSet Foam::captureMap::kindsOn(const square& one) const
+{
+    labelHashSet found;
+    for (const label id : on(one))
+    {
+        found.insert(kindOf(id));
+    }
+
+    return found;
+}
+
+
+bool Foam::captureMap::isDue(const square& one) const
+{
+    labelHashSet found(kindsOn(one));
+
+    if (found.size() > 1 && one.level < seekLevels_)
+    {
+        return true;
+    }
+
+    // Little flows in between cells that have room and cells that have none
+    const bool atWall = found.erase(noRoom_);
+
+    if (found.size() > 1 || (atWall && found.size() && *found.begin() >= 0))
+    {
+        return true;
+    }
+
+    const DynamicList<label> ids(on(one));
+
+    return
+        one.level < seekLevels_
+     && std::any_of
+        (
+            ids.begin(),
+            ids.end(),
+            [&](const label id) { return starts_[id].end.touched >= 0; }
+        );
+}
+
+
+bool Foam::captureMap::divide()
+{
+    // The largest first
+    DynamicList<label> due;
+    for (label level = 0; level < levels_; ++level)
+    {
+        forAll(squares_, i)
+        {
+            if (squares_[i].level == level && isDue(squares_[i]))
+            {
+                due.append(i);
+            }
+        }
+    }
+
+    labelHashSet divided;
+    for (const label i : due)
+    {
+        if (nFollowed_ + 5 > mostCells_)
+        {
+            bounded_ = true;
+            break;
+        }
+
+        const square one = squares_[i];
+        const label half = sideOf(one)/2;
+        divided.insert(i);
+
+        for (label k = 0; k < 9; ++k)
+        {
+            begin
+            (
+                place
+                {
+                    one.at.pose,
+                    one.at.i + (k % 3)*half,
+                    one.at.j + (k / 3)*half
+                },
+                one.level + 1
+            );
+        }
+    }
+
+    DynamicList<square> squares;
+    forAll(squares_, i)
+    {
+        square one = squares_[i];
+
+        if (!divided.found(i))
+        {
+            squares.append(one);
+            continue;
+        }
+
+        const place low = one.at;
+        ++one.level;
+        for (label k = 0; k < 4; ++k)
+        {
+            one.at.i = low.i + (k % 2)*sideOf(one);
+            one.at.j = low.j + (k / 2)*sideOf(one);
+            squares.append(one);
+        }
+    }
+    squares_.transfer(squares);
+
+    return divided.size();
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::captureMap::captureMap
+(
+    const dictionary& dict,
+    const loneCells& cells,
+    const undecomposedFlow& whole,
+    const label seed,
+    const scalar deltaT
+)
+:
+    cells_(cells),
+    plane_(dict, whole),
+    levels_(readLevels(dict)),
+    mostCells_(readMostCells(dict)),
+    deltaT_(deltaT),
+    endTime_(dict.get<scalar>("endTime")),
+    poses_(readPoses(dict, seed)),
+    starts_(),
+    startAt_(poses_.size()),
+    squares_(),
+    shares_(),
+    waiting_(),
+    nFollowed_(0),
+    bounded_(false)
+{
+    const scalar side =
+        max(plane_.width(), plane_.height())/readSquares(dict);
+
+    nFirst_[0] = max(label(plane_.width()/side + 0.5), label(1));
+    nFirst_[1] = max(label(plane_.height()/side + 0.5), label(1));
+
+    const label n = 1 << levels_;
+
+    forAll(poses_, p)
+    {
+        for (label j = 0; j <= nFirst_[1]; ++j)
+        {
+            for (label i = 0; i <= nFirst_[0]; ++i)
+            {
+                begin(place{p, i*n, j*n}, 0);
+
+                if (i < nFirst_[0] && j < nFirst_[1])
+                {
+                    squares_.append(square{place{p, i*n, j*n}, 0});
+                }
+            }
+        }
+    }
+
+    const masterFirst once;
+
+    if (nFollowed_ > mostCells_)
+    {
+        FatalIOErrorInFunction(dict)
+            << "mostCells " << mostCells_ << " is out of range" << nl
+            << "    allowed: " << nFollowed_ << " or more, as many as start on"
+            << " the corners of the first squares" << exit(FatalIOError);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::captureMap::check
+(
+    const dictionary& dict,
+    const polyBoundaryMesh& patches,
+    const label seed
+)
+{
+    ellipsoidProperties::checkKeywords
+    (
+        dict,
+        {
+            "patch", "squares", "levels", "mostCells", "endTime", "orientations"
+        }
+    );
+
+    cellInjection::findPatch(dict, patches);
+    readSquares(dict);
+    readLevels(dict);
+    readMostCells(dict);
+    ellipsoidProperties::getAbove(dict, "endTime", 0);
+    readPoses(dict, seed);
+}
+
+
+void Foam::captureMap::make()
+{
+    do
+    {
+        followWaiting();
+    } while (divide());
+
+    shares_.setSize(squares_.size());
+    forAll(squares_, i)
+    {
+        shares_[i] = plane_.within(windowOf(squares_[i]));
+    }
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,122 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "cellOrientation.H"
+#include "unitConversion.H"
+#include "vector.H"
+
+#include <algorithm>
+
+extern "C"
+{
+    #include "ellipsoid.h"
+}
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::cellOrientation::orientationType>
+Foam::cellOrientation::orientationNames_
+({
+    { orientationType::otRandom, "random" },
+    { orientationType::otAligned, "aligned" },
+    { orientationType::otQuaternion, "quaternion" },
+    { orientationType::otEuler, "euler" }
+});
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::cellOrientation::cellOrientation(const dictionary& dict)
+:
+    type_(orientationNames_.getOrDefault("orientation", dict, otRandom)),
+    q_{0, 0, 0, 1}
+{
+    switch (type_)
+    {
+        case otRandom:
+        {
+            break;
+        }
+        case otAligned:
+        {
+            const vector axis(dict.get<vector>("axis"));
+
+            if (!(mag(axis) > VSMALL))
+            {
+                FatalIOErrorInFunction(dict)
+                    << "axis " << axis << " has no direction"
+                    << exit(FatalIOError);
+            }
+
+            ellipsoid_quaternion_from_axis((axis/mag(axis)).v_, 0, q_);
+            break;
+        }
+        case otQuaternion:
+        {
+            setQuaternion
+            (
+                dict, dict.get<FixedList<scalar, 4>>("quaternion"), q_
+            );
+            break;
+        }
+        case otEuler:
+        {
+            const vector degrees(dict.get<vector>("eulerAngles"));
+            const vector radians(degrees*degToRad());
+
+            ellipsoid_quaternion_from_euler(radians.v_, q_);
+            break;
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::cellOrientation::setQuaternion
+(
+    const dictionary& dict,
+    const FixedList<scalar, 4>& given,
+    scalar q[4]
+)
+{
+    scalar sum = 0;
+    for (const scalar component : given)
+    {
+        sum += sqr(component);
+    }
+
+    if (!(mag(sqrt(sum) - 1) < 1e-3))
+    {
+        FatalIOErrorInFunction(dict)
+            << "quaternion " << given << " is not of length 1"
+            << exit(FatalIOError);
+    }
+
+    for (int d = 0; d < 4; ++d)
+    {
+        q[d] = given[d]/sqrt(sum);
+    }
+}
+
+
+void Foam::cellOrientation::set(const scalar uniform[3], scalar q[4]) const
+{
+    if (type_ == otRandom)
+    {
+        ellipsoid_quaternion_from_uniform(uniform, q);
+    }
+    else
+    {
+        std::copy_n(q_, 4, q);
+    }
+}
+
+
+// ************************************************************************* //

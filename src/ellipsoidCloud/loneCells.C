@@ -1,0 +1,162 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "loneCells.H"
+#include "throughFlow.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- Each cell keeps the facets near it, some 40 kB
+    static const label mostAtOnce = 1000;
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::loneCells::followSome
+(
+    const UList<cellInjection::newCell>& starts,
+    const scalar deltaT,
+    const scalar endTime,
+    ending* endings
+) const
+{
+    // Neither writes unless it is opened
+    captureStatistics statistics(capture_, patchNames_, "", dictionary());
+    const cellTracks tracks
+    (
+        cellTracks::setting(properties_.section("tracks")),
+        patchNames_,
+        properties_.longestSemiAxis(),
+        "",
+        dictionary()
+    );
+    statistics.setInletSpeed(inletSpeed_);
+
+    cellInterval interval(model_, flow_, walls_, tracks, properties_);
+
+    List<cellState> cells(starts.size());
+    labelList which(identity(starts.size()));
+    forAll(starts, i)
+    {
+        cells[i] = starts[i].state(flow_);
+        endings[i] = ending{cellState::inFlight, -1, -1};
+    }
+
+    for (label n = 0; cells.size() && n*deltaT < endTime; ++n)
+    {
+        List<cellMove> moves(cells.size());
+        forAll(cells, i)
+        {
+            moves[i] = cellMove();
+            moves[i].state = cells[i];
+        }
+
+        const scalar end = min((n + 1)*deltaT, endTime);
+        DynamicList<cellTracks::row> rows;
+        interval.advance(moves, n*deltaT, end, rows);
+        statistics.judge(cells, moves, end);
+
+        label nStay = 0;
+        forAll(moves, i)
+        {
+            const cellMove& cell = moves[i];
+            ending& to = endings[which[i]];
+
+            to.fate = cell.state.fate;
+            to.patch = cell.state.patch;
+
+            if (cell.gone())
+            {
+                continue;
+            }
+
+            for (label w = 0; w < cell.nWalls; ++w)
+            {
+                if (capture_.sieves.found(cell.walls[w]))
+                {
+                    to.touched = cell.walls[w];
+                }
+            }
+
+            // One that has stalled may get going again
+            if (cell.state.fate != cellState::caught)
+            {
+                which[nStay] = which[i];
+                cells[nStay++] = cell.state;
+            }
+        }
+        which.setSize(nStay);
+        cells.setSize(nStay);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::loneCells::loneCells
+(
+    const ellipsoidProperties& properties,
+    const polyBoundaryMesh& patches,
+    const undecomposedFlow& whole
+)
+:
+    properties_(properties),
+    patchNames_(patches.names()),
+    capture_(properties.section("capture"), patches),
+    model_(properties.model()),
+    flow_(whole, properties.options().fluid_density, properties.scheme()),
+    walls_
+    (
+        Pstream::master() ? &whole.mesh() : nullptr,
+        properties.longestSemiAxis()
+    ),
+    inletSpeed_(throughFlow::speedOf(whole))
+{}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::loneCells::fits(cellInjection::newCell& cell) const
+{
+    return
+        flow_.find(point(cell.x[0], cell.x[1], cell.x[2]), cell.at)
+     && !cell.overlaps(model_, flow_, walls_);
+}
+
+
+Foam::List<Foam::loneCells::ending> Foam::loneCells::follow
+(
+    const UList<cellInjection::newCell>& starts,
+    const scalar deltaT,
+    const scalar endTime
+) const
+{
+    List<ending> endings(starts.size());
+
+    for (label first = 0; first < starts.size(); first += mostAtOnce)
+    {
+        const label n = min(mostAtOnce, starts.size() - first);
+
+        followSome
+        (
+            SubList<cellInjection::newCell>(starts, n, first),
+            deltaT,
+            endTime,
+            &endings[first]
+        );
+    }
+
+    return endings;
+}
+
+
+// ************************************************************************* //
