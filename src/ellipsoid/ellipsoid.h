@@ -534,8 +534,11 @@ ellipsoid_overlaps_walls(const ellipsoid_model *model,
 void ellipsoid_random_uniform(uint64_t seed, uint32_t id, uint32_t stream,
                               uint32_t index, int count, double *uniform);
 
-/* Six numbers of the standard normal distribution: those of the random force
-   and torque in a noise interval. */
+/* `count` numbers of the standard normal distribution, likewise. */
+void ellipsoid_random_normals(uint64_t seed, uint32_t id, uint32_t stream,
+                              uint32_t index, int count, double *normal);
+
+/* Six of them: those of the random force and torque in a noise interval. */
 void ellipsoid_random_normal(uint64_t seed, uint32_t id, int64_t interval,
                              double normal[6]);
 

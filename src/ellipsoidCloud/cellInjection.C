@@ -21,9 +21,6 @@ namespace Foam
 {
     defineTypeNameAndDebug(cellInjection, 0);
     defineRunTimeSelectionTable(cellInjection, dictionary);
-
-    //- Independent uses of a cell's random numbers
-    enum randomStream { rsTime, rsPose };
 }
 
 const Foam::Enum<Foam::cellInjection::orientationType>
@@ -77,15 +74,19 @@ void Foam::cellInjection::readOrientation()
 }
 
 
-bool Foam::cellInjection::overlaps(const newCell& cell) const
+bool Foam::cellInjection::overlaps
+(
+    const newCell& cell,
+    const ellipsoid_model& model
+) const
 {
     cellSurroundings here(flow_, walls_, cell.at);
     const ellipsoid_surroundings around(here.core());
 
     int cuts = 0;
-    ellipsoid_overlaps_walls(&model_, &around, cell.x, cell.q, &cuts);
+    ellipsoid_overlaps_walls(&model, &around, cell.x, cell.q, &cuts);
 
-    if (cuts || !model_.options.contact)
+    if (cuts || !model.options.contact)
     {
         return cuts;
     }
@@ -102,7 +103,7 @@ bool Foam::cellInjection::overlaps(const newCell& cell) const
     return
         ellipsoid_contact_evaluate
         (
-            &model_, &around, &state, &cache, &contact, nullptr
+            &model, &around, &state, &cache, &contact, nullptr
         )
      || contact.touching_beads;
 }
@@ -111,6 +112,10 @@ bool Foam::cellInjection::overlaps(const newCell& cell) const
 void Foam::cellInjection::draw(newCell& cell) const
 {
     const label maxAttempts = drawn() ? 1000 : 1;
+    const ellipsoid_model model
+    (
+        population_.made(population_.drawn(cell.id))
+    );
 
     for (label attempt = 0; attempt < maxAttempts; ++attempt)
     {
@@ -134,7 +139,7 @@ void Foam::cellInjection::draw(newCell& cell) const
         }
         orientation(cell.id - firstId_, cell.q);
 
-        if (inside && !overlaps(cell))
+        if (inside && !overlaps(cell, model))
         {
             return;
         }
@@ -276,7 +281,7 @@ Foam::cellInjection::cellInjection
     dict_(dict),
     flow_(from.flow),
     walls_(from.walls),
-    model_(from.model),
+    population_(from.population),
     seed_(from.seed)
 {
     readOrientation();

@@ -22,7 +22,7 @@ void Foam::ellipsoidCloud::makeInjections()
     const dictionary& dict = properties_.subDict("injection");
     const cellInjection::setting from
     {
-        *whole_, *flow_, *walls_, model_, properties_.seed()
+        *whole_, *flow_, *walls_, population_, properties_.seed()
     };
 
     label nCells = 0;
@@ -71,6 +71,11 @@ void Foam::ellipsoidCloud::addNew(const scalar start, const scalar end)
         state.tet = cell.at.tet;
         state.fate = cellState::waiting;
         state.patch = -1;
+
+        const cellSize size(population_.drawn(cell.id));
+        population_.take(cell.id, size);
+        state.length = size.length;
+        state.width = size.width;
 
         ellipsoid_flow_sample sample;
         frozenFlow::probe at(cell.at);
@@ -190,7 +195,7 @@ Foam::ellipsoidCloud::ellipsoidCloud
     properties_(*read_),
     earlier_(mesh.time()),
     whole_(new undecomposedFlow(mesh)),
-    model_(),
+    population_(properties_),
     flow_(),
     walls_(),
     cellRank_(whole_->cellRank()),
@@ -206,15 +211,6 @@ Foam::ellipsoidCloud::ellipsoidCloud
     trackingTime_(0),
     reportTime_(0)
 {
-    const ellipsoid_options& options = properties_.options();
-
-    if (ellipsoid_model_init(&model_, &options) != ELLIPSOID_OK)
-    {
-        FatalIOErrorInFunction(properties_)
-            << "the options are not those that were checked"
-            << abort(FatalIOError);
-    }
-
     {
         const masterFirst once;
 
@@ -275,7 +271,10 @@ void Foam::ellipsoidCloud::setFlow
 
     interval_.reset
     (
-        new cellInterval(model_, *flow_, *walls_, *tracks_, properties_)
+        new cellInterval
+        (
+            population_, *flow_, *walls_, *tracks_, properties_
+        )
     );
 
     // Nothing on the disk is touched before all is known to be sound
@@ -323,9 +322,13 @@ void Foam::ellipsoidCloud::evolve()
         {
             cells_[nStay++] = cell.state;
         }
-        else if (cell.state.fate == cellState::lost)
+        else
         {
-            reportLost(cell);
+            population_.forget(cell.state.id);
+            if (cell.state.fate == cellState::lost)
+            {
+                reportLost(cell);
+            }
         }
     }
     cells_.setSize(nStay);

@@ -42,7 +42,6 @@ void Foam::ellipsoidCloud::makeTables()
     (
         mesh_.time().globalPath()/"postProcessing"/"ellipsoidCloud"/firstTime_
     );
-    const ellipsoid_options& options = properties_.options();
 
     statistics_.reset
     (
@@ -53,6 +52,7 @@ void Foam::ellipsoidCloud::makeTables()
                 properties_.section("capture"), mesh_.boundaryMesh()
             ),
             mesh_.boundaryMesh().names(),
+            population_,
             folder,
             tables.subOrEmptyDict("events")
         )
@@ -63,7 +63,7 @@ void Foam::ellipsoidCloud::makeTables()
         (
             cellTracks::setting(properties_.section("tracks")),
             mesh_.boundaryMesh().names(),
-            *std::max_element(options.semi_axes, options.semi_axes + 3),
+            population_,
             folder,
             tables.subOrEmptyDict("tracks")
         )
@@ -99,6 +99,28 @@ void Foam::ellipsoidCloud::readCells()
         cells_.append(some);
     }
     sortCells();
+
+    const masterFirst once;
+    for (const cellState& cell : cells_)
+    {
+        const cellSize size{cell.length, cell.width};
+        const string complaint
+        (
+            ellipsoidProperties::complaint
+            (
+                cellPopulation::scaled(properties_.options(), size)
+            )
+        );
+        if (!complaint.empty())
+        {
+            checkedCells
+            (
+                "cell " + Foam::name(cell.id) + " has a size for which "
+              + complaint
+            );
+        }
+        population_.take(cell.id, size);
+    }
 }
 
 
@@ -343,7 +365,7 @@ void Foam::ellipsoidCloud::finish()
     if (Pstream::master())
     {
         statistics_->update(cells_);
-        statistics_->reportContact(Info, model_.options.bead_radius);
+        statistics_->reportContact(Info);
         statistics_->write(Info);
         tracks_->writeVTP();
     }
