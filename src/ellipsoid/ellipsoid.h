@@ -195,6 +195,14 @@ ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
                                          const char **field,
                                          const char **range);
 
+/*
+    The options of a cell of another length 2 a2 and width 2 a1 [m], not checked:
+    a3 and the bead radius keep their ratio to a1, and beads in rings become
+    more where they would else lie farther apart, in their radii.
+*/
+ellipsoid_options ellipsoid_options_resized(const ellipsoid_options *options,
+                                            double length, double width);
+
 /* --------------------------------------------------------------- model */
 
 /* What follows from the options once and for all; read-only afterwards. */

@@ -112,7 +112,10 @@ Foam::cellPopulation::setting::setting
     {
         const string complaint
         (
-            ellipsoidProperties::complaint(scaled(options, size))
+            ellipsoidProperties::complaint
+            (
+                ellipsoid_options_resized(&options, size.length, size.width)
+            )
         );
 
         if (!complaint.empty())
@@ -158,7 +161,7 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
         sizes.append(cellSize{row.first(), row.second()});
     }
 
-    // What the core allows of a size is monotonic in length and width
+    // The ranges of the core that a size can leave are monotonic in both
     const cellSize middle(medianSize(options));
     for (const scalar l : {-truncation, truncation})
     {
@@ -188,23 +191,6 @@ Foam::cellSize Foam::cellPopulation::medianSize
 )
 {
     return cellSize{2*options.semi_axes[1], 2*options.semi_axes[0]};
-}
-
-
-ellipsoid_options Foam::cellPopulation::scaled
-(
-    const ellipsoid_options& options,
-    const cellSize& size
-)
-{
-    ellipsoid_options other(options);
-    const scalar wider = size.width/medianSize(options).width;
-
-    other.semi_axes[0] *= wider;
-    other.semi_axes[1] = 0.5*size.length;
-    other.semi_axes[2] *= wider;
-    other.bead_radius *= wider;
-    return other;
 }
 
 
@@ -242,7 +228,10 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
 ellipsoid_model Foam::cellPopulation::made(const cellSize& size) const
 {
     ellipsoid_model model;
-    const ellipsoid_options options(scaled(median_.options, size));
+    const ellipsoid_options options
+    (
+        ellipsoid_options_resized(&median_.options, size.length, size.width)
+    );
 
     if (ellipsoid_model_init(&model, &options) != ELLIPSOID_OK)
     {

@@ -103,12 +103,14 @@ void Foam::ellipsoidCloud::readCells()
     const masterFirst once;
     for (const cellState& cell : cells_)
     {
-        const cellSize size{cell.length, cell.width};
         const string complaint
         (
             ellipsoidProperties::complaint
             (
-                cellPopulation::scaled(properties_.options(), size)
+                ellipsoid_options_resized
+                (
+                    &properties_.options(), cell.length, cell.width
+                )
             )
         );
         if (!complaint.empty())
@@ -119,7 +121,7 @@ void Foam::ellipsoidCloud::readCells()
               + complaint
             );
         }
-        population_.take(cell.id, size);
+        population_.take(cell.id, cellSize{cell.length, cell.width});
     }
 }
 

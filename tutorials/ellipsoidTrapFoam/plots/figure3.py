@@ -135,7 +135,8 @@ def draw_beads(ax, case, scale):
     layout, count, radius = contact_of(case)
     a1, a2, _ = case.semi_axes
     reach = max(a2, a1) + radius
-    bare(ax, (-1.25 * reach, 1.25 * reach), (-0.8 * reach, 0.8 * reach), "C  the cell and its beads")
+    name = f"C  the {'median ' * bool(case.sizes)}cell and its beads"
+    bare(ax, (-1.25 * reach, 1.25 * reach), (-0.8 * reach, 0.8 * reach), name)
     lie = np.array((np.sin(np.pi / 4) * np.array((0, 0, -1))).tolist() + [np.cos(np.pi / 4)])
     centres = poses.beads(layout, count, radius, case.semi_axes)
     sphere = np.full(3, radius)
