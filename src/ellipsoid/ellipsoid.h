@@ -194,6 +194,14 @@ ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
                                          const char **field,
                                          const char **range);
 
+/*
+    The options of a cell of another length 2 a2 and width 2 a1 [m], not checked:
+    a3 and the bead radius keep their ratio to a1, and beads in rings become
+    more where they would else lie farther apart, in their radii.
+*/
+ellipsoid_options ellipsoid_options_resized(const ellipsoid_options *options,
+                                            double length, double width);
+
 /* --------------------------------------------------------------- model */
 
 /* What follows from the options once and for all; read-only afterwards. */
@@ -533,8 +541,11 @@ ellipsoid_overlaps_walls(const ellipsoid_model *model,
 void ellipsoid_random_uniform(uint64_t seed, uint32_t id, uint32_t stream,
                               uint32_t index, int count, double *uniform);
 
-/* Six numbers of the standard normal distribution: those of the random force
-   and torque in a noise interval. */
+/* `count` numbers of the standard normal distribution, likewise. */
+void ellipsoid_random_normals(uint64_t seed, uint32_t id, uint32_t stream,
+                              uint32_t index, int count, double *normal);
+
+/* Six of them: those of the random force and torque in a noise interval. */
 void ellipsoid_random_normal(uint64_t seed, uint32_t id, int64_t interval,
                              double normal[6]);
 

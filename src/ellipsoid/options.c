@@ -247,3 +247,39 @@ ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
     }
     return ELLIPSOID_BAD_OPTION;
 }
+
+/* Half the line of the beads' centres, in their radii. */
+static double line_in_radii(const ellipsoid_options *o)
+{
+    const double *a = o->semi_axes;
+
+    return fmax(a[0], fmax(a[1], a[2])) / o->bead_radius - 1;
+}
+
+ellipsoid_options ellipsoid_options_resized(const ellipsoid_options *options,
+                                            double length, double width)
+{
+    ellipsoid_options other = *options;
+    const double wider = width / (2 * options->semi_axes[0]);
+
+    other.semi_axes[0] *= wider;
+    other.semi_axes[1] = 0.5 * length;
+    other.semi_axes[2] *= wider;
+    other.bead_radius *= wider;
+
+    if (other.contact && other.bead_layout != ELLIPSOID_BEADS_PAPER
+        && other.bead_count > 1
+        && ellipsoid_options_check(&other, NULL, NULL) == ELLIPSOID_OK)
+    {
+        const int rings = (options->bead_count - 2) / 3;
+        const double needed = ceil((rings + 1) * line_in_radii(&other)
+                                       / line_in_radii(options)
+                                   - 1e-9)
+                            - 1;
+
+        /* Never fewer: round the body they are as far apart as they were */
+        other.bead_count =
+            2 + 3 * (int)fmax(rings, fmin(needed, ELLIPSOID_MAX_BEADS));
+    }
+    return other;
+}

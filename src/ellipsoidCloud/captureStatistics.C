@@ -105,6 +105,8 @@ void Foam::captureStatistics::note(const eventType what, const cellState& cell)
     std::copy_n(cell.body.q, 4, event.begin() + 7);
     event[11] = cell.deepest;
     event[12] = cell.deepestCell;
+    event[13] = cell.length;
+    event[14] = cell.width;
 
     pending_.append(event);
 }
@@ -281,6 +283,7 @@ Foam::captureStatistics::captureStatistics
 (
     const setting& given,
     const wordList& patchNames,
+    const cellPopulation& population,
     const fileName& folder,
     const dictionary& earlierLog
 )
@@ -290,6 +293,8 @@ Foam::captureStatistics::captureStatistics
     speedFraction_(given.speedFraction),
     slowSpeed_(0),
     holdTime_(given.holdTime),
+    population_(population),
+    nLogged_(population.varies() ? 15 : 13),
     folder_(folder),
     pending_(),
     cells_(),
@@ -297,7 +302,10 @@ Foam::captureStatistics::captureStatistics
     log_
     (
         folder/"events.csv",
-        "t,id,event,patch,x1,x2,x3,eps1,eps2,eps3,eta,deepest,deepestCell",
+        std::string
+        (
+            "t,id,event,patch,x1,x2,x3,eps1,eps2,eps3,eta,deepest,deepestCell"
+        ) + (population.varies() ? ",length,width" : ""),
         12,
         earlierLog
     )

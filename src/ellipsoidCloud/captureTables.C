@@ -38,7 +38,11 @@ void Foam::captureStatistics::readLog()
         std::string field;
         packedEvent event;
 
-        forAll(event, i)
+        const cellSize size(population_.medianSize());
+        event[13] = size.length;
+        event[14] = size.width;
+
+        for (label i = 0; i < nLogged_; ++i)
         {
             std::getline(fields, field, ',');
 
@@ -54,7 +58,8 @@ void Foam::captureStatistics::readLog()
             }
         }
 
-        if (!fields)
+        // Or with other columns than ours
+        if (!fields || !fields.eof())
         {
             FatalErrorInFunction
                 << log_.name() << ": cannot read the line" << nl << line.c_str()
@@ -98,7 +103,7 @@ void Foam::captureStatistics::writeEvents()
             << eventNames[eventType(label(event[2]))] << ','
             << patchName(label(event[3]));
 
-        for (label i = 4; i < event.size(); ++i)
+        for (label i = 4; i < nLogged_; ++i)
         {
             os << ',' << event[i];
         }
@@ -121,14 +126,12 @@ void Foam::captureStatistics::report(Ostream& os) const
 }
 
 
-void Foam::captureStatistics::reportContact
-(
-    Ostream& os,
-    const scalar beadRadius
-) const
+void Foam::captureStatistics::reportContact(Ostream& os) const
 {
     scalar wall = 0;
     scalar cell = 0;
+    scalar wallPart = 0;
+    scalar cellPart = 0;
     scalar delay = 0;
     label nDelayed = 0;
     label nBalanced = 0;
@@ -141,6 +144,10 @@ void Foam::captureStatistics::reportContact
         const record& r = cells_[id];
         wall = max(wall, r.deepest);
         cell = max(cell, r.deepestCell);
+
+        const scalar beadRadius = population_.beadRadius(r.last[14]);
+        wallPart = max(wallPart, 100*r.deepest/beadRadius);
+        cellPart = max(cellPart, 100*r.deepestCell/beadRadius);
 
         if (r.injection[0] > r.planned)
         {
@@ -160,9 +167,9 @@ void Foam::captureStatistics::reportContact
     }
 
     os  << "deepest overlap of a bead with a wall: " << wall*1e9 << " nm, "
-        << 100*wall/beadRadius << " % of its radius" << nl
+        << wallPart << " % of its radius" << nl
         << "deepest overlap of a bead with another cell's: " << cell*1e9
-        << " nm, " << 100*cell/beadRadius << " % of its radius" << nl
+        << " nm, " << cellPart << " % of its radius" << nl
         << "held: " << nBalanced << " of " << counts_[cellState::caught]
         << " caught cells balanced to 1 %";
 
@@ -188,7 +195,7 @@ void Foam::captureStatistics::write(Ostream& os) const
     cells
         << "id,tInjected,x1,x2,x3,eps1,eps2,eps3,eta,fate,patch,tFate,"
         << "firstSieve,tFirstCatch,deepest,deepestCell,tPlanned,"
-        << "imbalance" << nl;
+        << "imbalance" << (population_.varies() ? ",length,width" : "") << nl;
 
     Map<DynamicList<scalar>> held;
 
@@ -227,6 +234,10 @@ void Foam::captureStatistics::write(Ostream& os) const
         {
             cells << cell.imbalance;
             held(label(cell.last[3])).append(cell.last[0]);
+        }
+        if (population_.varies())
+        {
+            cells << ',' << cell.last[13] << ',' << cell.last[14];
         }
         cells << nl;
     }

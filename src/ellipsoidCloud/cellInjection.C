@@ -20,9 +20,6 @@ namespace Foam
 {
     defineTypeNameAndDebug(cellInjection, 0);
     defineRunTimeSelectionTable(cellInjection, dictionary);
-
-    //- Independent uses of a cell's random numbers
-    enum randomStream { rsTime, rsPose };
 }
 
 
@@ -30,7 +27,8 @@ namespace Foam
 
 Foam::cellState Foam::cellInjection::newCell::state
 (
-    const frozenFlow& flow
+    const frozenFlow& flow,
+    const cellSize& size
 ) const
 {
     cellState state = cellState();
@@ -42,6 +40,8 @@ Foam::cellState Foam::cellInjection::newCell::state
     state.tet = at.tet;
     state.fate = cellState::waiting;
     state.patch = -1;
+    state.length = size.length;
+    state.width = size.width;
 
     ellipsoid_flow_sample sample;
     frozenFlow::probe there(at);
@@ -91,6 +91,10 @@ bool Foam::cellInjection::newCell::overlaps
 void Foam::cellInjection::draw(newCell& cell) const
 {
     const label maxAttempts = drawn() ? 1000 : 1;
+    const ellipsoid_model model
+    (
+        population_.made(population_.drawn(cell.id))
+    );
 
     for (label attempt = 0; attempt < maxAttempts; ++attempt)
     {
@@ -107,7 +111,7 @@ void Foam::cellInjection::draw(newCell& cell) const
         orientation_.set(uniform + 3, cell.q);
         orientation(cell.id - firstId_, cell.q);
 
-        if (inside && !cell.overlaps(model_, flow_, walls_))
+        if (inside && !cell.overlaps(model, flow_, walls_))
         {
             return;
         }
@@ -222,7 +226,7 @@ Foam::cellInjection::cellInjection
     dict_(dict),
     flow_(from.flow),
     walls_(from.walls),
-    model_(from.model),
+    population_(from.population),
     seed_(from.seed)
 {}
 

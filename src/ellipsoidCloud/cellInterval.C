@@ -50,7 +50,9 @@ Foam::scalar Foam::cellInterval::gap
 {
     return ellipsoid_cell_gap
     (
-        &model_, a.x, a.q, &model_, b.x, b.q, horizon
+        &population_.model(a.state.id), a.x, a.q,
+        &population_.model(b.state.id), b.x, b.q,
+        horizon
     );
 }
 
@@ -96,7 +98,8 @@ Foam::List<Foam::cellInterval::unit> Foam::cellInterval::unitsOf
         List<boundBox> boxes(here.size());
         forAll(here, k)
         {
-            boxes[k] = cells[here[k]].box(model_.reach + 0.5*margin_);
+            const cellMove& cell = cells[here[k]];
+            boxes[k] = cell.box(reach(cell) + 0.5*margin_);
         }
 
         // By the lower of a pair and then the other, so that who comes first
@@ -194,7 +197,7 @@ Foam::DynamicList<Foam::cellInterval::meeting> Foam::cellInterval::meetings
     DynamicList<label> who;
     DynamicList<label> unitOf;
     DynamicList<boundBox> boxes;
-    const scalar unseen = unseenGap*model_.options.bead_radius;
+    const scalar unseen = unseenGap*beadRadius_;
 
     if (!pushing_)
     {
@@ -209,7 +212,7 @@ Foam::DynamicList<Foam::cellInterval::meeting> Foam::cellInterval::meetings
             {
                 who.append(i);
                 unitOf.append(unitI);
-                boxes.append(cells[i].box(model_.reach + 0.5*unseen));
+                boxes.append(cells[i].box(reach(cells[i]) + 0.5*unseen));
             }
         }
     }
@@ -499,7 +502,7 @@ void Foam::cellInterval::advance
             units,
             meetings(cells, units),
             time.depth < maxDepth
-          ? shortTravel*model_.options.bead_radius
+          ? shortTravel*beadRadius_
           : GREAT,
             todo
         );
@@ -516,17 +519,18 @@ void Foam::cellInterval::advance
 
 Foam::cellInterval::cellInterval
 (
-    const ellipsoid_model& model,
+    const cellPopulation& population,
     const frozenFlow& flow,
     const wallFacets& walls,
     const cellTracks& tracks,
     const ellipsoidProperties& properties
 )
 :
-    model_(model),
+    population_(population),
     pushing_(properties.pushing()),
-    margin_(unitGap*model.options.bead_radius),
-    mover_(model, flow, walls, tracks, properties.seed(), pushing_)
+    beadRadius_(properties.options().bead_radius),
+    margin_(unitGap*beadRadius_),
+    mover_(population, flow, walls, tracks, properties.seed(), pushing_)
 {}
 
 

@@ -26,8 +26,11 @@ namespace Foam
         const cellTracks& tracks;
         DynamicList<cellTracks::row>& rows;
 
-        //- Whose sweep is asked for; or null
-        const ellipsoid_model* swept;
+        //- Of the cell
+        const ellipsoid_model& model;
+
+        //- Is its sweep asked for?
+        const bool sweeping;
 
         frozenFlow::placeType place;
         ellipsoid_step last;
@@ -39,14 +42,16 @@ namespace Foam
             cellMove& move,
             const cellTracks& to,
             DynamicList<cellTracks::row>& buffer,
-            const ellipsoid_model* sweptModel
+            const ellipsoid_model& itsModel,
+            const bool itsSweep
         )
         :
             here(flow, walls, frozenFlow::probe{move.state.tet, -1}),
             cell(move),
             tracks(to),
             rows(buffer),
-            swept(sweptModel),
+            model(itsModel),
+            sweeping(itsSweep),
             place(frozenFlow::pInside),
             last()
         {}
@@ -85,9 +90,9 @@ namespace Foam
         state.deepestCell = max(state.deepestCell, step->contact.cell_deepest);
         journey.place = journey.here.settle(pointOf(step->after.x));
 
-        if (journey.swept)
+        if (journey.sweeping)
         {
-            sweep(*step, *journey.swept, journey.cell);
+            sweep(*step, journey.model, journey.cell);
         }
 
         if (journey.place == frozenFlow::pInside)
@@ -187,7 +192,7 @@ Foam::scalar Foam::cellMover::imbalance(const cellJourney& journey) const
     }
 
     vector drag;
-    ellipsoid_held_drag(&model_, body.q, flow.velocity, drag.v_);
+    ellipsoid_held_drag(&journey.model, body.q, flow.velocity, drag.v_);
 
     vector sum(drag);
     for (int i = 0; i < 3; ++i)
@@ -230,7 +235,7 @@ void Foam::cellMover::takeOut
 
 Foam::cellMover::cellMover
 (
-    const ellipsoid_model& model,
+    const cellPopulation& population,
     const frozenFlow& flow,
     const wallFacets& walls,
     const cellTracks& tracks,
@@ -238,7 +243,7 @@ Foam::cellMover::cellMover
     const bool sweeping
 )
 :
-    model_(model),
+    population_(population),
     flow_(flow),
     walls_(walls),
     tracks_(tracks),
@@ -283,14 +288,15 @@ bool Foam::cellMover::move
                 cell,
                 tracks_,
                 rows,
-                sweeping_ ? &model_ : nullptr
+                population_.model(cell.state.id),
+                sweeping_
             )
         );
         around[i] = journeys[i].here.core();
         around[i].seed = seed_;
         around[i].id = cell.state.id;
 
-        members[i].model = &model_;
+        members[i].model = &journeys[i].model;
         members[i].surroundings = &around[i];
         members[i].state = &cell.state.body;
         members[i].controller = &cell.state.controller;

@@ -74,14 +74,14 @@ Foam::cellTracks::cellTracks
 (
     const setting& given,
     const wordList& patchNames,
-    const scalar length,
+    const cellPopulation& population,
     const fileName& folder,
     const dictionary& earlier
 )
 :
     patchNames_(patchNames),
     setting_(given),
-    length_(length),
+    population_(population),
     folder_(folder),
     rows_(),
     file_
@@ -138,7 +138,7 @@ void Foam::cellTracks::add
           > setting_.heldInterval - 0.5*setting_.interval;
 
         const bool moved =
-            move > sqr(setting_.minimumMove*length_)
+            move > sqr(setting_.minimumMove*population_.longest(cell.id))
          || turn > setting_.minimumMove;
 
         if (due && moved)

@@ -22,7 +22,7 @@ void Foam::ellipsoidCloud::makeInjections()
     const dictionary& dict = properties_.subDict("injection");
     const cellInjection::setting from
     {
-        *whole_, *flow_, *walls_, model_, properties_.seed()
+        *whole_, *flow_, *walls_, population_, properties_.seed()
     };
 
     label nCells = 0;
@@ -62,7 +62,9 @@ void Foam::ellipsoidCloud::addNew(const scalar start, const scalar end)
 
     for (const cellInjection::newCell& cell : newCells)
     {
-        cells_.append(cell.state(*flow_));
+        const cellSize size(population_.drawn(cell.id));
+        population_.take(cell.id, size);
+        cells_.append(cell.state(*flow_, size));
     }
 
     if (newCells.size())
@@ -176,7 +178,7 @@ Foam::ellipsoidCloud::ellipsoidCloud
     earlier_(mesh.time()),
     whole_(new undecomposedFlow(mesh)),
     field_(new electricField(properties_.section("forces"), mesh)),
-    model_(properties_.model()),
+    population_(properties_),
     flow_(),
     walls_(),
     cellRank_(whole_->cellRank()),
@@ -250,7 +252,10 @@ void Foam::ellipsoidCloud::setFlow
 
     interval_.reset
     (
-        new cellInterval(model_, *flow_, *walls_, *tracks_, properties_)
+        new cellInterval
+        (
+            population_, *flow_, *walls_, *tracks_, properties_
+        )
     );
 
     // Nothing on the disk is touched before all is known to be sound
@@ -298,9 +303,13 @@ void Foam::ellipsoidCloud::evolve()
         {
             cells_[nStay++] = cell.state;
         }
-        else if (cell.state.fate == cellState::lost)
+        else
         {
-            reportLost(cell);
+            population_.forget(cell.state.id);
+            if (cell.state.fate == cellState::lost)
+            {
+                reportLost(cell);
+            }
         }
     }
     cells_.setSize(nStay);

@@ -52,6 +52,7 @@ void Foam::ellipsoidCloud::makeTables()
                 properties_.section("capture"), mesh_.boundaryMesh()
             ),
             mesh_.boundaryMesh().names(),
+            population_,
             folder,
             tables.subOrEmptyDict("events")
         )
@@ -62,7 +63,7 @@ void Foam::ellipsoidCloud::makeTables()
         (
             cellTracks::setting(properties_.section("tracks")),
             mesh_.boundaryMesh().names(),
-            properties_.longestSemiAxis(),
+            population_,
             folder,
             tables.subOrEmptyDict("tracks")
         )
@@ -98,6 +99,30 @@ void Foam::ellipsoidCloud::readCells()
         cells_.append(some);
     }
     sortCells();
+
+    const masterFirst once;
+    for (const cellState& cell : cells_)
+    {
+        const string complaint
+        (
+            ellipsoidProperties::complaint
+            (
+                ellipsoid_options_resized
+                (
+                    &properties_.options(), cell.length, cell.width
+                )
+            )
+        );
+        if (!complaint.empty())
+        {
+            checkedCells
+            (
+                "cell " + Foam::name(cell.id) + " has a size for which "
+              + complaint
+            );
+        }
+        population_.take(cell.id, cellSize{cell.length, cell.width});
+    }
 }
 
 
@@ -342,7 +367,7 @@ void Foam::ellipsoidCloud::finish()
     if (Pstream::master())
     {
         statistics_->update(cells_);
-        statistics_->reportContact(Info, model_.options.bead_radius);
+        statistics_->reportContact(Info);
         statistics_->write(Info);
         tracks_->writeVTP();
     }

@@ -98,7 +98,7 @@ void Foam::ellipsoidProperties::readOptions()
         motionNames_.getOrDefault("motion", *this, options_.motion);
 
     const dictionary& cell = section("cell");
-    checkKeywords(cell, {"semiAxes", "density"});
+    checkKeywords(cell, {"semiAxes", "density", "sizes"});
     readVector(cell, "semiAxes", options_.semi_axes);
     options_.density = cell.getOrDefault("density", options_.density);
 

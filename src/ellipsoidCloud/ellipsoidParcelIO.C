@@ -62,6 +62,8 @@ namespace Foam
         { "lastRow", offsetof(cellState, lastRow), 8 },
         { "deepest", offsetof(cellState, deepest), 1 },
         { "deepestCell", offsetof(cellState, deepestCell), 1 },
+        { "length", offsetof(cellState, length), 1 },
+        { "width", offsetof(cellState, width), 1 },
         { "id", offsetof(cellState, id), 0 },
         { "tet", offsetof(cellState, tet), 0 },
         { "fate", offsetof(cellState, fate), 0 },

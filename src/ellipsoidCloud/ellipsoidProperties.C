@@ -14,6 +14,7 @@ License
 #include "StringStream.H"
 #include "captureStatistics.H"
 #include "cellInjection.H"
+#include "cellPopulation.H"
 #include "dimensionedScalar.H"
 #include "emptyPolyPatch.H"
 #include "processorPolyPatch.H"
@@ -293,6 +294,7 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
 
     readOptions();
     checkOptions();
+    cellPopulation::setting(section("cell"), options_);
     checkPatches(mesh.boundaryMesh());
 }
 
@@ -343,6 +345,33 @@ void Foam::ellipsoidProperties::checkKeywords
                 << exit(FatalIOError);
         }
     }
+}
+
+
+Foam::string Foam::ellipsoidProperties::complaint
+(
+    const ellipsoid_options& options
+)
+{
+    const char* field = nullptr;
+    const char* range = nullptr;
+
+    if (ellipsoid_options_check(&options, &field, &range) == ELLIPSOID_OK)
+    {
+        return string();
+    }
+
+    string name(field);
+    for (const optionEntry& known : optionEntries)
+    {
+        if (word(field) == known.field)
+        {
+            name = string(known.section) + '/' + known.entry;
+        }
+    }
+
+    return
+        name + " is out of range\n    allowed: " + inWordsOfEntries(range);
 }
 
 

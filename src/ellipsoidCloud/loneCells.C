@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "loneCells.H"
+#include "electricField.H"
 #include "throughFlow.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -30,24 +31,27 @@ void Foam::loneCells::followSome
 ) const
 {
     // Neither writes unless it is opened
-    captureStatistics statistics(capture_, patchNames_, "", dictionary());
+    captureStatistics statistics
+    (
+        capture_, patchNames_, population_, "", dictionary()
+    );
     const cellTracks tracks
     (
         cellTracks::setting(properties_.section("tracks")),
         patchNames_,
-        properties_.longestSemiAxis(),
+        population_,
         "",
         dictionary()
     );
     statistics.setInletSpeed(inletSpeed_);
 
-    cellInterval interval(model_, flow_, walls_, tracks, properties_);
+    cellInterval interval(population_, flow_, walls_, tracks, properties_);
 
     List<cellState> cells(starts.size());
     labelList which(identity(starts.size()));
     forAll(starts, i)
     {
-        cells[i] = starts[i].state(flow_);
+        cells[i] = starts[i].state(flow_, population_.medianSize());
         endings[i] = ending{cellState::inFlight, -1, -1};
     }
 
@@ -105,15 +109,21 @@ void Foam::loneCells::followSome
 Foam::loneCells::loneCells
 (
     const ellipsoidProperties& properties,
-    const polyBoundaryMesh& patches,
+    const fvMesh& mesh,
     const undecomposedFlow& whole
 )
 :
     properties_(properties),
-    patchNames_(patches.names()),
-    capture_(properties.section("capture"), patches),
-    model_(properties.model()),
-    flow_(whole, properties.options().fluid_density, properties.scheme()),
+    patchNames_(mesh.boundaryMesh().names()),
+    capture_(properties.section("capture"), mesh.boundaryMesh()),
+    population_(properties),
+    flow_
+    (
+        whole,
+        properties.options().fluid_density,
+        properties.scheme(),
+        electricField(properties.section("forces"), mesh).onWhole(whole)
+    ),
     walls_
     (
         Pstream::master() ? &whole.mesh() : nullptr,
@@ -129,7 +139,7 @@ bool Foam::loneCells::fits(cellInjection::newCell& cell) const
 {
     return
         flow_.find(point(cell.x[0], cell.x[1], cell.x[2]), cell.at)
-     && !cell.overlaps(model_, flow_, walls_);
+     && !cell.overlaps(population_.median(), flow_, walls_);
 }
 
 

@@ -212,6 +212,87 @@ static void test_any_number_of_rings(void **unused)
     }
 }
 
+/*
+    Cells of other lengths and widths, in parts of their width, are as narrow as
+    the default cell, to 2 nm, and have no deeper valleys, to 1 nm. With the
+    default's 32 beads a needle would pass between those of the longest. What
+    has the default's shape has its beads.
+*/
+static void test_resized(void **unused)
+{
+    const ellipsoid_options options = ellipsoid_options_default();
+    const double widths[3] = {0.8, 1, 1.25};
+    ellipsoid_options same;
+
+    (void)unused;
+    for (int w = 0; w < 3; w++)
+    {
+        for (int l = -3; l <= 3; l++)
+        {
+            const double length = 4e-6 * exp(0.2 * l);
+            const ellipsoid_options other = ellipsoid_options_resized(
+                &options, length, 1e-6 * widths[w]);
+
+            assert_ok(ellipsoid_options_check(&other, NULL, NULL));
+            assert_relative(other.semi_axes[0], 0.5e-6 * widths[w], 1e-15);
+            assert_true(other.semi_axes[2] == other.semi_axes[0]);
+            assert_true(other.bead_count >= 32);
+
+            const envelope e = measure(&other);
+
+            assert_near(e.length, length, 0.001e-6);
+            assert_near(e.narrowest / widths[w], 0.941e-6, 0.002e-6);
+            assert_true(e.valley / widths[w] < 181e-9);
+        }
+    }
+
+    same = ellipsoid_options_resized(&options, 8e-6, 2e-6);
+    assert_int_equal(same.bead_count, 32);
+    assert_relative(same.bead_radius, 0.57e-6, 1e-15);
+
+    /* Lines of 1.715 and 3.715 um: 11 gaps become 23.8, that is 24 */
+    same = ellipsoid_options_resized(&options, 8e-6, 1e-6);
+    assert_int_equal(same.bead_count, 2 + 3 * 23);
+    same.bead_count = 32;
+    assert_true(measure(&same).valley == HUGE_VAL);
+
+    same = ellipsoid_options_resized(&options, 4e-6, 1e-6);
+    assert_memory_equal(same.semi_axes, options.semi_axes,
+                        sizeof same.semi_axes);
+    assert_true(same.bead_radius == options.bead_radius);
+    assert_int_equal(same.bead_count, 32);
+}
+
+/* What is out of range is left to the check to say; layouts of one number of
+   beads, and none at all, stay as they are. */
+static void test_resized_as_given(void **unused)
+{
+    ellipsoid_options options = ellipsoid_options_default(), other;
+    const char *field;
+
+    (void)unused;
+    other = ellipsoid_options_resized(&options, 4e-6, 0);
+    assert_int_equal(ellipsoid_options_check(&other, &field, NULL),
+                     ELLIPSOID_BAD_OPTION);
+    assert_string_equal(field, "semi_axes");
+    other = ellipsoid_options_resized(&options, 1e-3, 1e-6);
+    assert_int_equal(ellipsoid_options_check(&other, &field, NULL),
+                     ELLIPSOID_BAD_OPTION);
+    assert_string_equal(field, "bead_count");
+
+    options.contact = 0;
+    other = ellipsoid_options_resized(&options, 8e-6, 1e-6);
+    assert_int_equal(other.bead_count, 32);
+    options.contact = 1;
+    options.bead_layout = ELLIPSOID_BEADS_PAPER;
+    other = ellipsoid_options_resized(&options, 8e-6, 1e-6);
+    assert_int_equal(other.bead_count, 32);
+    options.bead_layout = ELLIPSOID_BEADS_STAGGERED;
+    options.bead_count = 1;
+    other = ellipsoid_options_resized(&options, 8e-6, 1e-6);
+    assert_int_equal(other.bead_count, 1);
+}
+
 static void test_triaxial_and_round(void **unused)
 {
     const double shapes[5][3] = {{0.5e-6, 0.7e-6, 2e-6},
@@ -300,6 +381,8 @@ int main(void)
         cmocka_unit_test(test_paper_read_literally),
         cmocka_unit_test(test_surface_layout),
         cmocka_unit_test(test_any_number_of_rings),
+        cmocka_unit_test(test_resized),
+        cmocka_unit_test(test_resized_as_given),
         cmocka_unit_test(test_triaxial_and_round),
         cmocka_unit_test(test_one_bead_is_a_sphere),
         cmocka_unit_test(test_refusals),

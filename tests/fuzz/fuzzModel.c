@@ -156,7 +156,7 @@ void fuzz_check_random(fuzz_input *in)
     const uint32_t id = (uint32_t)fuzz_bits(in, 4);
     const uint32_t stream = (uint32_t)fuzz_bits(in, 4);
     const uint32_t index = (uint32_t)fuzz_bits(in, 4);
-    double number[9], again[8], normal[6];
+    double number[9], again[8], normal[6], normals[8];
 
     ellipsoid_random_normal(seed, id, (int64_t)fuzz_bits(in, 8), normal);
     for (int n = 0; n < 6; n++)
@@ -170,6 +170,10 @@ void fuzz_check_random(fuzz_input *in)
                              memcpy(again, number, sizeof again));
     require(number[8] == 2);
     require(memcmp(number, again, sizeof again) == 0);
+    ellipsoid_random_normals(seed, id, stream, index, 8, normals);
+    ellipsoid_random_normals(seed, id, stream, index, fuzz_choice(in, 9),
+                             memcpy(again, normals, sizeof again));
+    require(memcmp(normals, again, sizeof again) == 0);
     for (int n = 0; n < 8; n++)
     {
         require(number[n] >= 0 && number[n] < 1);

@@ -111,7 +111,7 @@ int main(int argc, char *argv[])
 
         whole.gather(U, p, phi);
 
-        const loneCells cells(properties, mesh.boundaryMesh(), whole);
+        const loneCells cells(properties, mesh, whole);
 
         captureMap map
         (

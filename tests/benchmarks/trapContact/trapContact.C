@@ -368,8 +368,7 @@ int main(int argc, char *argv[])
     // As in ellipsoidCloud
     const ellipsoidProperties properties(mesh);
     const ellipsoid_options& options = properties.options();
-    ellipsoid_model model;
-    ellipsoid_model_init(&model, &options);
+    const cellPopulation population(properties);
 
     undecomposedFlow whole(mesh);
     whole.gather(U, p, phi);
@@ -388,7 +387,7 @@ int main(int argc, char *argv[])
 
     const cellInjection::setting from
     {
-        whole, flow, walls, model, properties.seed()
+        whole, flow, walls, population, properties.seed()
     };
     DynamicList<cellInjection::newCell> cells;
     for (const entry& e : properties.subDict("injection"))
@@ -412,7 +411,7 @@ int main(int argc, char *argv[])
         std::vector<taken> steps;
         for (const cellInjection::newCell& cell : cells)
         {
-            journey j(flow, walls, cell.at, model, clock);
+            journey j(flow, walls, cell.at, population.median(), clock);
             advance(j, cell, flow, runTime, slowSpeed);
             steps.insert(steps.end(), j.steps.begin(), j.steps.end());
         }

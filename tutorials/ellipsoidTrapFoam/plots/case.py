@@ -129,7 +129,7 @@ class Case:
 
     @cached_property
     def semi_axes(self):
-        """The cells' semi-axes."""
+        """The cells' semi-axes; where sizes vary those of the median cell."""
         words = self.properties.get("cell", {}).get("semiAxes", DEFAULT_SEMI_AXES)
         try:
             axes = np.array(words, dtype=float)
@@ -139,6 +139,24 @@ class Case:
             file = self.path("constant", "ellipsoidCloudProperties")
             raise CaseError(f"{file}: cell/semiAxes are not three positive numbers")
         return axes * MICRO
+
+    @cached_property
+    def sizes(self):
+        """Cell id to its (length, width) in metres; empty where all cells are alike."""
+        if "sizes" not in self.properties.get("cell", {}):
+            return {}
+        types = [("id", int), ("length", float), ("width", float)]
+        rows = read_csv(os.path.join(self.results, "events.csv"), types)
+        return {int(cell): (float(length), float(width)) for cell, length, width in rows}
+
+    def semi_axes_of(self, cell):
+        """The semi-axes of one cell: length along the second, width along the first."""
+        axes = self.semi_axes
+        if cell not in self.sizes:
+            return axes
+        length, width = self.sizes[cell]
+        wider = width * MICRO / (2 * axes[0])
+        return np.array((wider * axes[0], length * MICRO / 2, wider * axes[2]))
 
     @cached_property
     def design(self):

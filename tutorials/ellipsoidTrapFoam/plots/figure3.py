@@ -135,7 +135,8 @@ def draw_beads(ax, case, scale):
     layout, count, radius = contact_of(case)
     a1, a2, _ = case.semi_axes
     reach = max(a2, a1) + radius
-    bare(ax, (-1.25 * reach, 1.25 * reach), (-0.8 * reach, 0.8 * reach), "C  the cell and its beads")
+    name = f"C  the {'median ' * bool(case.sizes)}cell and its beads"
+    bare(ax, (-1.25 * reach, 1.25 * reach), (-0.8 * reach, 0.8 * reach), name)
     lie = np.array((np.sin(np.pi / 4) * np.array((0, 0, -1))).tolist() + [np.cos(np.pi / 4)])
     centres = poses.beads(layout, count, radius, case.semi_axes)
     sphere = np.full(3, radius)
@@ -165,10 +166,11 @@ def sequence(case, cell):
     track = case.tracks[cell].finer(10)
     length = track.travelled
     total = min(SPAN, length[-1])
-    if total < 2 * case.semi_axes.max():
+    longest = case.semi_axes_of(cell).max()
+    if total < 2 * longest:
         angle = track.turned
         shown = track.at(np.interp(np.linspace(0, min(np.pi, angle[-1]), POSES), angle, track.t))
-        shown.x[:, 0] += 2.3 * case.semi_axes.max() * (np.arange(POSES) - POSES // 2)
+        shown.x[:, 0] += 2.3 * longest * (np.arange(POSES) - POSES // 2)
         return shown, True
     middle = length[np.searchsorted(track.t, found.flip)] if found else length[-1] - total / 2
     start = np.clip(middle - total / 2, 0, length[-1] - total)
@@ -179,9 +181,10 @@ def draw_sequence(ax, case, cell, scale):
     """The cell at discrete times, seen from above at an angle."""
     view = bodies.camera(-90, 55)
     shown, apart = sequence(case, cell)
+    semi_axes = case.semi_axes_of(cell)
     height = shown.x[:, 2].mean()
     seen = (shown.x @ view.T)[:, :2]
-    pad = 2.2 * case.semi_axes.max()
+    pad = 2.2 * semi_axes.max()
     low, high = seen.min(axis=0) - pad * (1 + apart), seen.max(axis=0) + pad * (1 + apart)
     # Wide enough for the names of the times
     low[0], high[0] = min(low[0], seen[:, 0].mean() - 14), max(high[0], seen[:, 0].mean() + 14)
@@ -193,11 +196,11 @@ def draw_sequence(ax, case, cell, scale):
             for part in ends:
                 ax.plot(part[:, 0], part[:, 1], color="black", linewidth=1.4, zorder=0)
     bodies.show(ax, [
-        bodies.Body(x, q, case.semi_axes, AHEAD, BEHIND) for x, q in zip(shown.x, shown.q)
+        bodies.Body(x, q, semi_axes, AHEAD, BEHIND) for x, q in zip(shown.x, shown.q)
     ], view, scale, zorder=1)
     fastest = np.linalg.norm(shown.u, axis=1).max()
     quickest = np.linalg.norm(shown.omega, axis=1).max()
-    reach = 2.6 * case.semi_axes.max()
+    reach = 2.6 * semi_axes.max()
     for t, x, u, q, omega in zip(shown.t, shown.x, shown.u, shown.q, shown.omega):
         if fastest > RESTING:
             arrow(ax, x, x + reach * u / fastest, "", "black", width=1.5, view=view)

@@ -58,13 +58,15 @@ def in_words(held, trials):
 def reached(case):
     """Sieve to the cells that reached it."""
     paths = {cell: track.finer().x for cell, track in case.tracks.items()}
-    owner = np.repeat(list(paths), [len(path) for path in paths.values()])
+    counts = [len(path) for path in paths.values()]
+    owner = np.repeat(list(paths), counts)
+    reach = np.repeat([case.semi_axes_of(cell).max() for cell in paths], counts)
     points = np.concatenate(list(paths.values()))
     found = {}
     for name in case.sieves:
-        near = walls.distance(case, [name], points, within=case.semi_axes.max())
+        near = walls.distance(case, [name], points, within=reach.max())
         # What touches a cell caught before is held without having come so near
-        found[name] = set(owner[np.isfinite(near)].tolist()) | {
+        found[name] = set(owner[near <= reach].tolist()) | {
             cell for cell, fate in case.fates.items()
             if fate.name == "caught" and fate.patch == name
         }
@@ -115,8 +117,9 @@ def draw(case, designs=()):
         for edge in np.arange(len(names) - 1) + 0.5:
             ax.axvline(edge, color="0.85", linewidth=0.6)
     style.legend_below(axes[1], axes[0].get_legend_handles_labels()[0])
+    length = f"{cases[0].semi_axes.max():g} µm" + " for the median cell" * bool(cases[0].sizes)
     style.describe(figure, f"""Trapping performance of every sieve by itself, with Wilson's 95 %
         intervals. A cell has reached a sieve when its centre has come within its longest
-        semi-axis, {cases[0].semi_axes.max():g} µm, of the sieve's walls. In the table, in brackets:
+        semi-axis, {length}, of the sieve's walls. In the table, in brackets:
         the intervals in per cent.""", table)
     return figure

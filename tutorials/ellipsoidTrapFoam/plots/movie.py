@@ -147,13 +147,13 @@ def draw(case, sieve=None):
         clock = begin + BEFORE + times - k * APART
         there = (clock >= track.t[0]) & (clock <= track.t[-1])
         colours = STAYS if case.fates[cell].name == "caught" else PASSES
-        poses.append((there, track.at(clock), colours))
+        poses.append((there, track.at(clock), case.semi_axes_of(cell), colours))
 
     frames = []
     for i, t in enumerate(times):
         cells = [
-            bodies.Body(track.x[i], track.q[i], case.semi_axes, *colours)
-            for there, track, colours in poses if there[i]
+            bodies.Body(track.x[i], track.q[i], semi_axes, *colours)
+            for there, track, semi_axes, colours in poses if there[i]
         ]
         over = bodies.picture(cells, bodies.FROM_ABOVE, *window, SCALE)
         frame = stage.copy()

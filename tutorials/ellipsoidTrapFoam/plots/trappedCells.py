@@ -89,7 +89,7 @@ def draw(case):
         for cell in at_rest:
             track = case.tracks[cell]
             ax.add_patch(Polygon(
-                shadow(track.x[-1], track.q[-1], case.semi_axes),
+                shadow(track.x[-1], track.q[-1], case.semi_axes_of(cell)),
                 facecolor=CELL_COLOURS[case.fates[cell].name], edgecolor="black",
                 linewidth=0.9, alpha=0.7,
             ))
