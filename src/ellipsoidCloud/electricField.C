@@ -52,7 +52,11 @@ Foam::autoPtr<FieldType> Foam::electricField::read
 
     const bool there =
         returnReduce(io.typeHeaderOk<FieldType>(false), andOp<bool>());
-    const bool fits = there && io.headerClassName() == FieldType::typeName;
+    const bool fits = returnReduce
+    (
+        there && io.headerClassName() == FieldType::typeName,
+        andOp<bool>()
+    );
 
     autoPtr<FieldType> field;
     if (fits)

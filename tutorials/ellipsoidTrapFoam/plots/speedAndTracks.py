@@ -19,7 +19,7 @@ def draw(case):
     image = style.draw_speed(ax, plane, vmin=0)
     style.draw_outlines(ax, case)
     style.name_openings(ax, case)
-    figure.colorbar(image, ax=ax, label="speed |u| at half depth [mm/s]", aspect=35, pad=0.02)
+    figure.colorbar(image, ax=ax, label="speed |u| at\nhalf depth [mm/s]", aspect=35, pad=0.02)
 
     keys = []
     for fate, line in style.FATE_LINES.items():
