@@ -376,6 +376,18 @@ Foam::captureMap::captureMap
 
     const label n = 1 << levels_;
 
+    {
+        const masterFirst once;
+
+        if (scalar(nPlaces(0))*nPlaces(1) > labelMax)
+        {
+            FatalIOErrorInFunction(dict)
+                << "squares and levels make a lattice of " << nPlaces(0)
+                << " x " << nPlaces(1) << " places" << nl
+                << "    allowed: " << labelMax << " in all" << exit(FatalIOError);
+        }
+    }
+
     forAll(poses_, p)
     {
         for (label j = 0; j <= nFirst_[1]; ++j)

@@ -216,7 +216,12 @@ void Foam::captureMap::writeSummary(Ostream& os) const
 
 void Foam::captureMap::report(Ostream& os) const
 {
-    const inletPlane::window w(windowOf(square{place{0, 0, 0}, levels_}));
+    label finest = 0;
+    for (const square& one : squares_)
+    {
+        finest = max(finest, one.level);
+    }
+    const inletPlane::window w(windowOf(square{place{0, 0, 0}, finest}));
 
     os  << nl << "capture map: " << poses_.size() << " orientations, "
         << starts_.size() << " starts, " << nFollowed_ << " cells followed"

@@ -191,7 +191,7 @@ def draw(case):
         axis = ", ".join(f"{pose[f'O{i}']:.2f}".replace("-", "−") for i in (1, 2, 3))
         ax.set_title(
             f"{pose['name']}, long axis ({axis}):\n{likely:.2%} caught "
-            f"({100 * least:.2f} to {100 * most:.2f})", pad=20,
+            f"({100 * least:.2f} to {100 * most:.2f})", pad=26,
         )
     for ax in axes.flat[len(maps):]:
         ax.remove()
