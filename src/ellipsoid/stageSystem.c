@@ -13,6 +13,9 @@
 #include <math.h>
 #include <string.h>
 
+/* Of the squared determinant of three rows to that of perpendicular ones. */
+static const double nearly_singular = 1e-12;
+
 /* What is needed on the way there. */
 typedef struct elimination
 {
@@ -41,6 +44,68 @@ static inline void multiply3(double sign, double left[3][3], double right[3][3],
     }
 }
 
+/* By elimination with pivots; 0 if it is singular. */
+static int eliminate3(double m[3][3], double inverse[3][3])
+{
+    double row[3][6];
+    int regular = 1;
+
+    for (int i = 0; i < 3; i++)
+    {
+        ellipsoid_copy(m[i], row[i]);
+        ellipsoid_set(row[i] + 3, i == 0, i == 1, i == 2);
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        int pivot = i;
+
+        for (int n = i + 1; n < 3; n++)
+        {
+            pivot = fabs(row[n][i]) > fabs(row[pivot][i]) ? n : pivot;
+        }
+        for (int j = i; j < 6; j++)
+        {
+            const double kept = row[pivot][j];
+
+            row[pivot][j] = row[i][j];
+            row[i][j] = kept;
+        }
+        regular = regular && isnormal(row[i][i]);
+        for (int n = 0; n < 3; n++)
+        {
+            const double part = row[n][i] / row[i][i];
+
+            for (int j = i + 1; n != i && j < 6; j++)
+            {
+                row[n][j] -= part * row[i][j];
+            }
+        }
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        for (int j = 0; j < 3; j++)
+        {
+            inverse[i][j] = row[i][j + 3] / row[i][i];
+        }
+    }
+    return regular;
+}
+
+/* Where a stiff contact holds one direction the cofactors lose the square of
+   how much stiffer that is, and the determinant is small. */
+static int invert3(double m[3][3], double inverse[3][3])
+{
+    double minor[3], determinant, rows;
+
+    ellipsoid_cross(m[0], m[1], minor);
+    determinant = ellipsoid_dot(minor, m[2]);
+    rows = ellipsoid_dot(m[0], m[0]) * ellipsoid_dot(m[1], m[1])
+         * ellipsoid_dot(m[2], m[2]);
+    return determinant * determinant > nearly_singular * rows
+             ? ellipsoid_invert3(m, inverse)
+             : eliminate3(m, inverse);
+}
+
 /*
     In place, by blocks of 3x3: with S the last of the four, a, b, c, and
     M = a - b S^-1 c the inverse is
@@ -62,7 +127,7 @@ int ellipsoid_invert6(double m[6][6])
         ellipsoid_copy(m[i + 3], c[i]);
         ellipsoid_copy(m[i + 3] + 3, last[i]);
     }
-    regular = ellipsoid_invert3(last, s);
+    regular = invert3(last, s);
     multiply3(1, b, s, bs);
     multiply3(1, s, c, sc);
     multiply3(1, bs, c, bsc);
@@ -70,7 +135,7 @@ int ellipsoid_invert6(double m[6][6])
     {
         ellipsoid_difference(a[i], bsc[i], a[i]);
     }
-    regular = regular && ellipsoid_invert3(a, first);
+    regular = regular && invert3(a, first);
     multiply3(-1, first, bs, above);
     multiply3(-1, sc, first, below);
     multiply3(-1, sc, above, rest);
