@@ -13,8 +13,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Of the squared determinant of three rows to that of perpendicular ones. */
-static const double nearly_singular = 1e-12;
+/* The square of a determinant by that of perpendicular rows of the same lengths,
+   below which digits are lost. */
+static const double flat = 1e-10;
 
 /* What is needed on the way there. */
 typedef struct elimination
@@ -44,26 +45,29 @@ static inline void multiply3(double sign, double left[3][3], double right[3][3],
     }
 }
 
-/* By elimination with pivots; 0 if it is singular. */
-static int eliminate3(double m[3][3], double inverse[3][3])
+/* In place, by elimination with row exchanges; 0 if it is singular. */
+static int eliminate6(double m[6][6])
 {
-    double row[3][6];
+    double row[6][12];
     int regular = 1;
 
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 6; i++)
     {
-        ellipsoid_copy(m[i], row[i]);
-        ellipsoid_set(row[i] + 3, i == 0, i == 1, i == 2);
+        for (int j = 0; j < 6; j++)
+        {
+            row[i][j] = m[i][j];
+            row[i][j + 6] = i == j;
+        }
     }
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 6; i++)
     {
         int pivot = i;
 
-        for (int n = i + 1; n < 3; n++)
+        for (int n = i + 1; n < 6; n++)
         {
             pivot = fabs(row[n][i]) > fabs(row[pivot][i]) ? n : pivot;
         }
-        for (int j = i; j < 6; j++)
+        for (int j = i; j < 12; j++)
         {
             const double kept = row[pivot][j];
 
@@ -71,29 +75,25 @@ static int eliminate3(double m[3][3], double inverse[3][3])
             row[i][j] = kept;
         }
         regular = regular && isnormal(row[i][i]);
-        for (int n = 0; n < 3; n++)
+        for (int n = 0; n < 6; n++)
         {
             const double part = row[n][i] / row[i][i];
 
-            for (int j = i + 1; n != i && j < 6; j++)
+            for (int j = i + 1; n != i && j < 12; j++)
             {
                 row[n][j] -= part * row[i][j];
             }
         }
     }
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 36; i++)
     {
-        for (int j = 0; j < 3; j++)
-        {
-            inverse[i][j] = row[i][j + 3] / row[i][i];
-        }
+        m[i / 6][i % 6] = row[i / 6][i % 6 + 6] / row[i / 6][i / 6];
     }
     return regular;
 }
 
-/* Where a stiff contact holds one direction the cofactors lose the square of
-   how much stiffer that is, and the determinant is small. */
-static int invert3(double m[3][3], double inverse[3][3])
+/* Is it stiffer in one direction, as a contact makes it? */
+static int is_stiff(double m[3][3])
 {
     double minor[3], determinant, rows;
 
@@ -101,17 +101,16 @@ static int invert3(double m[3][3], double inverse[3][3])
     determinant = ellipsoid_dot(minor, m[2]);
     rows = ellipsoid_dot(m[0], m[0]) * ellipsoid_dot(m[1], m[1])
          * ellipsoid_dot(m[2], m[2]);
-    return determinant * determinant > nearly_singular * rows
-             ? ellipsoid_invert3(m, inverse)
-             : eliminate3(m, inverse);
+    return !(determinant * determinant > flat * rows);
 }
 
 /*
     In place, by blocks of 3x3: with S the last of the four, a, b, c, and
     M = a - b S^-1 c the inverse is
         (M^-1, -M^-1 b S^-1; -S^-1 c M^-1, S^-1 + S^-1 c M^-1 b S^-1).
-    Where a stiff contact couples u and omega, M loses digits, a few of sixteen,
-    to the difference (test_rosenbrock.c). 0 if S or M is singular.
+    Where a stiff contact holds one direction this loses the square of how much
+    stiffer that is than drag, to cofactors and to the difference, elimination
+    only once (test_rosenbrock.c). 0 if the matrix is singular.
 */
 int ellipsoid_invert6(double m[6][6])
 {
@@ -127,7 +126,11 @@ int ellipsoid_invert6(double m[6][6])
         ellipsoid_copy(m[i + 3], c[i]);
         ellipsoid_copy(m[i + 3] + 3, last[i]);
     }
-    regular = invert3(last, s);
+    if (is_stiff(last))
+    {
+        return eliminate6(m);
+    }
+    regular = ellipsoid_invert3(last, s);
     multiply3(1, b, s, bs);
     multiply3(1, s, c, sc);
     multiply3(1, bs, c, bsc);
@@ -135,7 +138,11 @@ int ellipsoid_invert6(double m[6][6])
     {
         ellipsoid_difference(a[i], bsc[i], a[i]);
     }
-    regular = regular && invert3(a, first);
+    if (is_stiff(a))
+    {
+        return eliminate6(m);
+    }
+    regular = regular && ellipsoid_invert3(a, first);
     multiply3(-1, first, bs, above);
     multiply3(-1, sc, first, below);
     multiply3(-1, sc, above, rest);
