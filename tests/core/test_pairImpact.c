@@ -161,6 +161,12 @@ static void check_what_is_kept(ellipsoid_contact_shape shape)
         kept before, after;
         double allowed, scale = 0, change[3];
 
+        /* One longer and thinner, with more beads */
+        if (!is_ball)
+        {
+            options[1] = ellipsoid_options_resized(&options[0], 6, 0.8);
+            assert_int_equal(options[1].bead_count, 68);
+        }
         for (int k = 0; k < 2; k++)
         {
             options[k].friction = rough ? 0.4 : 0;
