@@ -182,10 +182,11 @@ def plan_of(top):
 def check_rings(top, plan):
     """Refuse polygons that are none, cross or lie in one another."""
     for ring in plan:
-        middle = rings.edges(ring)
-        for edge, after in zip(middle, middle[1:] + middle[:1]):
+        line = rings.edges(ring)
+        for edge in line:
             if math.dist(edge.start, edge.end) < TOUCH:
                 top.fail(f"polygon '{ring.what}' has the point {at(edge.start)} twice")
+        for edge, after in zip(line, line[1:] + line[:1]):
             back = math.dist(after.end, rings.foot(after.end, edge.start, edge.end))
             ahead = math.dist(edge.start, rings.foot(edge.start, after.start, after.end))
             if min(back, ahead) < TOUCH:

@@ -162,11 +162,28 @@ def logged(case, pattern, name="ellipsoidTrapFoam"):
     return found[-1] if found else None
 
 
+# Entry of constant/generated/plan to what it is
+PLAN = {
+    "obstacles": "obstacles", "area": "area of the fluid in the plan [µm²]",
+    "narrowestGap": "narrowest gap [µm]", "finestCell": "finest mesh cells in the plan [µm]",
+}
+
+
+def direction(case):
+    """Along which axis of the plan most of the fluid flows, if any."""
+    plane = case.plane
+    mean = np.abs(plane.areas @ plane.velocity[:, :2]) / plane.areas.sum()
+    along = int(np.argmax(mean))
+    if mean[along] < 0.1 * np.linalg.norm(plane.velocity, axis=1).max():
+        return ""
+    return f", flow along {'xy'[along]}"
+
+
 def device(case):
     """The geometry."""
     low, high = case.depth
     (x0, x1), (y0, y1) = case.plane.bounds
-    rows = [("Size", f"{x1 - x0:.4g} x {y1 - y0:.4g} x {high - low:.4g} µm, flow along y")]
+    rows = [("Size", f"{x1 - x0:.4g} x {y1 - y0:.4g} x {high - low:.4g} µm{direction(case)}")]
     file = case.path("constant", "trapGeometry")
     if os.path.isfile(file):
         given = read_dictionary(file)
@@ -174,6 +191,10 @@ def device(case):
         design = given["designs"].get(case.design, {})
         rows.append(("design of the sieves", case.design))
         rows += [(f"design: {key}", value) for key, value in design.items()]
+    file = case.path("constant", "generated", "plan")
+    if os.path.isfile(file):
+        given = read_dictionary(file)
+        rows += [(told, given[key]) for key, told in PLAN.items() if key in given]
     if case.sieves:
         middles = (case.plane.outlines[name].reshape(-1, 2) for name in case.sieves)
         rows.append(("sieves, middle (x y) [µm]", "; ".join(
