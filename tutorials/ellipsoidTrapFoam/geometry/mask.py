@@ -211,9 +211,12 @@ def check_rings(top, plan):
             (x0, x1), (y0, y1) = rings.bounds(outline.points)
             top.fail(f"obstacle '{ring.what}' at {at((x, y))} lies outside the outline, which spans "
                      f"x {x0:g} to {x1:g}, y {y0:g} to {y1:g}")
-        for other in plan[1:]:
-            if other is not ring and rings.contains(other.points, x, y):
-                top.fail(f"obstacles '{ring.what}' and '{other.what}' overlap: one lies in the other")
+    boxes = [rings.bounds(ring.points) for ring in plan]
+    for ring, other in itertools.permutations(range(1, len(plan)), 2):
+        if all(low <= v <= high for v, (low, high) in zip(plan[ring].points[0], boxes[other])) \
+                and rings.contains(plan[other].points, *plan[ring].points[0]):
+            top.fail(f"obstacles '{plan[ring].what}' and '{plan[other].what}' overlap: "
+                     "one lies in the other")
 
 
 def size_of(d, key, base):
