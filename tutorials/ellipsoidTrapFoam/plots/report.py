@@ -194,7 +194,7 @@ def device(case):
     file = case.path("constant", "generated", "plan")
     if os.path.isfile(file):
         given = read_dictionary(file)
-        rows += [(told, given[key]) for key, told in PLAN.items() if key in given]
+        rows += [(told, f"{float(given[key]):.4g}") for key, told in PLAN.items() if key in given]
     if case.sieves:
         middles = (case.plane.outlines[name].reshape(-1, 2) for name in case.sieves)
         rows.append(("sieves, middle (x y) [µm]", "; ".join(
