@@ -16,7 +16,7 @@ import re
 import rings
 from entries import read
 from rings import TOUCH, Ring
-from surfaces import Output, curtain, flux_entry, slab, through
+from surfaces import Output, curtain, flux_entry, patch_flux_entry, slab, through
 
 PARAMETERS = "constant/chip"
 WALLS = "walls.stl"
@@ -337,6 +337,8 @@ def sections_of(top, depth):
     """Function objects of the sections."""
     sections, text = top.sub_if("sections"), ""
     for name in sections.entries:
+        if OPENING.fullmatch(patch_name(sections, name)):
+            sections.fail(f"'{sections.name}{name}': names of openings are taken: another name")
         ends = [sections.numbers(value, 2, key, "a point (x y)") for value, key in sections.items(name)]
         same = [axis for axis in (0, 1) if len(ends) == 2 and abs(ends[0][axis] - ends[1][axis]) < TOUCH]
         if len(same) != 1:
@@ -384,7 +386,8 @@ def make_mask(resolution):
     out.text("boxLevels", "".join(
         f"box_{name} {{ mode inside; levels ((1e15 {level})); }}\n" for name, (*_, level) in mesh.boxes.items()
     ))
-    out.text("sectionFluxes", sections)
+    inlets = [name for name in mesh.levels if name.startswith("inlet")]
+    out.text("sectionFluxes", "".join(map(patch_flux_entry, inlets)) + sections)
     facts = {"obstacles": len(plan) - 1, "area": area, "depth": depth, "finestCell": mesh.finest()}
     if narrowest:
         facts["narrowestGap"] = narrowest.width

@@ -89,6 +89,20 @@ def flux_entry(name, ends, axis, depth):
 """
 
 
+def patch_flux_entry(name):
+    """The same through a patch."""
+    return f"""
+{name}
+{{
+    $flux;
+    regionType      patch;
+    name            {name};
+    operation       sum;
+    fields          (phi);
+}}
+"""
+
+
 class Output:
     """The folders constant/triSurface and constant/generated of the case."""
 

@@ -155,11 +155,15 @@ def title_of(case):
     return os.path.basename(case.folder)
 
 
+def all_logged(case, pattern, name="ellipsoidTrapFoam"):
+    """All that a log says of a kind."""
+    file = case.path("log." + name)
+    return re.findall(pattern, read_text(file)) if os.path.isfile(file) else []
+
+
 def logged(case, pattern, name="ellipsoidTrapFoam"):
     """What a log says last, or None."""
-    file = case.path("log." + name)
-    found = re.findall(pattern, read_text(file)) if os.path.isfile(file) else []
-    return found[-1] if found else None
+    return next(reversed(all_logged(case, pattern, name)), None)
 
 
 # Entry of constant/generated/plan to what it is
@@ -210,23 +214,25 @@ def flow(case):
     said = (
         ("mean inlet speed", r"flow: mean inlet speed (\S+) m/s", MILLI, "mm/s"),
         ("pressure drop", r"flow: pressure drop \S+ m2/s2 \((\S+) Pa\)", 1, "Pa"),
-        ("flux through the inlet", r"flow: \w+: (\S+) m3/s in,", 1e12, "10⁻¹² m³/s"),
     )
     rows = []
     for name, pattern, scale, unit in said:
         value = logged(case, pattern)
         if value is not None:
             rows.append((name, f"{scale * float(value):.4g} {unit}"))
+    # A chip may have several inlets
+    for patch, value in dict(all_logged(case, r"flow: (\w+): (\S+) m3/s in,")).items():
+        rows.append((f"flux through the patch {patch}", f"{1e12 * float(value):.4g} 10⁻¹² m³/s"))
     found = logged(case, r"flow: (converged in \d+ iterations|already converged[^\n]*)")
     if found:
         rows.append(("steady state", found))
     rows.append(("mesh", f"{case.mesh_size:,} mesh cells"))
     parts = [words_table(rows)]
     shares = case.fluxes
-    total = shares.pop("inlet", 0)
+    total = sum(shares.pop(name) for name in list(shares) if name.startswith("inlet"))
     if total and shares:
         parts.append(table_of(
-            [["sieve", *shares], ["share of the inlet's flux"]
+            [["through", *shares], ["share of what enters"]
              + [f"{value / total:.2%}" for value in shares.values()]]
         ))
     return "\n".join(parts)
