@@ -112,6 +112,9 @@ def of_cell(case, cell, sieve=SIEVE):
 
 def best(case, sieve=SIEVE):
     """The account that fits best."""
+    if not case.chamber:
+        raise NotApplicable("the paper's account is of a circular trap, which this case is not "
+                            "(no constant/trapGeometry): give the id of a cell")
     told = [one for one in (of_cell(case, cell, sieve) for cell in case.tracks) if one]
     if not told:
         raise NotApplicable(f"no escaped cell flips after it has passed {sieve}")

@@ -387,7 +387,7 @@ class Case:
 
     @property
     def fluxes(self):
-        """Flux [m3/s] through the inlet and each sieve, as system/apertureFluxes logged it."""
+        """Flux [m3/s] through inlets, sieves or sections, as postProcess logged it."""
         file = self.path("log.postProcess")
         found = {}
         for block in (read_text(file) if os.path.isfile(file) else "").split("surfaceFieldValue "):

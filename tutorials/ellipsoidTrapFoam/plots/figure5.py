@@ -36,6 +36,10 @@ def finest(plane, name):
     low, high = corners.min(axis=0), corners.max(axis=0)
     middles = np.array([polygon.mean(axis=0) for polygon in plane.polygons])
     inside = ((middles > low) & (middles < high)).all(axis=1)
+    # A sieve may fill its box
+    while not inside.any():
+        low, high = low - 0.1 * (high - low), high + 0.1 * (high - low)
+        inside = ((middles > low) & (middles < high)).all(axis=1)
     small = inside & (plane.areas < 2 * plane.areas[inside].min())
     low, high = middles[small].min(axis=0), middles[small].max(axis=0)
     half = 0.6 * max(high - low)

@@ -115,7 +115,8 @@ def draw(case):
         ])
     ratios = np.divide(*facts)
     table.append(["ratio of the medians"] + [f"{ratio:.2f}" for ratio in ratios])
-    style.describe(figure, f"""Spin rate of moving cells in the chamber against the distance of
+    where = " in the chamber" if case.chamber else ""
+    style.describe(figure, f"""Spin rate of moving cells{where} against the distance of
         their centre from the sieves' walls: medians and quartiles of the {len(rows.spin)} rows
         within {FAR:g} µm. Of the cells that pass, the median nearer than {CLOSE:g} µm is
         {ratios[0]:.1f} times that beyond {APART:g} µm; in the middle of the depth, where

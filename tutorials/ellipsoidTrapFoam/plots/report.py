@@ -159,18 +159,39 @@ def title_of(case):
     return os.path.basename(case.folder)
 
 
+def all_logged(case, pattern, name="ellipsoidTrapFoam"):
+    """All that a log says of a kind."""
+    file = case.path("log." + name)
+    return re.findall(pattern, read_text(file)) if os.path.isfile(file) else []
+
+
 def logged(case, pattern, name="ellipsoidTrapFoam"):
     """What a log says last, or None."""
-    file = case.path("log." + name)
-    found = re.findall(pattern, read_text(file)) if os.path.isfile(file) else []
-    return found[-1] if found else None
+    return next(reversed(all_logged(case, pattern, name)), None)
+
+
+# Entry of constant/generated/plan to what it is
+PLAN = {
+    "obstacles": "obstacles", "area": "area of the fluid in the plan [µm²]",
+    "narrowestGap": "narrowest gap [µm]", "finestCell": "finest mesh cells in the plan [µm]",
+}
+
+
+def direction(case):
+    """Along which axis of the plan most of the fluid flows, if any."""
+    plane = case.plane
+    mean = np.abs(plane.areas @ plane.velocity[:, :2]) / plane.areas.sum()
+    along = int(np.argmax(mean))
+    if mean[along] < 0.1 * np.linalg.norm(plane.velocity, axis=1).max():
+        return ""
+    return f", flow along {'xy'[along]}"
 
 
 def device(case):
     """The geometry."""
     low, high = case.depth
     (x0, x1), (y0, y1) = case.plane.bounds
-    rows = [("Size", f"{x1 - x0:.4g} x {y1 - y0:.4g} x {high - low:.4g} µm, flow along y")]
+    rows = [("Size", f"{x1 - x0:.4g} x {y1 - y0:.4g} x {high - low:.4g} µm{direction(case)}")]
     file = case.path("constant", "trapGeometry")
     if os.path.isfile(file):
         given = read_dictionary(file)
@@ -178,6 +199,10 @@ def device(case):
         design = given["designs"].get(case.design, {})
         rows.append(("design of the sieves", case.design))
         rows += [(f"design: {key}", value) for key, value in design.items()]
+    file = case.path("constant", "generated", "plan")
+    if os.path.isfile(file):
+        given = read_dictionary(file)
+        rows += [(told, f"{float(given[key]):.4g}") for key, told in PLAN.items() if key in given]
     if case.sieves:
         middles = (case.plane.outlines[name].reshape(-1, 2) for name in case.sieves)
         rows.append(("sieves, middle (x y) [µm]", "; ".join(
@@ -193,23 +218,25 @@ def flow(case):
     said = (
         ("mean inlet speed", r"flow: mean inlet speed (\S+) m/s", MILLI, "mm/s"),
         ("pressure drop", r"flow: pressure drop \S+ m2/s2 \((\S+) Pa\)", 1, "Pa"),
-        ("flux through the inlet", r"flow: \w+: (\S+) m3/s in,", 1e12, "10⁻¹² m³/s"),
     )
     rows = []
     for name, pattern, scale, unit in said:
         value = logged(case, pattern)
         if value is not None:
             rows.append((name, f"{scale * float(value):.4g} {unit}"))
+    # A chip may have several inlets
+    for patch, value in dict(all_logged(case, r"flow: (\w+): (\S+) m3/s in,")).items():
+        rows.append((f"flux through the patch {patch}", f"{1e12 * float(value):.4g} 10⁻¹² m³/s"))
     found = logged(case, r"flow: (converged in \d+ iterations|already converged[^\n]*)")
     if found:
         rows.append(("steady state", found))
     rows.append(("mesh", f"{case.mesh_size:,} mesh cells"))
     parts = [words_table(rows)]
     shares = case.fluxes
-    total = shares.pop("inlet", 0)
+    total = sum(shares.pop(name) for name in list(shares) if name.startswith("inlet"))
     if total and shares:
         parts.append(table_of(
-            [["sieve", *shares], ["share of the inlet's flux"]
+            [["through", *shares], ["share of what enters"]
              + [f"{value / total:.2%}" for value in shares.values()]]
         ))
     return "\n".join(parts)

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# This file is part of ellipsoidTrapFoam.
+#
+# ellipsoidTrapFoam is free software: you can redistribute it and/or modify it
+# under the terms of the GNU General Public License as published by the Free
+# Software Foundation, either version 3 of the License, or (at your option) any
+# later version. It comes with ABSOLUTELY NO WARRANTY; see the file COPYING.
+"""Parameter files of the makeGeometry scripts: OpenFOAM's dictionaries of words, numbers and
+nested lists, with checked look-up. What is wrong ends the script with one line."""
+
+import math
+import os
+import re
+import sys
+
+
+def chosen(usage, names):
+    """Options '-name VALUE' of the command line; None where not given."""
+    options = dict.fromkeys(names)
+    arguments = sys.argv[1:]
+    if len(arguments) % 2 or any(a not in options for a in arguments[::2]):
+        sys.exit(usage)
+    options.update(zip(arguments[::2], arguments[1::2]))
+    return options
+
+
+def read(file):
+    """The entries of a parameter file."""
+    return Entries(_parse(_text(file, file), file), "", file)
+
+
+def fail(file, message):
+    """End the script."""
+    sys.exit(f"makeGeometry: {file}: {message}")
+
+
+def _text(file, top, above=()):
+    """Text of a file without comments, what it includes put in."""
+    if os.path.realpath(file) in above:
+        fail(top, f"{file} includes itself")
+    above += (os.path.realpath(file),)
+    try:
+        with open(file, encoding="utf-8") as source:
+            text = source.read()
+    except (OSError, UnicodeDecodeError) as error:
+        fail(top, f"cannot read {file}: {getattr(error, 'strerror', None) or error}")
+    text = re.sub(r"/\*.*?\*/|//[^\n]*", " ", text, flags=re.S)
+
+    def included(match):
+        return _text(os.path.join(os.path.dirname(file), match.group(1)), top, above)
+
+    return re.sub(r'#include\s+"([^"]*)"', included, text)
+
+
+def _parse(text, file):
+    """Nested dict of an OpenFOAM dictionary; lists as nested lists of words."""
+    tokens = re.findall(r"[{};()]|[^\s{};()]+", text)
+
+    def unreadable(key):
+        fail(file, f"cannot read entry '{key}'")
+
+    def listed(words, key):
+        """Nested lists of the words between the outermost brackets."""
+        stack = [[]]
+        for word in words:
+            if word == "(":
+                stack.append([])
+            elif word == ")":
+                if len(stack) < 2:
+                    unreadable(key)
+                inner = stack.pop()
+                stack[-1].append(inner)
+            else:
+                stack[-1].append(word)
+        if len(stack) > 1:
+            unreadable(key)
+        return stack[0]
+
+    def dictionary(at, closing):
+        entries = {}
+        while at < len(tokens) and tokens[at] != closing:
+            key = tokens[at]
+            if at + 1 < len(tokens) and tokens[at + 1] == "{":
+                entries[key], at = dictionary(at + 2, "}")
+                continue
+            try:
+                end = tokens.index(";", at)
+            except ValueError:
+                fail(file, f"entry '{key}' has no ';'")
+            words = tokens[at + 1:end]
+            is_list = words[:1] == ["("] and words[-1:] == [")"]
+            refused = "{}" if is_list else "{}()"
+            if any(word in refused for word in words):
+                unreadable(key)
+            entries[key] = listed(words[1:-1], key) if is_list else " ".join(words)
+            at = end + 1
+        if closing and at >= len(tokens):
+            fail(file, "a '{' is not closed")
+        return entries, at + 1
+
+    return dictionary(0, None)[0]
+
+
+def shown(value):
+    """A value as it stands in the file, a long one cut."""
+    text = value if isinstance(value, str) else "(" + " ".join(map(shown, value)) + ")"
+    return text if len(text) < 60 else text[:56] + " ..."
+
+
+class Entries:
+    """A (sub-)dictionary with checked look-up."""
+
+    def __init__(self, entries, name, file):
+        self.entries, self.name, self.file = entries, name, file
+
+    def __contains__(self, key):
+        return key in self.entries
+
+    def fail(self, message):
+        """End the script with what is wrong in this file."""
+        fail(self.file, message)
+
+    def get(self, key):
+        """The value of an entry that must be there."""
+        if key not in self.entries:
+            self.fail(f"entry '{self.name}{key}' is missing")
+        return self.entries[key]
+
+    def sub(self, key):
+        """A sub-dictionary that must be there."""
+        value = self.get(key)
+        if not isinstance(value, dict):
+            have = [k for k, v in self.entries.items() if isinstance(v, dict)]
+            self.fail(f"'{self.name}{key}' is no dictionary (there are: {' '.join(have)})")
+        return Entries(value, f"{self.name}{key}.", self.file)
+
+    def sub_if(self, key):
+        """A sub-dictionary that may be left out."""
+        return self.sub(key) if key in self else Entries({}, f"{self.name}{key}.", self.file)
+
+    def choose(self, key):
+        """The sub-dictionary that an option names."""
+        if key not in self.entries:
+            self.fail(f"no '{key}' among {self.name[:-1]}: {' '.join(self.entries)}")
+        return self.sub(key)
+
+    def only(self, *known):
+        """Refuse entries that nobody reads."""
+        for key in self.entries:
+            if key not in known:
+                self.fail(f"unknown entry '{self.name}{key}'; there are: {' '.join(known)}")
+
+    def number(self, key, low=0.0, strict=True):
+        """A number above low, or not below it."""
+        value = self.get(key)
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            self.fail(f"'{self.name}{key}' is no number: {value}")
+        if not (math.isfinite(number) and (number > low or (not strict and number == low))):
+            self.fail(f"'{self.name}{key}' must be {'above' if strict else 'at least'} {low:g}: {value}")
+        return number
+
+    def integer(self, key, low=1):
+        """A whole number not below low."""
+        number = self.number(key, low, strict=False)
+        if number != int(number):
+            self.fail(f"'{self.name}{key}' must be whole: {number:g}")
+        return int(number)
+
+    def point(self, key):
+        """A point (x y)."""
+        return self.numbers(self.get(key), 2, key, "a point (x y)")
+
+    def items(self, key):
+        """A list, with what each of its members is called in messages."""
+        value = self.get(key)
+        if not isinstance(value, list) or not value:
+            self.fail(f"'{self.name}{key}' must be a list ( ... ) that is not empty: {shown(value)}")
+        return [(item, f"{key}[{i}]") for i, item in enumerate(value)]
+
+    def numbers(self, value, count, key, what):
+        """So many finite numbers in brackets."""
+        try:
+            found = tuple(float(word) for word in value)
+        except (TypeError, ValueError):
+            found = ()
+        if len(found) != count or isinstance(value, str) or not all(map(math.isfinite, found)):
+            self.fail(f"'{self.name}{key}' must be {what}: {shown(value)}")
+        return found
