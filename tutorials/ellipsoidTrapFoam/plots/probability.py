@@ -142,10 +142,11 @@ def draw(case, members=(), cells=None, precision=0.05, confidence=0.95):
             name, f"{held}/{injected}", bounded(p, *ends), bounded(share[at], *limits[at]),
             trials_for(p, precision, confidence), trials_for(share[at], precision, confidence),
         ])
-    grid.flat[0].set_ylim(0, 1)
+    # Room for the line of zero
+    grid.flat[0].set_ylim(-0.02, 1)
     grid.flat[0].set_xlim(1, max(fewest, 2))
-    figure.supxlabel("cells injected, N")
-    figure.supylabel("P(exactly one of N held)")
+    figure.supxlabel("cells injected, N", fontsize=9)
+    figure.supylabel("P(exactly one of N held)", fontsize=9)
     figure.legend(*grid.flat[0].get_legend_handles_labels(), loc="upper center", ncol=3,
                   bbox_to_anchor=(0.5, 0))
     style.describe(figure, caption(cases, members, precision, confidence), table)
