@@ -16,8 +16,7 @@ import style
 import walls
 from case import Case, NotApplicable
 from files import CaseError
-
-NORMAL_95 = 1.959963984540054   # two-sided quantile of the normal distribution
+from shares import in_words, wilson
 
 LOOKS = (
     {"marker": "o", "color": style.BLUE},
@@ -32,27 +31,6 @@ OPTIONS = {
         "help": "cases to compare, such as those of compareDesigns [CASE alone]",
     },
 }
-
-
-def wilson(successes, trials):
-    """(low, high) of a share, Wilson's score interval (Wilson 1927)."""
-    if trials == 0:
-        return 0.0, 1.0
-    z2 = NORMAL_95**2
-    share = successes / trials
-    middle = (share + z2 / (2 * trials)) / (1 + z2 / trials)
-    half = NORMAL_95 / (1 + z2 / trials) * np.sqrt(
-        share * (1 - share) / trials + z2 / (4 * trials**2)
-    )
-    # At the ends rounding must not leave [0, 1], nor the share
-    return max(0.0, min(share, middle - half)), min(1.0, max(share, middle + half))
-
-
-def in_words(held, trials):
-    """A share with its interval."""
-    low, high = wilson(held, trials)
-    share = f"{held / trials:.1%}" if trials else "-"
-    return f"{held}/{trials} = {share} ({100 * low:.1f}-{100 * high:.1f})"
 
 
 def reached(case):

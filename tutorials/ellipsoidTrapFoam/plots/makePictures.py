@@ -3,7 +3,8 @@
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
 """Make the pictures of a case, in its folder pictures, and the report of them, report.html.
 
-usage: makePictures CASE                          all but captureMap and figure4, and the report
+usage: makePictures CASE                          the report and all pictures but captureMap,
+                                                  figure4 and probability
        makePictures CASE PICTURE [OPTION...]      one; --help tells its options
        makePictures CASE report                   the report of the pictures that are there
 
@@ -17,6 +18,7 @@ PICTURE is one of
     figure5         the mesh, with close-ups of the apertures
     movie           cells that tumble past a sieve, an animation
     nearWall        spin rate against the distance from the sieves
+    probability     that a sieve catches a cell, and holds exactly one of N
     speedAndTracks  speed of the flow, tracks of all cells
     trappedCells    the cells at rest in the sieves
 
@@ -40,7 +42,7 @@ PICTURES = (
     "figure1", "deflection",
 )
 # What takes runs of its own
-BY_ITSELF = ("figure4", "captureMap")
+BY_ITSELF = ("figure4", "captureMap", "probability")
 MOST_AT_ONCE = 4   # each reads the case for itself, mesh and tracks
 
 

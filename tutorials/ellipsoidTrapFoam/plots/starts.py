@@ -1,0 +1,37 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
+"""Where the cells of a run started, for an injection of type positions.
+
+usage: starts.py CELLS.CSV      prints positions [m] and orientations (quaternions,
+                                scalar last) as OpenFOAM lists
+"""
+
+import csv
+import sys
+
+
+def cells_of(path):
+    """The rows of cells.csv, by id."""
+    with open(path, newline="", encoding="ascii") as file:
+        return sorted(csv.DictReader(file), key=lambda row: int(row["id"]))
+
+
+def main(arguments):
+    """Print the lists."""
+    if len(arguments) != 1:
+        sys.exit(__doc__)
+    rows = cells_of(arguments[0])
+    for name, keys in (
+        ("positions", ("x1", "x2", "x3")),
+        ("orientations", ("eps1", "eps2", "eps3", "eta")),
+    ):
+        print(f"{name}\n(")
+        for row in rows:
+            print("    (" + " ".join(row[key] for key in keys) + ")")
+        print(");")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
