@@ -15,7 +15,7 @@ License
 
 namespace Foam
 {
-    //- Each cell keeps the facets near it, some 40 kB
+    //- Each cell keeps the facets near it, some 30 kB
     static const label mostAtOnce = 1000;
 }
 
