@@ -32,6 +32,10 @@ static const double smoothest = 1e12, less_smooth = 0.1;
    many slip speeds. */
 static const double converged = 1e-12, nearly = 1e-8;
 
+/* Where friction or damping is 1e10 times what drag is, rounding leaves more;
+   it is taken if nothing better has come in half of the iterations. */
+static const double stalled = 1e-5;
+
 /* What is left of the power of the unbalanced forces along the change of
    velocities, if its sign has turned: then the step went too far. */
 static const double too_far = 0.5;
@@ -140,7 +144,8 @@ static ellipsoid_status iterate(ellipsoid_group *g, ellipsoid_point *points)
         before = power_along(g, points);
         move(g, part, points);
         if (are_small(g, points, converged)
-            || (before > 0.25 * previous && are_small(g, points, nearly)))
+            || (before > 0.25 * previous && are_small(g, points, nearly))
+            || (n > MOST_ITERATIONS / 2 && are_small(g, points, stalled)))
         {
             return ELLIPSOID_OK;
         }
