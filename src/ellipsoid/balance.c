@@ -20,7 +20,7 @@
 enum
 {
     MOST_ITERATIONS = 60,
-    MOST_HALVINGS = 10,
+    MOST_HALVINGS = 40, /* damping turns sharply where it lets go */
     CHANGE = ELLIPSOID_MAX_STAGES - 1 /* a stage that no implicit step has */
 };
 
