@@ -20,7 +20,7 @@
 enum
 {
     MOST_ITERATIONS = 60,
-    MOST_HALVINGS = 10,
+    MOST_HALVINGS = 40, /* damping turns sharply where it lets go */
     CHANGE = ELLIPSOID_MAX_STAGES - 1 /* a stage that no implicit step has */
 };
 
@@ -31,6 +31,10 @@ static const double smoothest = 1e12, less_smooth = 0.1;
    by this little more, and goes no further: rounding, where speeds are very
    many slip speeds. */
 static const double converged = 1e-12, nearly = 1e-8;
+
+/* Where friction or damping is 1e10 times what drag is, rounding leaves more;
+   it is taken if nothing better has come in half of the iterations. */
+static const double stalled = 1e-5;
 
 /* What is left of the power of the unbalanced forces along the change of
    velocities, if its sign has turned: then the step went too far. */
@@ -140,7 +144,8 @@ static ellipsoid_status iterate(ellipsoid_group *g, ellipsoid_point *points)
         before = power_along(g, points);
         move(g, part, points);
         if (are_small(g, points, converged)
-            || (before > 0.25 * previous && are_small(g, points, nearly)))
+            || (before > 0.25 * previous && are_small(g, points, nearly))
+            || (n > MOST_ITERATIONS / 2 && are_small(g, points, stalled)))
         {
             return ELLIPSOID_OK;
         }
