@@ -16,7 +16,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.lines import Line2D
 
-import style
+import style  # the look, by being read
 from files import CaseError, read_csv
 from shares import wilson
 
@@ -25,6 +25,9 @@ POSE = ("x1", "x2", "x3", "eps1", "eps2", "eps3", "eta")
 OTHER_FATES = ("escaped", "stalled", "inFlight", "lost")
 # Metres, and parts of 1: digits that were lost in writing make no other start
 SAME_START = 1e-12
+
+# Letters below the narrow axes
+FITS = 24
 
 # Shape and filling tell the sieves apart in grey
 MARKERS = "osD^vPX*<>"
@@ -182,8 +185,13 @@ def plot(file, members, names, sieves):
             shift = 0.8 * ((k + 0.5) / len(sieves) - 0.5)
             mark(each, places + shift, group, sieve, **look)
         mark(together, places, group, None, marker="o", markerfacecolor="black")
+        # The components of a vector one below the other
+        labels = ["\n".join(one.values[column].strip("( )").split()) for one in group]
+        widest = max(len(line) for label in labels for line in label.split("\n"))
+        if widest * len(labels) > FITS:
+            together.tick_params(axis="x", labelrotation=90)
         for ax in (each, together):
-            ax.set_xticks(places, [one.values[column].strip("( )") for one in group])
+            ax.set_xticks(places, labels)
             ax.set_xlim(-0.5, len(group) - 0.5)
             # Room for the marks of zero
             ax.set_ylim(bottom=-0.04 * ax.get_ylim()[1])
@@ -198,7 +206,8 @@ def plot(file, members, names, sieves):
         Line2D([], [], linestyle="none", color="black", markersize=5.5, label=sieve, **look)
         for sieve, look in zip(sieves, looks)
     ]
-    style.legend_below(grid[-1, 0], keys)
+    figure.legend(handles=keys, loc="upper center", bbox_to_anchor=(0.5, 0),
+                  ncol=max(len(keys), 1), columnspacing=1.2, handletextpad=0.2)
     figure.savefig(file)
     plt.close(figure)
 
