@@ -13,8 +13,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The square of a determinant by that of perpendicular rows of the same lengths,
-   below which digits are lost. */
+/* The square of a determinant by that of perpendicular rows of the same
+   lengths, below which digits are lost. */
 static const double flat = 1e-10;
 
 /* What is needed on the way there. */

@@ -522,9 +522,10 @@ static void test_stiff_direction(void **unused)
         assert_true(ellipsoid_invert6(m));
         for (int i = 0; i < 36; i++)
         {
-            assert_near(m[i / 6][i % 6],
-                        (i / 6 == i % 6)
-                            - stiff * v[i / 6] * v[i % 6] / (1 + stiff * square),
+            const double held =
+                stiff * v[i / 6] * v[i % 6] / (1 + stiff * square);
+
+            assert_near(m[i / 6][i % 6], (i / 6 == i % 6) - held,
                         5e-9 + 1e-15 * stiff);
         }
     }
