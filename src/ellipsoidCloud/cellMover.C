@@ -18,6 +18,10 @@ License
 
 namespace Foam
 {
+    //- So many cells go together at most: what a group needs grows with their
+    //  square, and is 1.3 GB then
+    static const label mostTogether = 2000;
+
     //- What the observer of a cell's steps needs
     struct cellJourney
     {
@@ -266,6 +270,21 @@ bool Foam::cellMover::move
     DynamicList<cellTracks::row>& rows
 )
 {
+    if (who.size() > mostTogether)
+    {
+        if (mayFail)
+        {
+            return false;
+        }
+
+        FatalErrorInFunction
+            << who.size() << " cells about cell " << cells[who[0]].state.id
+            << " touch one another; at most " << mostTogether
+            << " can be moved together" << nl
+            << "    let fewer enter, or set contact/cells off"
+            << exit(FatalError);
+    }
+
     const clockTime timer;
 
     admit(cells, who, rows);
