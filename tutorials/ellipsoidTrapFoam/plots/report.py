@@ -31,6 +31,7 @@ CHAPTERS = {
         ("figure1", "Cells caught against time (Figure 1 of the paper)"),
         ("trappedCells", "The cells at rest"),
         ("captureMap", "Where a cell must enter to be caught"),
+        ("probability", "How probable it is that a sieve holds exactly one"),
     ),
     "Motion": (
         ("figure2", "One cell on its way (Figure 2 of the paper)"),
