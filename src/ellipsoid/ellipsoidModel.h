@@ -3,8 +3,8 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    ellipsoidModel.h - what a body is and what acts on it: statuses, options, and
-    the model made of them. A part of ellipsoid.h, which is to be included.
+    ellipsoidModel.h - what a body is and what acts on it: statuses, options,
+    and the model made of them. A part of ellipsoid.h: include that.
 */
 #ifndef ELLIPSOID_MODEL_H
 #define ELLIPSOID_MODEL_H
@@ -171,9 +171,9 @@ ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
                                          const char **range);
 
 /*
-    The options of a cell of another length 2 a2 and width 2 a1 [m], not checked:
-    a3 and the bead radius keep their ratio to a1, and beads in rings become
-    more where they would else lie farther apart, in their radii.
+    The options of a cell of another length 2 a2 and width 2 a1 [m], not
+    checked: a3 and the bead radius keep their ratio to a1, and beads in rings
+    become more where they would else lie farther apart, in their radii.
 */
 ellipsoid_options ellipsoid_options_resized(const ellipsoid_options *options,
                                             double length, double width);

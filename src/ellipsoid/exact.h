@@ -3,7 +3,7 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    exact.h - the ellipsoid itself against wall facets.
+    exact.h - the ellipsoid itself against wall facets and other ellipsoids.
 */
 #ifndef EXACT_H
 #define EXACT_H

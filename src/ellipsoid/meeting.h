@@ -21,7 +21,8 @@ typedef struct ellipsoid_side
 typedef struct ellipsoid_meeting
 {
     const ellipsoid_body *a, *b;
-    const ellipsoid_state *state_a, *state_b; /* read where they rub */
+    const ellipsoid_state *state_a, *state_b; /* read where they rub, and for
+                                                 derivatives of exact contact */
     double stiffness;                         /* [N/m^1.5] 4/3 E* sqrt(R) */
     ellipsoid_contact_law law;
     int rubs;

@@ -252,8 +252,9 @@ ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
 static double line_in_radii(const ellipsoid_options *o)
 {
     const double *a = o->semi_axes;
+    const int inside = o->bead_layout == ELLIPSOID_BEADS_STAGGERED;
 
-    return fmax(a[0], fmax(a[1], a[2])) / o->bead_radius - 1;
+    return fmax(a[0], fmax(a[1], a[2])) / o->bead_radius - inside;
 }
 
 ellipsoid_options ellipsoid_options_resized(const ellipsoid_options *options,

@@ -278,9 +278,9 @@ bool Foam::cellMover::move
         }
 
         FatalErrorInFunction
-            << who.size() << " cells about cell " << cells[who[0]].state.id
-            << " touch one another; at most " << mostTogether
-            << " can be moved together" << nl
+            << who.size() << " cells near one another, cell "
+            << cells[who[0]].state.id << " among them, are one group; at most "
+            << mostTogether << " can be moved together" << nl
             << "    let fewer enter, or set contact/cells off"
             << exit(FatalError);
     }

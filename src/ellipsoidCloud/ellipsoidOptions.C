@@ -147,6 +147,14 @@ void Foam::ellipsoidProperties::readOptions()
     if (electricField::isNamed(forces))
     {
         electricField::checkEntries(forces);
+
+        const double* d = options_.dipole;
+        if (options_.charge == 0 && d[0] == 0 && d[1] == 0 && d[2] == 0)
+        {
+            IOWarningInFunction(forces)
+                << "a field is named in electricField, but charge and dipole"
+                << " are 0: no cell will feel it" << endl;
+        }
     }
     else
     {

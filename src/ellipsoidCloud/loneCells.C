@@ -11,6 +11,8 @@ License
 #include "electricField.H"
 #include "throughFlow.H"
 
+#include <cmath>
+
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -55,7 +57,10 @@ void Foam::loneCells::followSome
         endings[i] = ending{cellState::inFlight, -1, -1};
     }
 
-    for (label n = 0; cells.size() && n*deltaT < endTime; ++n)
+    // No last one of rounding's length
+    const label nIntervals = label(std::ceil(endTime/deltaT - 1e-6));
+
+    for (label n = 0; cells.size() && n < nIntervals; ++n)
     {
         List<cellMove> moves(cells.size());
         forAll(cells, i)
@@ -64,7 +69,7 @@ void Foam::loneCells::followSome
             moves[i].state = cells[i];
         }
 
-        const scalar end = min((n + 1)*deltaT, endTime);
+        const scalar end = n + 1 < nIntervals ? (n + 1)*deltaT : endTime;
         DynamicList<cellTracks::row> rows;
         interval.advance(moves, n*deltaT, end, rows);
         statistics.judge(cells, moves, end);

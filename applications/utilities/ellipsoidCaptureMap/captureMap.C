@@ -43,6 +43,13 @@ namespace Foam
 }
 
 
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::label Foam::captureMap::anySieve_;
+const Foam::label Foam::captureMap::noRoom_;
+const Foam::label Foam::captureMap::mostFirst_;
+
+
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::label Foam::captureMap::readSquares(const dictionary& dict)
@@ -384,7 +391,20 @@ Foam::captureMap::captureMap
             FatalIOErrorInFunction(dict)
                 << "squares and levels make a lattice of " << nPlaces(0)
                 << " x " << nPlaces(1) << " places" << nl
-                << "    allowed: " << labelMax << " in all" << exit(FatalIOError);
+                << "    allowed: " << labelMax << " in all"
+                << exit(FatalIOError);
+        }
+
+        const scalar nStarts =
+            scalar(nFirst_[0] + 1)*(nFirst_[1] + 1)*poses_.size();
+
+        if (nStarts > mostFirst_)
+        {
+            FatalIOErrorInFunction(dict)
+                << "squares and orientations make " << nStarts
+                << " first starts" << nl
+                << "    allowed: " << mostFirst_ << " in all"
+                << exit(FatalIOError);
         }
     }
 

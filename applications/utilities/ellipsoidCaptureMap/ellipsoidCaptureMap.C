@@ -93,6 +93,7 @@ int main(int argc, char *argv[])
         const masterFirst once;
 
         captureMap::check(dict, mesh.boundaryMesh(), properties.seed());
+        ellipsoidProperties::getAbove(runTime.controlDict(), "deltaT", 0);
 
         if (!solved)
         {
