@@ -57,7 +57,6 @@ static void set_velocity_slope(const ellipsoid_exact_push *p,
     }
     for (int b = 0; b < p->bodies; b++)
     {
-        double (*r)[3] = p->body[b]->rotation;
         const int turn = own_axis(k, TURN, b), turning = own_axis(k, SPIN, b);
         double change[3] = {0, 0, 0}, moved[3] = {0, 0, 0}, part[3];
 
@@ -70,6 +69,8 @@ static void set_velocity_slope(const ellipsoid_exact_push *p,
         }
         if (turning >= 0)
         {
+            double (*r)[3] = p->body[b]->rotation;
+
             ellipsoid_set(change, r[0][turning], r[1][turning], r[2][turning]);
         }
         if (k < POSE)
@@ -89,12 +90,14 @@ static void set_force_slope(const ellipsoid_exact_push *p,
                             double spin[2][3], ellipsoid_traction *t, int k,
                             double slope[3])
 {
-    double velocity[3], part[3];
+    double velocity[3];
 
     set_velocity_slope(p, spin, k, velocity);
     ellipsoid_product(t->by_velocity, velocity, slope);
     if (k < POSE)
     {
+        double part[3];
+
         ellipsoid_product(t->by_push, p->push_slope[k], part);
         ellipsoid_add(slope, part);
     }
@@ -122,11 +125,13 @@ void ellipsoid_exact_add_push(const ellipsoid_exact_push *p,
                               ellipsoid_exact_wrench *sum)
 {
     ellipsoid_traction traction;
-    double spin[2][3], velocity[3];
+    double spin[2][3];
 
     ellipsoid_copy(p->push, traction.force);
     if (law)
     {
+        double velocity[3];
+
         set_velocity(p, spin, velocity);
         if (!ellipsoid_contact_traction(law, p->push, velocity, derivatives,
                                         &traction))

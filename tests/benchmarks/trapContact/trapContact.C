@@ -372,7 +372,13 @@ int main(int argc, char *argv[])
 
     undecomposedFlow whole(mesh);
     whole.gather(U, p, phi);
-    const frozenFlow flow(whole, options.fluid_density, properties.scheme());
+    const frozenFlow flow
+    (
+        whole,
+        options.fluid_density,
+        properties.scheme(),
+        autoPtr<volVectorField>()
+    );
     const wallFacets walls
     (
         &mesh,
