@@ -209,7 +209,7 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
     resistance may know of, kept while the cell moves little. One per cell; its
     content never changes a result, only its cost. Opaque.
 */
-typedef struct ellipsoid_contact_cache
+typedef struct ellipsoid_facet_cache
 {
     int valid;
     int served, listed; /* poses since it was filled; facets listed then */
@@ -226,9 +226,9 @@ typedef struct ellipsoid_contact_cache
     double near_margin; /* [m] how far the centre may move from there */
     const ellipsoid_facet *near_facets;
     int near_facet[ELLIPSOID_MAX_NEAR]; /* ascending */
-} ellipsoid_contact_cache;
+} ellipsoid_facet_cache;
 
-void ellipsoid_contact_cache_clear(ellipsoid_contact_cache *cache);
+void ellipsoid_facet_cache_clear(ellipsoid_facet_cache *cache);
 
 /* The action of the walls, and of the other cells of its group, on a cell. */
 typedef struct ellipsoid_contact
@@ -273,11 +273,11 @@ typedef struct ellipsoid_contact_jacobian
 /*
     Beads against facets: Hertz, F = 4/3 E* sqrt(r_b) d^(3/2) along the normal
     of each contact; the contacts of one bead add up as sum w_i f_i n_i,
-    w_i = f_i / sum_j f_j max(0, n_i.n_j) (see mixing.h where they are nearly
+    w_i = f_i / sum_j f_j max(0, n_i.n_j) (see contactBlending.h where they are nearly
     parallel). Adhesion adds up likewise. contact_shape ELLIPSOID: the same law
     with the depth of the ellipsoid itself, the force where it is deepest
-    (exactFacets.c); q turns the ellipsoid and does not stretch it. Friction and
-    damping come on top (contactLaw.c); without them u and omega are not read.
+    (ellipsoidFacets.c); q turns the ellipsoid and does not stretch it. Friction and
+    damping come on top (friction.c); without them u and omega are not read.
     jacobian may be NULL. The result is that of the state alone, to the last
     bit, whatever the cache has seen before. STEP_UNDERFLOW: the walls ask for a
     shorter step.
@@ -286,7 +286,7 @@ ellipsoid_status ellipsoid_contact_evaluate(
     const ellipsoid_model *model,
     const ellipsoid_surroundings *surroundings,
     const ellipsoid_state *state,
-    ellipsoid_contact_cache *cache,
+    ellipsoid_facet_cache *cache,
     ellipsoid_contact *contact,
     ellipsoid_contact_jacobian *jacobian);
 
@@ -349,7 +349,7 @@ void ellipsoid_random_normal(uint64_t seed, uint32_t id, int64_t interval,
 ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
                                const ellipsoid_surroundings *surroundings,
                                const ellipsoid_state *state,
-                               ellipsoid_contact_cache *cache,
+                               ellipsoid_facet_cache *cache,
                                ellipsoid_state *derivative);
 
 /*
@@ -360,11 +360,11 @@ ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
 ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
                                    const ellipsoid_surroundings *surroundings,
                                    ellipsoid_state *state,
-                                   ellipsoid_contact_cache *cache);
+                                   ellipsoid_facet_cache *cache);
 
 /* The drag [N, lab] on a body of orientation q held still where the flow has
    this velocity [m/s, lab]: mu R K^ R^T u_f, far from walls. */
-void ellipsoid_held_drag(const ellipsoid_model *model, const double q[4],
+void ellipsoid_drag_at_rest(const ellipsoid_model *model, const double q[4],
                          const double velocity[3], double drag[3]);
 
 /*
@@ -377,7 +377,7 @@ ellipsoid_status
 ellipsoid_jacobian(const ellipsoid_model *model,
                    const ellipsoid_surroundings *surroundings,
                    const ellipsoid_state *state,
-                   ellipsoid_contact_cache *cache,
+                   ellipsoid_facet_cache *cache,
                    double jacobian[ELLIPSOID_STATE_SIZE][ELLIPSOID_STATE_SIZE]);
 
 /* ------------------------------------------------------------- advance */
@@ -434,7 +434,7 @@ ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
                                    double *t,
                                    double end,
                                    ellipsoid_controller *controller,
-                                   ellipsoid_contact_cache *cache,
+                                   ellipsoid_facet_cache *cache,
                                    ellipsoid_observer observer,
                                    void *observer_context,
                                    ellipsoid_statistics *statistics);
@@ -448,7 +448,7 @@ typedef struct ellipsoid_member
     const ellipsoid_surroundings *surroundings; /* its id names the cell */
     ellipsoid_state *state;
     ellipsoid_controller *controller;
-    ellipsoid_contact_cache *cache;
+    ellipsoid_facet_cache *cache;
     void *observer_context;
     ellipsoid_statistics *statistics;
 } ellipsoid_member;

@@ -8,7 +8,7 @@
     Each set is in a copy of the core of its own, whose ellipsoid_advance() and
     table have other names (Makefile).
 */
-#include "integrator.h"
+#include "motion/motion.h"
 #include "trials.h"
 
 #include <stdio.h>
@@ -21,7 +21,7 @@
     ellipsoid_status name##_advance(                                           \
         const ellipsoid_model *, const ellipsoid_surroundings *,               \
         ellipsoid_state *, double *, double, ellipsoid_controller *,           \
-        ellipsoid_contact_cache *, ellipsoid_observer, void *,                 \
+        ellipsoid_facet_cache *, ellipsoid_observer, void *,                 \
         ellipsoid_statistics *);
 SETS(DECLARE)
 

@@ -34,7 +34,7 @@ typedef struct scene
     double away[3], width; /* places beside the middle, along x1 [m] */
 } scene;
 
-static ellipsoid_contact_cache cache;
+static ellipsoid_facet_cache cache;
 
 static double uniform(void)
 {
@@ -190,7 +190,7 @@ static double loaded(const ellipsoid_model *model, scene *s, double beside,
 {
     double low, high = 4 * um;
 
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     for (double gap = HUGE_VAL; gap > 1e-9;)
     {
         gap = evaluate(model, s, beside, high, q, force, torque);
@@ -251,7 +251,7 @@ static void compare(scene *s, const ellipsoid_model *beads,
 
         const double way = loaded(exact, s, beside, q, f, t);
 
-        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&cache);
         evaluate(beads, s, beside, way, q, fb, tb);
         force_error[n] = difference(fb, f) / difference(f, none);
         place[n] = fabs(loaded(beads, s, beside, q, fb, tb) - way);
@@ -294,7 +294,7 @@ static void rest(scene *wall, const ellipsoid_model *model)
         double t = 0, r[3][3];
 
         ellipsoid_quaternion_from_axis(axis, 2 * pi * uniform(), state.q);
-        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&cache);
         if (ellipsoid_advance(model, &surroundings, &state, &t, 10, &controller,
                               &cache, NULL, NULL, &statistics)
             != ELLIPSOID_OK)
@@ -340,7 +340,7 @@ static double cost(scene s[SCENES], const ellipsoid_model *model, int jacobian,
             const ellipsoid_surroundings surroundings = around(where);
             ellipsoid_state at = {.u = {0}};
 
-            ellipsoid_contact_cache_clear(&cache);
+            ellipsoid_facet_cache_clear(&cache);
             memcpy(at.q, start[n] + 3, sizeof(at.q));
             for (int i = 0; i < 3; i++)
             {

@@ -7,7 +7,7 @@
     Hairer & Wanner, Solving Ordinary Differential Equations II (1996), section
     IV.7.
 */
-#include "integrator.h"
+#include "motion/motion.h"
 
 /* Takes the place of the core's own table: see Makefile. */
 const ellipsoid_rosenbrock_table ellipsoid_rosenbrock_set = {

@@ -6,7 +6,7 @@
     rodas42.c - coefficients of code RODAS, second set (METH = 2):
     Hairer & Wanner II (1996), section IV.7.
 */
-#include "integrator.h"
+#include "motion/motion.h"
 
 /* Takes the place of the core's own table: see Makefile. */
 const ellipsoid_rosenbrock_table ellipsoid_rosenbrock_set = {

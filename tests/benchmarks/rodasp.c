@@ -6,7 +6,7 @@
     rodasp.c - coefficients of RODASP, code RODAS with METH = 3:
     Steinebach, preprint 1772, TH Darmstadt (1995).
 */
-#include "integrator.h"
+#include "motion/motion.h"
 
 /* Takes the place of the core's own table: see Makefile. */
 const ellipsoid_rosenbrock_table ellipsoid_rosenbrock_set = {

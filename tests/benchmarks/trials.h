@@ -66,7 +66,7 @@ typedef struct benchmark_core
                                 const ellipsoid_surroundings *,
                                 ellipsoid_state *, double *, double,
                                 ellipsoid_controller *,
-                                ellipsoid_contact_cache *, ellipsoid_observer,
+                                ellipsoid_facet_cache *, ellipsoid_observer,
                                 void *, ellipsoid_statistics *);
     const benchmark_journey *journey;
     ellipsoid_model model;

@@ -59,7 +59,7 @@ typedef struct test_walk
 {
     ellipsoid_model model;
     ellipsoid_surroundings around;
-    ellipsoid_contact_cache *cache;
+    ellipsoid_facet_cache *cache;
     ellipsoid_state state;
     ellipsoid_controller controller;
     ellipsoid_statistics statistics;

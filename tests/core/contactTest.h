@@ -22,7 +22,7 @@ typedef struct contact_run
     ellipsoid_state state;
     double t;
     ellipsoid_controller controller;
-    ellipsoid_contact_cache cache;
+    ellipsoid_facet_cache cache;
     ellipsoid_statistics statistics;
 } contact_run;
 
@@ -52,7 +52,7 @@ static inline void contact_start(contact_run *r,
     r->t = 0;
     memset(&r->controller, 0, sizeof(r->controller));
     memset(&r->statistics, 0, sizeof(r->statistics));
-    ellipsoid_contact_cache_clear(&r->cache);
+    ellipsoid_facet_cache_clear(&r->cache);
 }
 
 static inline ellipsoid_status contact_go(contact_run *r, double end)

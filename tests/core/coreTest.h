@@ -17,7 +17,7 @@
 
 #include <cmocka.h>
 
-#include "integrator.h"
+#include "motion/motion.h"
 
 static const double test_pi = 3.14159265358979323846;
 

@@ -17,7 +17,7 @@ static const double um = 1e-6;
 static inline ellipsoid_status evaluate_pose(const ellipsoid_model *model,
                                       const ellipsoid_surroundings *around_it,
                                       const double x[3], const double q[4],
-                                      ellipsoid_contact_cache *cache,
+                                      ellipsoid_facet_cache *cache,
                                       ellipsoid_contact *contact,
                                       ellipsoid_contact_jacobian *jacobian)
 {
@@ -61,7 +61,7 @@ static inline void random_pose(uint64_t *seed, double x[3], double q[4])
 */
 static inline int assert_jacobian(const ellipsoid_model *model,
                                   const ellipsoid_surroundings *surroundings,
-                                  ellipsoid_contact_cache *cache,
+                                  ellipsoid_facet_cache *cache,
                                   const double pose[7], double tolerance)
 {
     ellipsoid_contact contact, moved;

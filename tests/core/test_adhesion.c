@@ -44,12 +44,12 @@ static void advance_to(const ellipsoid_model *model,
                        const ellipsoid_surroundings *surroundings,
                        ellipsoid_state *state, double end)
 {
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     ellipsoid_controller controller = {0, 0};
     ellipsoid_statistics statistics = {0};
     double t = 0;
 
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     assert_ok(ellipsoid_advance(model, surroundings, state, &t, end,
                                 &controller, &cache, NULL, NULL, &statistics));
 }
@@ -90,7 +90,7 @@ static void test_pull_off_force(void **unused)
 {
     wall_mesh mesh = room_of(0);
     const ellipsoid_surroundings surroundings = around(&mesh, NULL);
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
 
     (void)unused;
     for (int shape = 0; shape < 2; shape++)
@@ -102,7 +102,7 @@ static void test_pull_off_force(void **unused)
         double strongest = 0, work = 0, q[4];
 
         orient(1, q);
-        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&cache);
         for (int n = -2000; n <= 4000; n++)
         {
             const double gap = n * 1e-11;
@@ -180,7 +180,7 @@ static void test_adhesion_jacobian(void **unused)
 {
     wall_mesh mesh = room_of(0);
     const ellipsoid_surroundings surroundings = around(&mesh, NULL);
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
 
     (void)unused;
     for (int shape = 0; shape < 2; shape++)
@@ -195,7 +195,7 @@ static void test_adhesion_jacobian(void **unused)
 
         const ellipsoid_model model = test_model(&options);
 
-        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&cache);
         for (int n = 0; n < 5000; n++)
         {
             double y[7];
@@ -214,7 +214,7 @@ static void test_bounce_keeps_energy(void **unused)
 {
     wall_mesh mesh = room_of(0);
     const ellipsoid_surroundings surroundings = around(&mesh, NULL);
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     double kept = 0;
 
     (void)unused;
@@ -240,7 +240,7 @@ static void test_bounce_keeps_energy(void **unused)
         const double before = contact_energy(&model, &state);
 
         assert_true(1e-11 * 0.1 * um > 0.05 * before);
-        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&cache);
         assert_ok(ellipsoid_advance(&model, &surroundings, &state, &t, 40e-6,
                                     &controller, &cache, NULL, NULL,
                                     &statistics));

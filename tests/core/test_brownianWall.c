@@ -18,7 +18,7 @@ static const double scale = 0.2e-6;       /* [m] kT/weight of the sphere */
 
 /* The wall x3 = 0, far beyond where a cell gets in a test. */
 static wall_mesh wall;
-static ellipsoid_contact_cache cache;
+static ellipsoid_facet_cache cache;
 
 static int build_wall(void **unused)
 {
@@ -71,7 +71,7 @@ static test_walk walk_over_wall(const ellipsoid_options *options, uint64_t seed,
     w.around.walls_context = &wall;
     w.cache = &cache;
     w.state.x[2] = height;
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     return w;
 }
 

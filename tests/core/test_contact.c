@@ -52,7 +52,7 @@ static void test_sphere_on_a_plane(void **unused)
     counted_walls walls = {.mesh = &mesh};
     const ellipsoid_surroundings surroundings = around(&walls);
     const double q[4] = {0.1, -0.5, 0.3, sqrt(1 - 0.01 - 0.25 - 0.09)};
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     ellipsoid_contact contact;
 
     (void)unused;
@@ -66,7 +66,7 @@ static void test_sphere_on_a_plane(void **unused)
         pow(weight / (4.0 / 3 * 1e6 * sqrt(0.45 * um)), 2.0 / 3);
     const double x[3] = {-2 * um, 1 * um, 0.45 * um - depth};
 
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
                                          &contact, NULL));
     /* depth is 4e-7 of the radius, so it is known to 1e-9 of itself */
@@ -90,13 +90,13 @@ static void test_standing_and_lying(void **unused)
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh};
     const ellipsoid_surroundings surroundings = around(&walls);
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     ellipsoid_contact contact;
     double x[3] = {-2 * um, 1 * um, 1.999 * um}, q[4];
     const double k = 4.0 / 3 * 1e6 * sqrt(0.285 * um);
 
     (void)unused;
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     ellipsoid_quaternion_from_axis(up, 0.3, q);
     assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
                                          &contact, NULL));
@@ -157,12 +157,12 @@ static void test_sum_over_beads(void **unused)
     wall_mesh mesh = room_of(1);
     counted_walls walls = {.mesh = &mesh};
     const ellipsoid_surroundings surroundings = around(&walls);
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     uint64_t seed = 1;
     int touched = 0;
 
     (void)unused;
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     for (int n = 0; n < 2000; n++)
     {
         ellipsoid_contact contact;
@@ -189,7 +189,7 @@ static void test_cache_changes_nothing(void **unused)
     counted_walls walls = {.mesh = &mesh}, empty = {.mesh = &mesh};
     const ellipsoid_surroundings surroundings = around(&walls);
     const ellipsoid_surroundings emptied = around(&empty);
-    static ellipsoid_contact_cache kept, fresh;
+    static ellipsoid_facet_cache kept, fresh;
     uint64_t seed = 2;
     int touched = 0;
 
@@ -202,7 +202,7 @@ static void test_cache_changes_nothing(void **unused)
 
         const ellipsoid_model model = test_model(&options);
 
-        ellipsoid_contact_cache_clear(&kept);
+        ellipsoid_facet_cache_clear(&kept);
         walls.calls = empty.calls = 0;
         for (int walk = 0; walk < 100; walk++)
         {
@@ -223,7 +223,7 @@ static void test_cache_changes_nothing(void **unused)
                 {
                     q[i] += 0.005 * test_signed(&seed);
                 }
-                ellipsoid_contact_cache_clear(&fresh);
+                ellipsoid_facet_cache_clear(&fresh);
                 assert_ok(evaluate_pose(&model, &surroundings, x,
                                                      q, &kept, &a, &ja));
                 assert_ok(evaluate_pose(&model, &emptied, x, q,
@@ -247,12 +247,12 @@ static void test_jacobian_is_exact(void **unused)
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh};
     const ellipsoid_surroundings surroundings = around(&walls);
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     uint64_t seed = 3;
     int checked = 0;
 
     (void)unused;
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     for (int n = 0; n < 3000; n++)
     {
         double y[7];
@@ -279,7 +279,7 @@ static void test_far_from_walls(void **unused)
     wall_mesh mesh;
     counted_walls walls = {.mesh = &mesh};
     const ellipsoid_surroundings surroundings = around(&walls);
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     double x[3] = {0, 0, 0};
     const double q[4] = {0, 0, 0, 1};
 
@@ -287,7 +287,7 @@ static void test_far_from_walls(void **unused)
     wall_mesh_init(&mesh);
     wall_mesh_box(&mesh, low, high, 1, 0, 0);
     wall_mesh_finish(&mesh);
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     for (x[0] = 0; x[0] < 57 * um; x[0] += 0.01 * um)
     {
         ellipsoid_contact contact;
@@ -351,11 +351,11 @@ static void test_failures_have_names(void **unused)
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh};
     const ellipsoid_surroundings surroundings = around(&walls);
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     ellipsoid_contact contact;
 
     (void)unused;
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     walls.answer = 1;
     assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
                                                 &cache, &contact, NULL),
@@ -389,7 +389,7 @@ static void test_failures_have_names(void **unused)
     wall_mesh_init(&mesh);
     wall_mesh_plane(&mesh, corner, u, v, 4, 40000, 0, 0);
     wall_mesh_finish(&mesh);
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
                                                 &cache, &contact, NULL),
                      ELLIPSOID_TOO_MANY_FACETS);
@@ -405,7 +405,7 @@ static void test_touched_surfaces(void **unused)
     counted_walls walls = {.mesh = &mesh};
     const ellipsoid_surroundings surroundings = around(&walls);
     const double across[3] = {1, 0, 0};
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     ellipsoid_contact contact;
     double q[4];
 
@@ -413,7 +413,7 @@ static void test_touched_surfaces(void **unused)
     const double x[3] = {0.5 * um - 1.995 * um, 0, 0.46 * um};
 
     (void)unused;
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     ellipsoid_quaternion_from_axis(across, 0, q);
     assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
                                          &contact, NULL));

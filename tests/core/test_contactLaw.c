@@ -26,7 +26,7 @@ enum
    slip; far below it is mu N v/v_s. Hunt & Crossley (1975), eq. 8. */
 static void test_limits_of_the_law(void **unused)
 {
-    const ellipsoid_contact_law law = {0.3, 1e-5, 20};
+    const ellipsoid_friction_law law = {0.3, 1e-5, 20};
     const double push[3] = {0, 0, 2}, down[3] = {0, 0, -1e-3};
     const double fast[3] = {3e-3, 4e-3, 0}, slow[3] = {0, 1e-9, 0};
     const double away[3] = {1e-3, 0, 0.1};
@@ -55,7 +55,7 @@ static void test_the_law_takes_power(void **unused)
     (void)unused;
     for (int n = 0; n < 10000; n++)
     {
-        const ellipsoid_contact_law law = {2 * test_uniform(&seed), 0.1,
+        const ellipsoid_friction_law law = {2 * test_uniform(&seed), 0.1,
                                            2 * test_uniform(&seed)};
         double push[3], velocity[3];
         ellipsoid_traction t;
@@ -77,9 +77,9 @@ typedef struct scene
 {
     ellipsoid_model model[CELLS];
     ellipsoid_surroundings around;
-    ellipsoid_contact_cache cache[CELLS];
+    ellipsoid_facet_cache cache[CELLS];
     ellipsoid_statistics statistics;
-    ellipsoid_point *point;
+    ellipsoid_evaluation *point;
     ellipsoid_pairs pairs;
     ellipsoid_group group;
     void *memory;
@@ -98,8 +98,8 @@ static void set_scene(scene *s, const ellipsoid_options options[CELLS],
     for (int c = 0; c < CELLS; c++)
     {
         s->model[c] = test_model(&options[c]);
-        ellipsoid_contact_cache_clear(&s->cache[c]);
-        s->group.cell[c] = (ellipsoid_problem){.model = &s->model[c],
+        ellipsoid_facet_cache_clear(&s->cache[c]);
+        s->group.cell[c] = (ellipsoid_cell){.model = &s->model[c],
                                                .surroundings = &s->around,
                                                .cache = &s->cache[c],
                                                .statistics = &s->statistics,

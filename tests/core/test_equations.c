@@ -207,7 +207,7 @@ static void test_jacobian(void **unused)
 */
 static void test_jacobian_in_contact(void **unused)
 {
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     const ellipsoid_options o = ellipsoid_options_default();
     const ellipsoid_model model = test_model(&o);
     test_quadratic flow = test_shear(1000);
@@ -236,7 +236,7 @@ static void test_jacobian_in_contact(void **unused)
             lowest = fmin(lowest, ellipsoid_dot(r[2], model.bead[b]));
         }
         s.x[2] = o.bead_radius - lowest - 5e-9 - 15e-9 * test_uniform(&seed);
-        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&cache);
         assert_ok(ellipsoid_jacobian(&model, &around, &s, &cache, jacobian));
         for (int j = AT_X; j < SIZE; j++)
         {
@@ -455,7 +455,7 @@ static void test_held_drag(void **unused)
         }
         test_orientation(&seed, state.q);
         assert_ok(ellipsoid_rhs(&model, &around, &state, NULL, &slope));
-        ellipsoid_held_drag(&model, state.q, flow.u, drag);
+        ellipsoid_drag_at_rest(&model, state.q, flow.u, drag);
         for (int i = 0; i < 3; i++)
         {
             assert_near(model.mass * slope.u[i], drag[i],

@@ -10,7 +10,7 @@
     Lengths are in bead radii and stiffness is 1: the force is homogeneous in
     both.
 */
-#include "touchTest.h"
+#include "beadContactTest.h"
 
 /* Deepest overlap of the samples, and 1e-12 of the force there */
 static const double deep = 0.1;

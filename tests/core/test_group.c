@@ -162,7 +162,7 @@ static void overlapping(crowd *c, ellipsoid_group *g, ellipsoid_pairs *pairs,
     g->inertial = 1;
     for (int i = 0; i < 2; i++)
     {
-        g->cell[i] = (ellipsoid_problem){
+        g->cell[i] = (ellipsoid_cell){
             .model = &c->model,
             .surroundings = &c->around[i],
             .statistics = &c->statistics[i],

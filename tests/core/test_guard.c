@@ -53,7 +53,7 @@ static void new_run(run *r, ellipsoid_motion motion, int seed, double speed)
     test_orientation(&number, r->state.q);
 }
 
-static ellipsoid_status go(run *r, double end, ellipsoid_contact_cache *cache,
+static ellipsoid_status go(run *r, double end, ellipsoid_facet_cache *cache,
                            ellipsoid_observer observer, void *context)
 {
     return ellipsoid_advance(&r->model, &r->around, &r->state, &r->t, end,
@@ -68,7 +68,7 @@ static ellipsoid_status go(run *r, double end, ellipsoid_contact_cache *cache,
 */
 static void test_thin_plate(void **motion)
 {
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     static run r;
 
     for (int n = 0; n < 60; n++)
@@ -76,7 +76,7 @@ static void test_thin_plate(void **motion)
         const double speed = 4e-4 * pow(10, n % 3);
 
         new_run(&r, *(ellipsoid_motion *)*motion, n, speed);
-        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&cache);
         assert_ok(go(&r, 40e-6 / speed, &cache, NULL, NULL));
         assert_true(r.state.x[0] < -0.25e-6);
         assert_true(r.state.x[0] > -2.5e-6);
@@ -89,7 +89,7 @@ static void test_thin_plate(void **motion)
    steps. */
 static void test_rest_is_free(void **motion)
 {
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     static run r;
     const double low[3] = {-10e-6, -10e-6, -10e-6};
     const double high[3] = {10e-6, 10e-6, 10e-6};
@@ -104,7 +104,7 @@ static void test_rest_is_free(void **motion)
     r.flow.u[1] = 3e-3;
     r.flow.u[2] = 1e-3;
     r.model.options.maximum_step = 1e9;
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     assert_ok(go(&r, 1, &cache, NULL, NULL));
     steps = r.statistics.accepted + r.statistics.rejected;
     assert_ok(go(&r, 1000, &cache, NULL, NULL));
@@ -126,21 +126,21 @@ static int stop_at(void *context, const ellipsoid_step *step)
 /* Stopped and continued with an empty cache: the same bits. */
 static void test_cut_beside_a_wall(void **motion)
 {
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     static run whole, r;
 
     new_run(&whole, *(ellipsoid_motion *)*motion, 11, 4e-3);
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     assert_ok(go(&whole, 0.01, &cache, NULL, NULL));
     for (int stop = 1; stop < whole.statistics.accepted; stop += 11)
     {
         int left = stop;
 
         new_run(&r, *(ellipsoid_motion *)*motion, 11, 4e-3);
-        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&cache);
         assert_int_equal(go(&r, 0.01, &cache, stop_at, &left),
                          ELLIPSOID_STOPPED);
-        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&cache);
         assert_ok(go(&r, 0.01, &cache, NULL, NULL));
         assert_memory_equal(&r.state, &whole.state, sizeof(r.state));
         wall_mesh_free(&r.mesh);

@@ -175,7 +175,7 @@ static void test_limit_of_no_inertia(void **unused)
 
 /* u and omega balance the forces: the accelerations of the thirteen equations
    vanish but for rounding of the drag. */
-static void test_balance(void **unused)
+static void test_forceBalance(void **unused)
 {
     ellipsoid_model model = test_unit_body();
     test_vortices flow = {1, 1};
@@ -312,7 +312,7 @@ typedef struct settling
 static settling settle(ellipsoid_motion motion, const wall_mesh *floor,
                        double end)
 {
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     ellipsoid_options o = ellipsoid_options_default();
     test_quadratic flow = {.answer = 0};
     const ellipsoid_surroundings around = {.flow = test_quadratic_flow,
@@ -330,7 +330,7 @@ static settling settle(ellipsoid_motion motion, const wall_mesh *floor,
     s.state.x[2] = 1e-6;
     ellipsoid_quaternion_from_axis((const double[3]){0.9, 0.3, 0.3}, 0.4,
                                    s.state.q);
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     assert_ok(ellipsoid_advance(&s.model, &around, &s.state, &s.ends, end,
                                 &controller, &cache, NULL, NULL,
                                 &s.statistics));
@@ -462,7 +462,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_jeffery_orbits),
         cmocka_unit_test(test_limit_of_no_inertia),
-        cmocka_unit_test(test_balance),
+        cmocka_unit_test(test_forceBalance),
         cmocka_unit_test(test_explicit_order),
         cmocka_unit_test(test_on_a_floor),
         cmocka_unit_test(test_interface),

@@ -281,7 +281,7 @@ static void check_forces_balance(ellipsoid_contact_shape shape)
         for (int k = 0; k < 2; k++)
         {
             e.state[k].x[0] *= 0.3;
-            group.cell[k] = (ellipsoid_problem){.model = &e.model[k],
+            group.cell[k] = (ellipsoid_cell){.model = &e.model[k],
                                                 .surroundings = &e.around[k],
                                                 .statistics = &statistics,
                                                 .inertial = 1};

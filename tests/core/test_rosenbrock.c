@@ -229,12 +229,12 @@ static void test_dense_order_conditions(void **unused)
 /* What a group of one cell needs. */
 typedef struct lone_cell
 {
-    ellipsoid_point start, next;
+    ellipsoid_evaluation start, next;
     ellipsoid_stages stages;
-    ellipsoid_stage_system system;
+    ellipsoid_stage_matrix system;
 } lone_cell;
 
-static ellipsoid_group group_of(ellipsoid_problem *problem, lone_cell *cell)
+static ellipsoid_group group_of(ellipsoid_cell *problem, lone_cell *cell)
 {
     return (ellipsoid_group){.count = 1,
                              .inertial = problem->inertial,
@@ -254,7 +254,7 @@ static ellipsoid_state equal_steps(const ellipsoid_model *model,
     const ellipsoid_surroundings around = {.flow = test_vortex_flow,
                                            .flow_context = flow};
     ellipsoid_statistics statistics = {0};
-    ellipsoid_problem problem = {
+    ellipsoid_cell problem = {
         .model = model,
         .surroundings = &around,
         .statistics = &statistics,
@@ -380,7 +380,7 @@ static void test_block_elimination(void **unused)
     const ellipsoid_surroundings around = {.flow = test_vortex_flow,
                                            .flow_context = &flow};
     ellipsoid_statistics statistics = {0};
-    ellipsoid_problem problem = {.model = &model,
+    ellipsoid_cell problem = {.model = &model,
                                  .surroundings = &around,
                                  .statistics = &statistics,
                                  .length = 1.5,
@@ -421,7 +421,7 @@ static void test_block_elimination(void **unused)
 */
 static void test_elimination_in_contact(void **unused)
 {
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     static const double plate[3][3] = {
         {-1e-4, -1e-4, 0}, {1e-4, -1e-4, 0}, {0, 1e-4, 0}};
     ellipsoid_options o = ellipsoid_options_default();
@@ -449,7 +449,7 @@ static void test_elimination_in_contact(void **unused)
 
         o.contact_modulus = modulus;
         model = test_model(&o);
-        ellipsoid_problem problem = {.model = &model,
+        ellipsoid_cell problem = {.model = &model,
                                      .surroundings = &around,
                                      .cache = &cache,
                                      .statistics = &statistics,
@@ -467,7 +467,7 @@ static void test_elimination_in_contact(void **unused)
         }
         state->x[2] = o.bead_radius - lowest - 2e-8 * test_uniform(&seed);
         state->omega[0] = 100 * test_signed(&seed);
-        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&cache);
         assert_ok(ellipsoid_jacobian(&model, &around, state, &cache, jacobian));
         assert_ok(ellipsoid_group_evaluate(&group, group.start, 0, 1));
         assert_true(cell.start.contact.touching_beads > 0);

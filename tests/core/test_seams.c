@@ -8,7 +8,7 @@
 
     Lengths are in bead radii and stiffness is 1.
 */
-#include "touchTest.h"
+#include "beadContactTest.h"
 
 /* Only what lies along a line, so that sampling it densely costs little. */
 static wall_mesh near_line(wall_mesh *wall, const double from[3],
@@ -296,11 +296,11 @@ static void test_random_ground(void **unused)
                     .stiffness = 1};
                 const ellipsoid_candidates from = {wall.facets, index,
                                                    list.count};
-                ellipsoid_bead_feels push = {.force = {0, 0, 0}}, pull;
+                ellipsoid_point_force push = {.force = {0, 0, 0}}, pull;
                 const double *force = push.force;
                 double gap = 4;
 
-                ellipsoid_bead_touch(&bead, &from, &gap, 0, &push, &pull,
+                ellipsoid_bead_contact(&bead, &from, &gap, 0, &push, &pull,
                                      NULL);
 
                 /* settles first, then follows the ground */

@@ -46,7 +46,7 @@ typedef struct trip
 /* A cell pushed by a force through a fluid for a while. */
 static void go(trip *t, test_quadratic *flow, const double force[3], double end)
 {
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
     ellipsoid_options options = ellipsoid_options_default();
     ellipsoid_controller controller = {0, 0};
     const ellipsoid_surroundings surroundings = {
@@ -58,7 +58,7 @@ static void go(trip *t, test_quadratic *flow, const double force[3], double end)
 
     const ellipsoid_model model = test_model(&options);
 
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     assert_ok(ellipsoid_advance(&model, &surroundings, &t->state, &t->time, end,
                                 &controller, &cache, NULL, NULL,
                                 &t->statistics));

@@ -39,7 +39,7 @@ typedef struct cell
     ellipsoid_state state;
     ellipsoid_controller controller;
     ellipsoid_statistics statistics;
-    ellipsoid_contact_cache cache;
+    ellipsoid_facet_cache cache;
     double t, uniform[3];
     uint64_t digest;
     ellipsoid_status status;
@@ -147,7 +147,7 @@ static void place_cells(cell cells[CELLS])
         cell *c = &cells[n];
 
         memset(c, 0, sizeof(*c));
-        ellipsoid_contact_cache_clear(&c->cache);
+        ellipsoid_facet_cache_clear(&c->cache);
         for (int i = 0; i < 3; i++)
         {
             c->state.x[i] = 3 * um * test_signed(&seed);

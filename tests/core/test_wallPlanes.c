@@ -7,7 +7,7 @@
     over seams and edges, in slits and corners, in motion.
 */
 #include "coreTest.h"
-#include "nearWall.h"
+#include "drag/wallResistance.h"
 #include "wallMesh.h"
 #include "flowTest.h"
 
@@ -16,7 +16,7 @@ enum
     SIZE = ELLIPSOID_STATE_SIZE
 };
 
-static ellipsoid_contact_cache cache, fresh;
+static ellipsoid_facet_cache cache, fresh;
 
 static ellipsoid_options near_walls(void)
 {
@@ -185,7 +185,7 @@ static void test_jacobian(void **unused)
     wall_mesh_init(&mesh);
     add_landscape(&mesh);
     wall_mesh_finish(&mesh);
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     for (int n = 0; n < 400; n++)
     {
         const ellipsoid_surroundings s = around(&mesh, &flow);
@@ -261,9 +261,9 @@ static void test_cuts(void **unused)
         }
         x[2] = 1e-6 + 6e-6 * test_uniform(&seed);
         test_orientation(&seed, q);
-        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&cache);
         lab_resistance(&model, &whole, x, q, a);
-        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&cache);
         lab_resistance(&model, &cut, x, q, b);
         assert_true(difference(a, b) < 1e-11);
     }
@@ -344,7 +344,7 @@ static void test_continuous(void **unused)
         }
         wall_mesh_finish(&mesh);
         test_orientation(&seed, q);
-        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&cache);
         coarse =
             largest_change(&model, &mesh, ends[0], ends[1], q, 400);
         fine = largest_change(&model, &mesh, ends[0], ends[1], q, 4000);
@@ -368,7 +368,7 @@ static void test_cache(void **unused)
     wall_mesh_init(&mesh);
     add_landscape(&mesh);
     wall_mesh_finish(&mesh);
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     for (int n = 0; n < 300; n++)
     {
         const ellipsoid_surroundings s = around(&mesh, &flow);
@@ -376,7 +376,7 @@ static void test_cache(void **unused)
 
         state.x[n % 3] += 0.3e-6 * test_signed(&seed);
         test_orientation(&seed, state.q);
-        ellipsoid_contact_cache_clear(&fresh);
+        ellipsoid_facet_cache_clear(&fresh);
         assert_ok(ellipsoid_rhs(&model, &s, &state, &cache, &a));
         assert_ok(ellipsoid_rhs(&model, &s, &state, &fresh, &b));
         assert_memory_equal(&a, &b, sizeof(a));
@@ -413,8 +413,8 @@ static void test_cache_far_beside(void **unused)
         test_long_axis(&near, to);
         test_orientation(&seed, near.q);
         ellipsoid_set(near.x, away * to[0], away * to[1], away * fabs(to[2]));
-        ellipsoid_contact_cache_clear(&cache);
-        ellipsoid_contact_cache_clear(&fresh);
+        ellipsoid_facet_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&fresh);
         assert_ok(ellipsoid_rhs(&model, &s, &near, &cache, &a));
         for (int i = 0; i < 3; i++)
         {
@@ -457,11 +457,11 @@ static void test_slit(void **unused)
     wall_mesh_finish(&floor);
     wall_mesh_finish(&lid);
     wall_mesh_finish(&slit);
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     lab_resistance(&model, &floor, x, q, one);
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     lab_resistance(&model, &lid, x, q, other);
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     lab_resistance(&model, &slit, x, q, both);
     lab_resistance(&bare, &slit, x, q, none);
     for (int n = 0; n < 6; n++)
@@ -472,7 +472,7 @@ static void test_slit(void **unused)
         }
     }
     assert_true(difference(one, both) < 1e-11);
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     lab_resistance(&model, &floor, off, q, both);
     assert_true(difference(none, both) < 1e-13);
     wall_mesh_free(&floor);
@@ -513,7 +513,7 @@ static void test_coming_down(void **unused)
         o.external_force[2] = -2e-12;
         model = test_model(&o);
         ellipsoid_normalise(state.q);
-        ellipsoid_contact_cache_clear(&cache);
+        ellipsoid_facet_cache_clear(&cache);
         assert_ok(ellipsoid_balance(&model, &s, &state, &cache));
         assert_ok(ellipsoid_advance(&model, &s, &state, &t, 0.5, &controller,
                                     &cache, NULL, NULL, &statistics));
@@ -533,7 +533,7 @@ static void test_coming_down(void **unused)
    from rest: 1e-7 s at some mm/s, 1 nm of the 20 nm. */
 static void test_two_cells(void **unused)
 {
-    static ellipsoid_contact_cache caches[2];
+    static ellipsoid_facet_cache caches[2];
     static double memory[200000];
     ellipsoid_state end[2][2];
     wall_mesh mesh;
@@ -567,7 +567,7 @@ static void test_two_cells(void **unused)
 
             s[i].id = (uint32_t)i;
             end[n][i] = state;
-            ellipsoid_contact_cache_clear(&caches[i]);
+            ellipsoid_facet_cache_clear(&caches[i]);
             members[i] = (ellipsoid_member){
                 &model,     &s[i], &end[n][i],    &controller[i],
                 &caches[i], NULL,  &statistics[i]};

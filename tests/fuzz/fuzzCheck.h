@@ -48,7 +48,7 @@ void fuzz_check_random(fuzz_input *in);
    whether derivatives are wanted, changes a bit. */
 void fuzz_check_pose(const ellipsoid_model *model, fuzz_scene *scene,
                      const ellipsoid_state *state,
-                     ellipsoid_contact_cache *warm);
+                     ellipsoid_facet_cache *warm);
 
 /* One bead and all facets */
 void fuzz_check_bead(const fuzz_scene *scene, fuzz_input *in);
@@ -71,6 +71,6 @@ typedef struct fuzz_start
    is stopped and continued. */
 void fuzz_check_advance(const ellipsoid_model *model, fuzz_scene *scene,
                         const fuzz_start *start, int tame,
-                        ellipsoid_contact_cache *warm);
+                        ellipsoid_facet_cache *warm);
 
 #endif

@@ -31,16 +31,16 @@ static void check_contact(const ellipsoid_model *model, int has_walls,
 
 void fuzz_check_pose(const ellipsoid_model *model, fuzz_scene *scene,
                      const ellipsoid_state *state,
-                     ellipsoid_contact_cache *warm)
+                     ellipsoid_facet_cache *warm)
 {
-    static ellipsoid_contact_cache cold;
+    static ellipsoid_facet_cache cold;
     const int has_walls = model->options.contact && scene->around.walls;
     ellipsoid_contact contact, again;
     ellipsoid_contact_jacobian jacobian;
     ellipsoid_status status;
     int overlaps = 2, all_overlaps = 2;
 
-    ellipsoid_contact_cache_clear(&cold);
+    ellipsoid_facet_cache_clear(&cold);
     status = ellipsoid_contact_evaluate(model, &scene->around, state,
                                         &cold, &contact, NULL);
     if (status == ELLIPSOID_OK)
@@ -68,7 +68,7 @@ void fuzz_check_pose(const ellipsoid_model *model, fuzz_scene *scene,
         return; /* the squares of distances overflow */
     }
     scene->generous = 1;
-    ellipsoid_contact_cache_clear(&cold);
+    ellipsoid_facet_cache_clear(&cold);
     require(status
             == ellipsoid_contact_evaluate(model, &scene->around, state,
                                           &cold, &again, NULL));

@@ -90,7 +90,7 @@ static ellipsoid_state between(const ellipsoid_state *a,
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static ellipsoid_contact_cache warm;
+    static ellipsoid_facet_cache warm;
     static ellipsoid_model model;
     fuzz_input in = {data, size};
     const int parts = (int)fuzz_bits(&in, 1);
@@ -126,7 +126,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         && scene.speed / scene.length * model.relaxation_time < 1
         && scene.speed / scene.length * model.rotation_relaxation_time < 1;
 
-    ellipsoid_contact_cache_clear(&warm);
+    ellipsoid_facet_cache_clear(&warm);
     for (int n = 0; n <= 5; n++)
     {
         way = n < 5 ? between(&elsewhere, &usual, n / 5.0) : start.state;

@@ -9,12 +9,12 @@
 
 /* ------------------------------------------------------------ equations */
 
-static ellipsoid_contact_cache *fresh(fuzz_scene *scene)
+static ellipsoid_facet_cache *fresh(fuzz_scene *scene)
 {
-    static ellipsoid_contact_cache cache;
+    static ellipsoid_facet_cache cache;
 
     scene->flow_gave_up = scene->walls_gave_up = scene->field_gave_up = 0;
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
     return &cache;
 }
 
@@ -206,7 +206,7 @@ static void check_observed(const run *r, const fuzz_start *before,
             == (r->stop_after > 0 && r->steps == r->stop_after));
 }
 
-static ellipsoid_status go(run *r, ellipsoid_contact_cache *cache,
+static ellipsoid_status go(run *r, ellipsoid_facet_cache *cache,
                            int observed)
 {
     const fuzz_start before = r->now;
@@ -273,14 +273,14 @@ static void check_last_pose(const run *r)
 
 void fuzz_check_advance(const ellipsoid_model *model, fuzz_scene *scene,
                         const fuzz_start *start, int tame,
-                        ellipsoid_contact_cache *warm)
+                        ellipsoid_facet_cache *warm)
 {
     const int cached = (model->options.contact || model->options.wall_resistance)
                     && scene->around.walls;
     const int pure = !cached || fuzz_scene_has_faultless_walls(scene);
     const run at_start = {.model = model, .scene = scene, .now = *start};
     run whole = at_start, again = at_start;
-    ellipsoid_contact_cache *const cold = fresh(scene);
+    ellipsoid_facet_cache *const cold = fresh(scene);
     const ellipsoid_status status = go(&whole, cached ? cold : NULL, 1);
 
     require(!tame || status != ELLIPSOID_NON_FINITE);
@@ -288,7 +288,7 @@ void fuzz_check_advance(const ellipsoid_model *model, fuzz_scene *scene,
     {
         check_last_pose(&whole);
     }
-    ellipsoid_contact_cache_clear(cold);
+    ellipsoid_facet_cache_clear(cold);
     require(status == go(&again, pure ? warm : cold, 0));
     require_same(again.now.state, whole.now.state);
     require_same(again.now.t, whole.now.t);
@@ -301,12 +301,12 @@ void fuzz_check_advance(const ellipsoid_model *model, fuzz_scene *scene,
     }
     again = at_start;
     again.stop_after = 1 + whole.steps / 2;
-    ellipsoid_contact_cache_clear(cold);
+    ellipsoid_facet_cache_clear(cold);
     require(go(&again, cold, 1) == ELLIPSOID_STOPPED);
     if (pure && again.now.t < again.now.end && !is_at_jump(model, again.now.t))
     {
         again.stop_after = 0;
-        ellipsoid_contact_cache_clear(cold);
+        ellipsoid_facet_cache_clear(cold);
         require(go(&again, cold, 1) == ELLIPSOID_OK);
         require_same(again.now.state, whole.now.state);
         require_same(again.now.controller, whole.now.controller);

@@ -40,8 +40,8 @@ SourceFiles
 #include "columnFvMesh.H"
 #include "ellipsoidCloud.H"
 #include "steadyFlow.H"
-#include "wholeFile.H"
-#include "writtenState.H"
+#include "atomicWrite.H"
+#include "checkpoint.H"
 
 using namespace Foam;
 
@@ -62,7 +62,7 @@ int main(int argc, char *argv[])
 
     if (!flowOnly)
     {
-        writtenState::setAsideIncomplete(args);
+        checkpoint::setAsideIncomplete(args);
     }
 
     #include "createTime.H"
@@ -100,7 +100,7 @@ int main(int argc, char *argv[])
 
             if (runTime.writeTime())
             {
-                writtenState::begin(runTime);
+                checkpoint::begin(runTime);
 
                 if (!runTime.write())
                 {

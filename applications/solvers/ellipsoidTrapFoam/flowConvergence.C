@@ -12,7 +12,7 @@ License
 #include "ellipsoidProperties.H"
 #include "fvcDiv.H"
 #include "fvMesh.H"
-#include "masterFirst.H"
+#include "masterGate.H"
 
 #include <cmath>
 
@@ -62,7 +62,7 @@ Foam::scalarField Foam::flowConvergence::record
     const surfaceScalarField& phi
 )
 {
-    through_.reset(new throughFlow(U, phi));
+    through_.reset(new inletFlux(U, phi));
 
     const label nPatches = through_->patches().size();
 
@@ -150,7 +150,7 @@ Foam::flowConvergence::flowConvergence
 {
     typedef ellipsoidProperties entries;
 
-    const masterFirst once;
+    const masterGate once;
 
     const dictionary targets(dict.subOrEmptyDict("residualControl"));
 

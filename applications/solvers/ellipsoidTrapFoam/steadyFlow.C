@@ -25,13 +25,14 @@ License
 #include "fvmLaplacian.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
-#include "masterFirst.H"
+#include "masterGate.H"
 #include "PstreamReduceOps.H"
 #include "readViscosity.H"
 #include "sigFpe.H"
 #include "StringStream.H"
 #include "surfaceInterpolate.H"
-#include "wholeFile.H"
+#include "atomicWrite.H"
+#include "checkpoint.H"
 
 #include <cmath>
 
@@ -122,7 +123,7 @@ static void checkFinite
     }
 
     Pstream::gatherList(found);
-    const masterFirst once;
+    const masterGate once;
 
     forAll(found, ranki)
     {
@@ -153,7 +154,7 @@ static label wholeNumber
     const label deflt
 )
 {
-    const masterFirst once;
+    const masterGate once;
     return ellipsoidProperties::getWholeOrDefault(dict, keyword, least, deflt);
 }
 
@@ -174,7 +175,7 @@ Foam::IOobject Foam::steadyFlow::fieldIO
 
 void Foam::steadyFlow::checkControls() const
 {
-    const masterFirst once;
+    const masterGate once;
 
     const wordHashSet known
     ({
@@ -330,7 +331,7 @@ void Foam::steadyFlow::iterate()
 
 Foam::fileName Foam::steadyFlow::unfinishedFile(const word& instance) const
 {
-    return mesh_.time().path()/instance/"U.unfinished";
+    return checkpoint::unfinishedFlow(mesh_.time().path()/instance);
 }
 
 
@@ -339,7 +340,7 @@ void Foam::steadyFlow::reportProgress(const label iteration) const
     Info<< "flow: iteration " << iteration << ": "
         << convergence_.measures().c_str();
 
-    const throughFlow& through = convergence_.through();
+    const inletFlux& through = convergence_.through();
 
     if (through.closed())
     {
@@ -437,7 +438,7 @@ void Foam::steadyFlow::solve()
     {
         if (iteration == maxIterations_)
         {
-            const masterFirst once;
+            const masterGate once;
             FatalIOErrorInFunction(controls_)
                 << "The flow is not steady after " << iteration
                 << " iterations:" << nl
@@ -452,7 +453,7 @@ void Foam::steadyFlow::solve()
 
         if (!convergence_.sound())
         {
-            const masterFirst once;
+            const masterGate once;
             FatalIOErrorInFunction(controls_)
                 << "The flow diverges: iteration " << iteration << " left "
                 << convergence_.measures().c_str() << ", mean speed "
@@ -494,7 +495,7 @@ void Foam::steadyFlow::write()
 
 void Foam::steadyFlow::report(const scalar density) const
 {
-    const throughFlow& through = convergence_.through();
+    const inletFlux& through = convergence_.through();
 
     if (through.closed())
     {

@@ -8,40 +8,9 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "captureMap.H"
-#include "masterFirst.H"
+#include "masterGate.H"
 
 #include <algorithm>
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-    //- A whole number with a default, from a least one to a largest
-    static label checkedWhole
-    (
-        const dictionary& dict,
-        const word& keyword,
-        const label least,
-        const label largest,
-        const label deflt
-    )
-    {
-        const label value = dict.getOrDefault(keyword, deflt);
-
-        if (value < least || value > largest)
-        {
-            ellipsoidProperties::refuse
-            (
-                dict, keyword, keyword,
-                "whole numbers from " + Foam::name(least) + " to "
-              + Foam::name(largest)
-            );
-        }
-
-        return value;
-    }
-}
-
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -54,19 +23,28 @@ const Foam::label Foam::captureMap::mostFirst_;
 
 Foam::label Foam::captureMap::readSquares(const dictionary& dict)
 {
-    return checkedWhole(dict, "squares", 1, 1000, 64);
+    return ellipsoidProperties::getWholeWithinOrDefault
+    (
+        dict, "squares", 1, 1000, 64
+    );
 }
 
 
 Foam::label Foam::captureMap::readLevels(const dictionary& dict)
 {
-    return checkedWhole(dict, "levels", 0, 10, 3);
+    return ellipsoidProperties::getWholeWithinOrDefault
+    (
+        dict, "levels", 0, 10, 3
+    );
 }
 
 
 Foam::label Foam::captureMap::readMostCells(const dictionary& dict)
 {
-    return checkedWhole(dict, "mostCells", 1, 10000000, 20000);
+    return ellipsoidProperties::getWholeWithinOrDefault
+    (
+        dict, "mostCells", 1, 10000000, 20000
+    );
 }
 
 
@@ -100,7 +78,10 @@ Foam::List<Foam::captureMap::pose> Foam::captureMap::readPoses
           : wordList({"orientation", "axis", "quaternion", "eulerAngles"})
         );
 
-        const label n = checkedWhole(one, "number", 1, 1000, 1);
+        const label n = ellipsoidProperties::getWholeWithinOrDefault
+        (
+            one, "number", 1, 1000, 1
+        );
 
         for (label i = 0; i < n; ++i)
         {
@@ -175,7 +156,7 @@ void Foam::captureMap::begin(const place& at, const label level)
 
 void Foam::captureMap::followWaiting()
 {
-    const List<loneCells::ending> endings
+    const List<independentCells::ending> endings
     (
         cells_.follow(waiting_, deltaT_, endTime_)
     );
@@ -354,7 +335,7 @@ bool Foam::captureMap::divide()
 Foam::captureMap::captureMap
 (
     const dictionary& dict,
-    const loneCells& cells,
+    const independentCells& cells,
     const undecomposedFlow& whole,
     const label seed,
     const scalar deltaT
@@ -384,7 +365,7 @@ Foam::captureMap::captureMap
     const label n = 1 << levels_;
 
     {
-        const masterFirst once;
+        const masterGate once;
 
         if (scalar(nPlaces(0))*nPlaces(1) > labelMax)
         {
@@ -424,7 +405,7 @@ Foam::captureMap::captureMap
         }
     }
 
-    const masterFirst once;
+    const masterGate once;
 
     if (nFollowed_ > mostCells_)
     {

@@ -11,7 +11,7 @@ License
 #include "OFstream.H"
 #include "IOmanip.H"
 #include "OSspecific.H"
-#include "wholeFile.H"
+#include "atomicWrite.H"
 
 #include <algorithm>
 
@@ -19,7 +19,7 @@ License
 
 Foam::label Foam::captureMap::kindOf(const label id) const
 {
-    const loneCells::ending& end = starts_[id].end;
+    const independentCells::ending& end = starts_[id].end;
 
     return end.fate == cellState::caught ? end.patch : -1 - end.fate;
 }
@@ -149,14 +149,8 @@ void Foam::captureMap::writePoses(Ostream& os) const
             os << ',' << q;
         }
 
-        // O, the long axis, is the second column of the rotation
-        double rotation[3][3];
-        ellipsoid_rotation(poses_[p].q, rotation);
-        for (const auto& row : rotation)
-        {
-            os << ',' << row[1];
-        }
-        os << nl;
+        const vector O(longAxis(poses_[p].q));
+        os << ',' << O.x() << ',' << O.y() << ',' << O.z() << nl;
     }
 }
 

@@ -35,7 +35,8 @@ SourceFiles
 #include "fvMesh.H"
 #include "columnFvMesh.H"
 #include "captureMap.H"
-#include "masterFirst.H"
+#include "masterGate.H"
+#include "checkpoint.H"
 
 using namespace Foam;
 
@@ -86,11 +87,11 @@ int main(int argc, char *argv[])
         returnReduce
         (
             field("phi").typeHeaderOk<surfaceScalarField>(true)
-         && !isFile(runTime.path()/instance/"U.unfinished"),
+         && !isFile(checkpoint::unfinishedFlow(runTime.path()/instance)),
             andOp<bool>()
         );
     {
-        const masterFirst once;
+        const masterGate once;
 
         captureMap::check(dict, mesh.boundaryMesh(), properties.seed());
         ellipsoidProperties::getAbove(runTime.controlDict(), "deltaT", 0);
@@ -112,7 +113,7 @@ int main(int argc, char *argv[])
 
         whole.gather(U, p, phi);
 
-        const loneCells cells(properties, mesh, whole);
+        const independentCells cells(properties, mesh, whole);
 
         captureMap map
         (

@@ -8,7 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "inletPlane.H"
-#include "masterFirst.H"
+#include "masterGate.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -131,7 +131,7 @@ Foam::inletPlane::inletPlane
     height_ = max(t) - min(t);
 
     {
-        const masterFirst once;
+        const masterGate once;
 
         // Snapped meshes are not quite flat
         if (max(depth) - min(depth) > 0.01*min(width_, height_))

@@ -35,7 +35,7 @@ int main(void)
     ellipsoid_state state = {.q = {0, 0, 0, 1}};
     ellipsoid_controller controller = {0};
     ellipsoid_statistics statistics = {0};
-    ellipsoid_contact_cache cache;
+    ellipsoid_facet_cache cache;
     ellipsoid_status status;
     const double period = 2 * 3.14159265358979323846 * (4 + 0.25) / shear_rate;
     double t = 0;
@@ -44,7 +44,7 @@ int main(void)
     options.buoyancy = 0;
     options.tolerance = 1e-8;
     status = ellipsoid_model_init(&model, &options);
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache_clear(&cache);
 
     printf("# Jeffery's period %.6e s\n", period);
     printf("# t/period  O_x1  O_x2  O_x3  spin[rad/s]\n");

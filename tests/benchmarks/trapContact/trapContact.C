@@ -30,7 +30,7 @@ Usage
 #include "columnFvMesh.H"
 #include "cellInjection.H"
 #include "cellSurroundings.H"
-#include "throughFlow.H"
+#include "inletFlux.H"
 
 #include <algorithm>
 #include <cfenv>
@@ -202,8 +202,8 @@ void advance
     ellipsoid_surroundings around = j.here.core();
     ellipsoid_controller controller = {};
     ellipsoid_state body = {};
-    ellipsoid_contact_cache cache;
-    ellipsoid_contact_cache_clear(&cache);
+    ellipsoid_facet_cache cache;
+    ellipsoid_facet_cache_clear(&cache);
 
     ellipsoid_flow_sample sample;
     frozenFlow::probe at(cell.at);
@@ -389,7 +389,7 @@ int main(int argc, char *argv[])
         (
             properties.section("capture"), "speedFraction", 0, 0.01
         )
-       *throughFlow(U, phi).speed();
+       *inletFlux(U, phi).speed();
 
     const cellInjection::setting from
     {
@@ -408,7 +408,7 @@ int main(int argc, char *argv[])
     const scalar clock = clockCost();
     std::vector<std::vector<figures>> repeats;
 
-    // As in cellMover: the core answers what is not finite
+    // As in groupAdvance: the core answers what is not finite
     std::fenv_t traps;
     std::feholdexcept(&traps);
 

@@ -1,0 +1,84 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    body.h - the room that knows one ellipsoid: its options, shape, pose,
+    resistance, beads and surface quadrature. It depends on nothing else of the
+    core; walls, drag, contact and motion depend on it.
+*/
+#ifndef ELLIPSOID_BODY_H
+#define ELLIPSOID_BODY_H
+
+#include "ellipsoid.h"
+#include "body/vectors.h"
+
+#include <string.h>
+
+/*
+    The part of the Jacobian that is not known beforehand: rows are the
+    accelerations du/dt and domega/dt, columns the unknowns. The rest follows
+    from paper eqs. (2) and (4): dx/dt = u and dq/dt = 1/2 Q(omega) q.
+*/
+typedef struct ellipsoid_blocks
+{
+    double uu[3][3], ux[3][3], uw[3][3], uq[3][4];
+    double wu[3][3], wx[3][3], ww[3][3], wq[3][4];
+} ellipsoid_blocks;
+
+/* Adds derivatives of force and torque to the blocks: rows of u times
+   of_force, row i of omega times of_torque[i] (blocks.c). */
+void ellipsoid_add_to_blocks(const ellipsoid_contact_jacobian *jacobian,
+                             double of_force, const double of_torque[3],
+                             ellipsoid_blocks *blocks);
+
+/* In place, by blocks of 3x3; 0 if one of them is singular
+   (invert6.c). */
+int ellipsoid_invert6(double matrix[6][6]);
+
+/* Puts the points of FLOW_BODY into the model; returns how many, 0 if the
+   options do not allow it (surfaceQuadrature.c). */
+int ellipsoid_surface_quadrature(ellipsoid_model *model);
+
+/* An ellipsoid in the lab. */
+typedef struct ellipsoid_surface
+{
+    double axes[3], smallest; /* [m] semi-axes */
+    double centre[3];         /* [m] */
+    double q[4];              /* of length one */
+    double rotation[3][3];
+    double shape[3][3]; /* [m2] R diag(axes^2) R^T */
+} ellipsoid_surface;
+
+/* Sets all of it from a pose; q may be of any length
+   (surface.c). */
+void ellipsoid_surface_set(const double axes[3], const double x[3],
+                           const double q[4], ellipsoid_surface *body);
+
+/* R^T v */
+static inline void ellipsoid_to_body(double r[3][3], const double v[3],
+                                     double body[3])
+{
+    ellipsoid_combination(r, v[0], v[1], v[2], body);
+}
+
+/* Adds a force [N, lab] at the point `arm` [m, body] and its torque. */
+static inline void ellipsoid_add_force_at(const double arm[3], double r[3][3],
+                                          const double force[3],
+                                          double total[3], double torque[3])
+{
+    double body[3], turning[3];
+
+    ellipsoid_to_body(r, force, body);
+    ellipsoid_cross(arm, body, turning);
+    ellipsoid_add(total, force);
+    ellipsoid_add(torque, turning);
+}
+
+/* What the flow or the field meant by an answer other than 0. */
+static inline ellipsoid_status ellipsoid_answer_status(int answer)
+{
+    return answer > 0 ? ELLIPSOID_STEP_UNDERFLOW : ELLIPSOID_FLOW_FAILED;
+}
+
+#endif

@@ -1,0 +1,218 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    beadContact.c - the wall's force on one bead.
+
+    A contact is a local minimum of the distance from the bead's centre to the
+    wall (facets.c), at height h along the normal n; Hertz: f = k (r - h)^1.5.
+    Adhesion pulls by a second law, at heights a little beyond r too. The
+    contacts add up law by law (contactBlending.h).
+*/
+#define BLENDING_VARIABLES 3 /* the bead's centre */
+
+#include "contact/contact.h"
+
+typedef ellipsoid_nearest contact;
+
+#include "contact/contactBlending.h"
+
+/*
+    All contacts of a bead. *gap is lowered to the smallest height less radius.
+    Those felt reach as far as the adhesion. A facet seen from behind counts
+    only if nothing is nearer: then the centre has been pushed into the wall.
+    Otherwise it is the far side of a thin one.
+*/
+static void find_contacts(const ellipsoid_bead *bead,
+                          const ellipsoid_candidates *from, contacts *all,
+                          double *gap, ellipsoid_contact *report)
+{
+    const double r = bead->radius, felt = r + bead->adhesion_range;
+    contact found, behind = {.height = -r};
+    double clear = r;
+    int surface = 0, inside = 0;
+
+    all->count = 0;
+    for (int k = 0; k < from->count; k++)
+    {
+        const ellipsoid_facet *facet =
+            &from->facets[from->index[k]];
+        const double reach = r + *gap > felt ? r + *gap : felt;
+
+        if (!ellipsoid_facet_nearest(facet, bead->centre, reach, &found))
+        {
+            continue;
+        }
+        if (found.height < 0)
+        {
+            if (found.height > behind.height)
+            {
+                behind = found;
+                surface = facet->surface;
+                inside = 1;
+            }
+            continue;
+        }
+        clear = fmin(clear, found.height);
+        *gap = fmin(*gap, found.height - r);
+        if (found.height < felt)
+        {
+            add(all, &found, r);
+            if (report)
+            {
+                note_surface(report, facet->surface);
+            }
+        }
+    }
+    if (inside && -behind.height < (1 - same) * clear)
+    {
+        add(all, &behind, r);
+        *gap = fmin(*gap, behind.height - r);
+        if (report)
+        {
+            note_surface(report, surface);
+        }
+    }
+}
+
+/* How a contact's normal turns as the centre moves: (I - nn - tt)/h. */
+static void set_turning(const contact *c, double turn[3][3])
+{
+    for (int i = 0; i < 3; i++)
+    {
+        for (int j = 0; j < 3; j++)
+        {
+            if (c->feature == ELLIPSOID_ON_FACE)
+            {
+                turn[i][j] = 0;
+                continue;
+            }
+            turn[i][j] = (i == j) - c->normal[i] * c->normal[j];
+            if (c->feature == ELLIPSOID_ON_EDGE)
+            {
+                turn[i][j] -= c->edge[i] * c->edge[j];
+            }
+            turn[i][j] /= c->height;
+        }
+    }
+}
+
+static scalar rise(const contacts *all, const mix *m, const scalar *c, int i,
+                   int j)
+{
+    const contact *a = &all->at[i], *b = &all->at[j];
+    scalar s = {.value = b->height - c->value * a->height};
+
+    (void)m;
+    for (int k = 0; k < 3; k++)
+    {
+        s.gradient[k] = b->normal[k] - c->value * a->normal[k]
+                      - a->height * c->gradient[k];
+    }
+    return s;
+}
+
+static scalar shadow(const contacts *all, const mix *m, int i, int j)
+{
+    return cosine(all, m, i, j);
+}
+
+/* Adds the forces of one law along the normals (sign 1) or against. */
+static void add_mixed(const contacts *all, const mix *m, double sign,
+                      int derivatives, ellipsoid_point_force *felt)
+{
+    scalar size[MAX_CONTACTS];
+
+    mix_forces(all, m, size);
+    for (int c = 0; c < m->count; c++)
+    {
+        for (int i = 0; i < 3; i++)
+        {
+            const double n = sign * all->at[c].normal[i];
+
+            felt->force[i] += size[c].value * n;
+            for (int j = 0; derivatives && j < 3; j++)
+            {
+                felt->force_x[i][j] += n * size[c].gradient[j]
+                                     + sign * size[c].value
+                                           * m->turn[c][i][j];
+            }
+        }
+    }
+}
+
+static void combine(const ellipsoid_bead *bead, contacts *all, int derivatives,
+                    ellipsoid_point_force *push, ellipsoid_point_force *pull)
+{
+    const int adheres = bead->adhesion > 0;
+    mix m; /* large: set where it is read */
+
+    m.count = adheres ? overlapping_first(all, bead->radius) : all->count;
+    for (int i = 0; i < all->count; i++)
+    {
+        set_turning(&all->at[i], m.turn[i]);
+    }
+    for (int law = 0; law <= adheres; law++)
+    {
+        for (int i = 0; i < m.count; i++)
+        {
+            const double gap = all->at[i].height - bead->radius;
+            double slope;
+
+            m.force[i].value =
+                law == 0 ? push_at(bead->stiffness, gap, &slope)
+                         : pull_at(bead->adhesion, bead->adhesion_range, gap,
+                                   &slope);
+            for (int k = 0; k < 3; k++)
+            {
+                m.force[i].gradient[k] = slope * all->at[i].normal[k];
+            }
+        }
+        if (m.count > 0)
+        {
+            add_mixed(all, &m, law == 0 ? 1 : -1, derivatives,
+                      law == 0 ? push : pull);
+        }
+        m.count = all->count;
+    }
+}
+
+int ellipsoid_bead_contact(const ellipsoid_bead *bead,
+                         const ellipsoid_candidates *from, double *gap,
+                         int derivatives, ellipsoid_point_force *push,
+                         ellipsoid_point_force *pull, ellipsoid_contact *report)
+{
+    contacts all;
+
+    find_contacts(bead, from, &all, gap, report);
+    if (all.count > 0)
+    {
+        memset(push, 0, sizeof *push);
+        memset(pull, 0, sizeof *pull);
+        combine(bead, &all, derivatives, push, pull);
+    }
+    return all.count;
+}
+
+int ellipsoid_bead_force(const double centre[3], double radius,
+                         double stiffness, const ellipsoid_facet *facets,
+                         const int *index, int count, double force[3],
+                         double force_x[3][3])
+{
+    const ellipsoid_candidates from = {facets, index, count};
+    ellipsoid_bead bead = {.radius = radius, .stiffness = stiffness};
+    ellipsoid_point_force push = {.force = {0, 0, 0}}, pull;
+    double gap = 0;
+    int contacts;
+
+    ellipsoid_copy(centre, bead.centre);
+    contacts = ellipsoid_bead_contact(&bead, &from, &gap, force_x != NULL, &push,
+                                    &pull, NULL);
+    ellipsoid_copy(push.force, force);
+    if (force_x)
+    {
+        memcpy(force_x, push.force_x, sizeof push.force_x);
+    }
+    return contacts;
+}

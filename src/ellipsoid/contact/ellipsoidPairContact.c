@@ -1,0 +1,92 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    ellipsoidPairContact.c - force and torque of two ellipsoids on one another.
+
+    One contact, where they are deepest (ellipsoidPair.c), with the law and the
+    stiffness of two beads. The points on either surface lie on the line of the
+    push; between them is the one where both are held.
+*/
+#include "contact/contact.h"
+
+#include <math.h>
+
+static ellipsoid_surface itself(const ellipsoid_body *body)
+{
+    ellipsoid_surface result;
+
+    ellipsoid_surface_set(body->model->options.semi_axes, body->x, body->q,
+                          &result);
+    return result;
+}
+
+double ellipsoid_surface_gap(const ellipsoid_body *a, const ellipsoid_body *b)
+{
+    const ellipsoid_surface of_a = itself(a), of_b = itself(b);
+    ellipsoid_surface_pair pair;
+
+    ellipsoid_surface_pair_set(&of_a, &of_b, 0, &pair);
+    return -pair.depth;
+}
+
+/* Both are held in the middle between the points on their surfaces. */
+static void set_push(const ellipsoid_surface_pair *pair, double stiffness,
+                     int derivatives, ellipsoid_surface_push *p)
+{
+    const double root = stiffness * sqrt(pair->depth);
+    double line[3]; /* from b's centre to a's */
+
+    ellipsoid_difference(p->body[0]->centre, p->body[1]->centre, line);
+    for (int i = 0; i < 3; i++)
+    {
+        const double sum = pair->point_a[i] + pair->point_b[i];
+
+        p->push[i] = root * pair->depth * pair->normal[i];
+        p->point[0][i] = 0.5 * (sum - line[i]);
+        p->point[1][i] = 0.5 * (sum + line[i]);
+        for (int k = 0; derivatives && k < ELLIPSOID_PAIR_VARIABLES; k++)
+        {
+            const double change =
+                pair->point_a_slope[i][k] + pair->point_b_slope[i][k];
+
+            p->push_slope[k][i] =
+                root * (1.5 * pair->depth_slope[k] * pair->normal[i]
+                        + pair->depth * pair->normal_slope[i][k]);
+            p->point_slope[0][k][i] = 0.5 * (change - (k == i));
+            p->point_slope[1][k][i] = 0.5 * (change + (k == i));
+        }
+    }
+}
+
+void ellipsoid_surface_pair_contact(ellipsoid_pair_contact *m)
+{
+    ellipsoid_pair_wrench *const side[2] = {m->of_a, m->of_b};
+    ellipsoid_contact_jacobian *const by[2][2] = {
+        {&m->of_a->own, &m->of_a->other}, {&m->of_b->other, &m->of_b->own}};
+    ellipsoid_surface a = itself(m->a), b = itself(m->b);
+    ellipsoid_surface_pair pair;
+
+    ellipsoid_surface_pair_set(&a, &b, m->derivatives, &pair);
+    m->gap = fmin(m->gap, -pair.depth);
+    if (!(pair.depth > 0))
+    {
+        return;
+    }
+
+    ellipsoid_surface_push push = {.bodies = 2,
+                                 .body = {&a, &b},
+                                 .state = {m->state_a, m->state_b}};
+    ellipsoid_wrench sum = {.force = {0, 0, 0}};
+
+    m->touching = 1;
+    set_push(&pair, m->stiffness, m->derivatives, &push);
+    ellipsoid_wrench_add(&push, m->rubs ? &m->law : NULL, m->derivatives,
+                             &sum);
+    for (int k = 0; k < 2; k++)
+    {
+        ellipsoid_wrench_report(&push, &sum, k, side[k]->force, side[k]->torque,
+                               m->derivatives ? by[k] : NULL);
+    }
+}

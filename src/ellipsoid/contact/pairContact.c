@@ -1,0 +1,223 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    pairContact.c - the forces F_S between the cells of a group.
+
+    Beads against beads: Hertz, F = 4/3 E* sqrt(R) d^(3/2) along the line of
+    centres, with 1/R = 1/r_a + 1/r_b and 1/E* = 1/E_a + 1/E_b, as for two
+    spheres. One force acts on both, with opposite signs, at the beads' centres,
+    which lie on its line: momentum and its moment are kept.
+*/
+#include "contact/contact.h"
+
+#include <math.h>
+
+/* ------------------------------------------------------- beads that touch */
+
+double ellipsoid_pair_stiffness(const ellipsoid_options *a,
+                                const ellipsoid_options *b)
+{
+    const double radius =
+        a->bead_radius * b->bead_radius / (a->bead_radius + b->bead_radius);
+    const double modulus = a->contact_modulus * b->contact_modulus
+                         / (a->contact_modulus + b->contact_modulus);
+
+    return 4.0 / 3 * modulus * sqrt(radius);
+}
+
+/* The force on a's bead, `line` from b's bead and `distance` long, and its
+   derivative by the bead's centre; by that of b's it is the negative. */
+static void push_apart(const ellipsoid_pair_contact *m, const double line[3],
+                       double distance, double depth, double force[3],
+                       double force_x[3][3])
+{
+    const double root = m->stiffness * sqrt(depth), size = root * depth;
+    double n[3];
+
+    for (int i = 0; i < 3; i++)
+    {
+        n[i] = line[i] / distance;
+        force[i] = size * n[i];
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        for (int j = 0; j < 3; j++)
+        {
+            force_x[i][j] = size / distance * ((i == j) - n[i] * n[j])
+                          - 1.5 * root * n[i] * n[j];
+        }
+    }
+}
+
+/* Before the first contact of a pair is added. */
+static void begin_side(const ellipsoid_pair_contact *m, ellipsoid_pair_wrench *s)
+{
+    memset(s->force, 0, sizeof(s->force));
+    memset(s->torque, 0, sizeof(s->torque));
+    if (m->derivatives)
+    {
+        memset(&s->own, 0, sizeof(s->own));
+        memset(&s->other, 0, sizeof(s->other));
+    }
+}
+
+static void add_touch(ellipsoid_pair_contact *m, int bead_a, int bead_b,
+                      double force[3], double force_x[3][3])
+{
+    const double *arm_a = m->a->model->bead[bead_a];
+    const double *arm_b = m->b->model->bead[bead_b];
+    const double back[3] = {-force[0], -force[1], -force[2]};
+    ellipsoid_body a = *m->a, b = *m->b;
+    double across[3][3];
+
+    ellipsoid_add_force_at(arm_a, a.r, force, m->of_a->force, m->of_a->torque);
+    ellipsoid_add_force_at(arm_b, b.r, back, m->of_b->force, m->of_b->torque);
+    if (!m->derivatives)
+    {
+        return;
+    }
+    for (int n = 0; n < 9; n++)
+    {
+        across[n / 3][n % 3] = -force_x[n / 3][n % 3];
+    }
+    ellipsoid_add_wrench_jacobian(arm_a, a.q, a.r, force, force_x, &m->of_a->own);
+    ellipsoid_add_wrench_jacobian(arm_b, b.q, b.r, back, force_x, &m->of_b->own);
+    ellipsoid_add_cross_jacobian(arm_a, a.r, arm_b, b.q, across,
+                                    &m->of_a->other);
+    ellipsoid_add_cross_jacobian(arm_b, b.r, arm_a, a.q, across,
+                                    &m->of_b->other);
+}
+
+/* The contact point divides the line of centres as the radii do. */
+static void add_rub(ellipsoid_pair_contact *m, int bead_a, int bead_b,
+                    const double line[3], const double force[3],
+                    double force_x[3][3])
+{
+    const double r_a = m->a->model->options.bead_radius;
+    const double r_b = m->b->model->options.bead_radius;
+    const double part_a = r_a / (r_a + r_b), part_b = r_b / (r_a + r_b);
+    ellipsoid_contact_jacobian *const jacobian[2][2] = {
+        {&m->of_a->own, &m->of_a->other}, {&m->of_b->other, &m->of_b->own}};
+    ellipsoid_body a = *m->a, b = *m->b;
+    ellipsoid_friction rub = {.bodies = 2};
+
+    rub.grip[0] = ellipsoid_attachment_of(m->state_a, a.r, a.model->bead[bead_a]);
+    rub.grip[1] = ellipsoid_attachment_of(m->state_b, b.r, b.model->bead[bead_b]);
+    ellipsoid_copy(force, rub.push);
+    for (int i = 0; i < 3; i++)
+    {
+        rub.grip[0].point[i] -= part_a * line[i];
+        rub.grip[1].point[i] += part_b * line[i];
+        for (int j = 0; j < 3; j++)
+        {
+            rub.push_c[0][i][j] = force_x[i][j];
+            rub.push_c[1][i][j] = -force_x[i][j];
+            rub.point_c[0][i][j] = i == j ? part_b : 0;
+            rub.point_c[1][i][j] = i == j ? part_a : 0;
+        }
+    }
+    if (!ellipsoid_friction_traction(&m->law, &rub, m->derivatives))
+    {
+        return;
+    }
+    ellipsoid_add_friction(&rub, 0, m->of_a->force, m->of_a->torque);
+    ellipsoid_add_friction(&rub, 1, m->of_b->force, m->of_b->torque);
+    if (m->derivatives)
+    {
+        ellipsoid_add_friction_jacobian(&rub, jacobian);
+    }
+}
+
+/* A bead of each; `line` is between the centres of the cells. */
+static inline void meet(ellipsoid_pair_contact *m, const double line[3], int bead_a,
+                        int bead_b)
+{
+    const double both =
+        m->a->model->options.bead_radius + m->b->model->options.bead_radius;
+    const double far = both + fmax(m->gap, 0);
+    double between[3], distance;
+
+    ellipsoid_difference(m->a->bead[bead_a], m->b->bead[bead_b], between);
+    ellipsoid_add(between, line);
+    distance = ellipsoid_dot(between, between);
+    if (distance >= far * far)
+    {
+        return;
+    }
+    distance = sqrt(distance);
+    m->gap = fmin(m->gap, distance - both);
+    if (distance < both && distance > 0)
+    {
+        double force[3], force_x[3][3];
+
+        push_apart(m, between, distance, both - distance, force, force_x);
+        if (m->touching++ == 0)
+        {
+            begin_side(m, m->of_a);
+            begin_side(m, m->of_b);
+        }
+        if (m->rubs)
+        {
+            add_rub(m, bead_a, bead_b, between, force, force_x);
+        }
+        else
+        {
+            add_touch(m, bead_a, bead_b, force, force_x);
+        }
+    }
+}
+
+void ellipsoid_pair_contact_evaluate(ellipsoid_pair_contact *m,
+                                     const ellipsoid_near_pair *near)
+{
+    const int all_b = m->b->model->bead_count;
+    const int count =
+        near->listed < 0 ? m->a->model->bead_count * all_b : near->listed;
+    double line[3];
+
+    if (ellipsoid_pair_is_exact(m->a->model, m->b->model))
+    {
+        ellipsoid_surface_pair_contact(m);
+        return;
+    }
+    ellipsoid_difference(m->a->x, m->b->x, line);
+    for (int n = 0; n < count; n++)
+    {
+        if (near->listed < 0)
+        {
+            meet(m, line, n / all_b, n % all_b);
+        }
+        else
+        {
+            meet(m, line, near->bead[n][0], near->bead[n][1]);
+        }
+    }
+}
+
+double ellipsoid_cell_gap(const ellipsoid_model *a, const double x_a[3],
+                          const double q_a[4], const ellipsoid_model *b,
+                          const double x_b[3], const double q_b[4],
+                          double horizon)
+{
+    double bead_a[ELLIPSOID_MAX_BEADS][3], bead_b[ELLIPSOID_MAX_BEADS][3];
+    ellipsoid_body of_a = {.bead = bead_a}, of_b = {.bead = bead_b};
+    ellipsoid_near_pair near;
+    ellipsoid_pair_wrench felt_by_a, felt_by_b;
+    ellipsoid_pair_contact m = {.a = &of_a,
+                           .b = &of_b,
+                           .gap = horizon,
+                           .of_a = &felt_by_a,
+                           .of_b = &felt_by_b};
+
+    if (ellipsoid_are_apart(a, x_a, b, x_b, horizon))
+    {
+        return horizon;
+    }
+    ellipsoid_place_body(&of_a, a, x_a, q_a);
+    ellipsoid_place_body(&of_b, b, x_b, q_b);
+    ellipsoid_list_beads(&of_a, &of_b, horizon, &near);
+    ellipsoid_pair_contact_evaluate(&m, &near);
+    return m.gap;
+}

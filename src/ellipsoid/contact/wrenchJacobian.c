@@ -1,0 +1,267 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    wrenchJacobian.c - derivatives of a force at a point of the body, and of its torque.
+*/
+#include "contact/contact.h"
+
+/* v = (dR/dq_n) body: derivative of the polynomial R(q), n = 0..3. */
+static void turned_by(const double q[4], int n, const double body[3],
+                      double v[3])
+{
+    const double along = ellipsoid_dot(q, body);
+    double cross[3];
+
+    if (n == 3) /* 2 eta + 2 [eps]x */
+    {
+        ellipsoid_cross(q, body, cross);
+        for (int i = 0; i < 3; i++)
+        {
+            v[i] = 2 * (q[3] * body[i] + cross[i]);
+        }
+        return;
+    }
+
+    /* 2 (-eps_n + e_n eps^T + eps e_n^T + eta [e_n]x) */
+    double axis[3] = {0, 0, 0};
+
+    axis[n] = 1;
+    ellipsoid_cross(axis, body, cross);
+    for (int i = 0; i < 3; i++)
+    {
+        v[i] = 2
+             * (q[i] * body[n] - q[n] * body[i] + q[3] * cross[i]
+                + axis[i] * along);
+    }
+}
+
+void ellipsoid_add_wrench_jacobian(const double arm[3], const double q[4],
+                               double r[3][3], const double force[3],
+                               double force_x[3][3],
+                               ellipsoid_contact_jacobian *jacobian)
+{
+    const double conjugate[4] = {-q[0], -q[1], -q[2], q[3]};
+    double column[3], body[3], torque[3];
+
+    for (int n = 0; n < 7; n++)
+    {
+        double turned[3];
+
+        if (n < 3)
+        {
+            for (int i = 0; i < 3; i++)
+            {
+                column[i] = force_x[i][n];
+                jacobian->force_x[i][n] += column[i];
+            }
+        }
+        else
+        {
+            turned_by(q, n - 3, arm, turned);
+            for (int i = 0; i < 3; i++)
+            {
+                column[i] = ellipsoid_dot(force_x[i], turned);
+                jacobian->force_q[i][n - 3] += column[i];
+            }
+        }
+        ellipsoid_to_body(r, column, body);
+        if (n >= 3)
+        {
+            /* the frame turns under the force: (dR/dq_n)^T F, and R^T(q) is
+               R of the conjugate */
+            turned_by(conjugate, n - 3, force, turned);
+            for (int i = 0; i < 3; i++)
+            {
+                body[i] += n == 6 ? turned[i] : -turned[i];
+            }
+        }
+        ellipsoid_cross(arm, body, torque);
+        for (int i = 0; i < 3; i++)
+        {
+            if (n < 3)
+            {
+                jacobian->torque_x[i][n] += torque[i];
+            }
+            else
+            {
+                jacobian->torque_q[i][n - 3] += torque[i];
+            }
+        }
+    }
+}
+
+void ellipsoid_add_cross_jacobian(const double arm[3], double r[3][3],
+                                     const double other_arm[3],
+                                     const double other_q[4],
+                                     double force_x[3][3],
+                                     ellipsoid_contact_jacobian *jacobian)
+{
+    for (int n = 0; n < 7; n++)
+    {
+        double column[3], body[3], torque[3], moved[3] = {0, 0, 0};
+
+        if (n < 3)
+        {
+            moved[n] = 1;
+        }
+        else
+        {
+            turned_by(other_q, n - 3, other_arm, moved);
+        }
+        ellipsoid_product(force_x, moved, column);
+        ellipsoid_to_body(r, column, body);
+        ellipsoid_cross(arm, body, torque);
+        for (int i = 0; i < 3; i++)
+        {
+            *(n < 3 ? &jacobian->force_x[i][n]
+                    : &jacobian->force_q[i][n - 3]) += column[i];
+            *(n < 3 ? &jacobian->torque_x[i][n]
+                    : &jacobian->torque_q[i][n - 3]) += torque[i];
+        }
+    }
+}
+
+/* A change of one unknown of one body, in units of it. */
+typedef struct change
+{
+    double bead[3];     /* how its bead's centre moves */
+    double centre[3];   /* how its own centre does */
+    double velocity[3]; /* of its material, at the same point from its centre */
+} change;
+
+static change change_of(const ellipsoid_attachment *grip, int n)
+{
+    change c = {{0}, {0}, {0}};
+    double spin[3] = {0};
+
+    if (n < 3) /* u */
+    {
+        c.velocity[n] = 1;
+        return c;
+    }
+    if (n < 6) /* x */
+    {
+        c.bead[n - 3] = c.centre[n - 3] = 1;
+        return c;
+    }
+    if (n < 9) /* omega */
+    {
+        ellipsoid_set(spin, grip->r[0][n - 6], grip->r[1][n - 6],
+                      grip->r[2][n - 6]);
+    }
+    else
+    {
+        turned_by(grip->state->q, n - 9, grip->arm, c.bead);
+        turned_by(grip->state->q, n - 9, grip->state->omega, spin);
+    }
+    ellipsoid_cross(spin, grip->point, c.velocity);
+    return c;
+}
+
+/* Column n, in the order of the state, of force and torque. */
+static void add_column(const double force[3], const double torque[3], int n,
+                       ellipsoid_contact_jacobian *to)
+{
+    for (int i = 0; i < 3; i++)
+    {
+        *(n < 3   ? &to->force_u[i][n]
+          : n < 6 ? &to->force_x[i][n - 3]
+          : n < 9 ? &to->force_omega[i][n - 6]
+                  : &to->force_q[i][n - 9]) += force[i];
+        *(n < 3   ? &to->torque_u[i][n]
+          : n < 6 ? &to->torque_x[i][n - 3]
+          : n < 9 ? &to->torque_omega[i][n - 6]
+                  : &to->torque_q[i][n - 9]) += torque[i];
+    }
+}
+
+/*
+    The torque R^T (p x F) of a body, p the contact point from its centre: n is
+    the changed unknown, of this body itself if `own`.
+*/
+static void add_felt(const ellipsoid_attachment *grip, const double force[3],
+                     const double force_n[3], const double point_n[3], int own,
+                     int n, ellipsoid_contact_jacobian *to)
+{
+    const double *q = grip->state->q;
+    const double conjugate[4] = {-q[0], -q[1], -q[2], q[3]};
+    double torque_n[3], part[3], body[3];
+
+    ellipsoid_cross(grip->point, force_n, torque_n);
+    ellipsoid_cross(point_n, force, part);
+    ellipsoid_add(torque_n, part);
+    ellipsoid_to_body(grip->r, torque_n, body);
+    if (own && n >= 9)
+    {
+        double torque[3];
+
+        ellipsoid_cross(grip->point, force, torque);
+        turned_by(conjugate, n - 9, torque, part);
+        for (int i = 0; i < 3; i++)
+        {
+            body[i] += n == 12 ? part[i] : -part[i];
+        }
+    }
+    add_column(force_n, body, n, to);
+}
+
+/* How the contact point moves from each body's centre, and the traction. */
+static void changed_rub(ellipsoid_friction *rub, int body, const change *c,
+                        double point[2][3], double force[3])
+{
+    double velocity[3], push[3], part[3];
+
+    for (int i = 0; i < 3; i++)
+    {
+        velocity[i] = body == 0 ? c->velocity[i] : -c->velocity[i];
+    }
+    for (int k = 0; k < rub->bodies; k++)
+    {
+        ellipsoid_product(rub->point_c[body], c->bead, point[k]);
+        if (k == body)
+        {
+            ellipsoid_difference(point[k], c->centre, point[k]);
+        }
+        if (k == 0)
+        {
+            ellipsoid_cross(rub->grip[k].spin, point[k], part);
+        }
+        else
+        {
+            ellipsoid_cross(point[k], rub->grip[k].spin, part);
+        }
+        ellipsoid_add(velocity, part);
+    }
+    ellipsoid_product(rub->push_c[body], c->bead, push);
+    ellipsoid_product(rub->traction.by_push, push, force);
+    ellipsoid_product(rub->traction.by_velocity, velocity, part);
+    ellipsoid_add(force, part);
+}
+
+void ellipsoid_add_friction_jacobian(
+    ellipsoid_friction *rub, ellipsoid_contact_jacobian *const jacobian[2][2])
+{
+    const double *f = rub->traction.force;
+    const double back[3] = {-f[0], -f[1], -f[2]};
+
+    for (int body = 0; body < rub->bodies; body++)
+    {
+        for (int n = 0; n < ELLIPSOID_STATE_SIZE; n++)
+        {
+            const change c = change_of(&rub->grip[body], n);
+            double point[2][3], force_n[3];
+
+            changed_rub(rub, body, &c, point, force_n);
+            add_felt(&rub->grip[0], f, force_n, point[0], body == 0, n,
+                     jacobian[0][body]);
+            if (rub->bodies == 2)
+            {
+                ellipsoid_set(force_n, -force_n[0], -force_n[1], -force_n[2]);
+                add_felt(&rub->grip[1], back, force_n, point[1], body == 1, n,
+                         jacobian[1][body]);
+            }
+        }
+    }
+}

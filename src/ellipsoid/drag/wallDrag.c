@@ -1,0 +1,274 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    wallDrag.c - drag near walls.
+
+    The resistance of the free body and what each plane adds to it (wallResistance.c,
+    wallPlanes.c) make one matrix in the body frame, symmetric and positive
+    definite:
+        (F^, T^) = mu (diag(K^, C) + sum_planes weight A(n^, h))
+                   (R^T (u_free - u), omega_free - w^).
+*/
+#include "drag/drag.h"
+#include "drag/wallResistance.h"
+
+/* mu times resistance times rates, body frame */
+static void resist(const ellipsoid_model *m, const ellipsoid_planes *planes,
+                   const double rates[6], double action[6])
+{
+    for (int i = 0; i < 3; i++)
+    {
+        action[i] = m->viscosity * m->resistance[i] * rates[i];
+        action[i + 3] =
+            m->viscosity * m->rotation_resistance[i] * rates[i + 3];
+    }
+    for (int p = 0; p < planes->count; p++)
+    {
+        const ellipsoid_plane *plane = &planes->at[p];
+        const double factor = m->viscosity * plane->weight.value;
+        double more[6];
+
+        ellipsoid_plane_resistance(m, plane->normal, plane->height.value, rates,
+                                   more, NULL);
+        for (int i = 0; i < 6; i++)
+        {
+            action[i] += factor * more[i];
+        }
+    }
+}
+
+/* The whole of it as a symmetric matrix. */
+static void set_matrix(const ellipsoid_model *m, const ellipsoid_planes *planes,
+                       double matrix[6][6])
+{
+    memset(matrix, 0, 6 * sizeof(*matrix));
+    for (int p = 0; p < planes->count; p++)
+    {
+        const ellipsoid_plane *plane = &planes->at[p];
+        double more[6][6];
+
+        ellipsoid_plane_matrix(m, plane->normal, plane->height.value, more);
+        for (int i = 0; i < 6; i++)
+        {
+            for (int j = 0; j < 6; j++)
+            {
+                matrix[i][j] +=
+                    m->viscosity * plane->weight.value * more[i][j];
+            }
+        }
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        matrix[i][i] += m->viscosity * m->resistance[i];
+        matrix[i + 3][i + 3] += m->viscosity * m->rotation_resistance[i];
+    }
+}
+
+/* (R^T first, second) */
+static void to_body(double axis[3][3], const double first[3],
+                    const double second[3], double both[6])
+{
+    ellipsoid_product(axis, first, both);
+    ellipsoid_copy(second, both + 3);
+}
+
+static void add_lab(double axis[3][3], const double body[3], double lab[3])
+{
+    double turned[3];
+
+    ellipsoid_combination(axis, body[0], body[1], body[2], turned);
+    ellipsoid_add(lab, turned);
+}
+
+/* Adds to u and omega what force and torque do. */
+static void yield_to(const ellipsoid_model *m, const ellipsoid_planes *planes,
+                     double axis[3][3], const double force[3],
+                     const double torque[3], double u[3], double omega[3])
+{
+    double matrix[6][6], push[6], rates[6];
+
+    set_matrix(m, planes, matrix);
+    ellipsoid_invert6(matrix);
+    to_body(axis, force, torque, push);
+    for (int i = 0; i < 6; i++)
+    {
+        rates[i] = ellipsoid_dot(matrix[i], push)
+                 + ellipsoid_dot(matrix[i] + 3, push + 3);
+    }
+    add_lab(axis, rates, u);
+    ellipsoid_add(omega, rates + 3);
+}
+
+/* Adds to a column of the blocks, rows of u and omega apart by a stride. */
+static void add_column(double axis[3][3], const double action[6], double *of_u,
+                       double *of_omega, int stride)
+{
+    for (int i = 0; i < 3; i++)
+    {
+        of_u[i * stride] += axis[0][i] * action[0] + axis[1][i] * action[1]
+                          + axis[2][i] * action[2];
+        of_omega[i * stride] += action[i + 3];
+    }
+}
+
+/* How the action on given rates changes with the pose. */
+static void pose_changes(const ellipsoid_model *m,
+                         const ellipsoid_planes *planes, const double rates[6],
+                         double change[ELLIPSOID_POSE_SIZE][6])
+{
+    memset(change, 0, ELLIPSOID_POSE_SIZE * sizeof(*change));
+    for (int p = 0; p < planes->count; p++)
+    {
+        const ellipsoid_plane *plane = &planes->at[p];
+        double action[6], by[4][6];
+
+        ellipsoid_plane_resistance(m, plane->normal, plane->height.value, rates,
+                                   action, by);
+        for (int n = 0; n < ELLIPSOID_POSE_SIZE; n++)
+        {
+            const double *turn = plane->normal_slope[n];
+            const double weight = m->viscosity * plane->weight.value;
+            const double of_weight = m->viscosity * plane->weight.slope[n];
+
+            for (int i = 0; i < 6; i++)
+            {
+                change[n][i] += of_weight * action[i]
+                              + weight
+                                    * (turn[0] * by[0][i] + turn[1] * by[1][i]
+                                       + turn[2] * by[2][i]
+                                       + plane->height.slope[n] * by[3][i]);
+            }
+        }
+    }
+}
+
+/* action = matrix rates, with a symmetric matrix. */
+static void apply(double matrix[6][6], const double rates[6], double action[6])
+{
+    for (int i = 0; i < 6; i++)
+    {
+        action[i] = ellipsoid_dot(matrix[i], rates)
+                  + ellipsoid_dot(matrix[i] + 3, rates + 3);
+    }
+}
+
+static void add_blocks(const ellipsoid_model *m, const ellipsoid_planes *planes,
+                       double axis[3][3], double d[4][3][3],
+                       const ellipsoid_free_motion *free, const double slip[3],
+                       const double rates[6], const double action[6],
+                       ellipsoid_blocks *b)
+{
+    double matrix[6][6], change[ELLIPSOID_POSE_SIZE][6];
+
+    set_matrix(m, planes, matrix);
+    pose_changes(m, planes, rates, change);
+    for (int l = 0; l < 3; l++)
+    {
+        const double minus[3] = {-axis[0][l], -axis[1][l], -axis[2][l]};
+        const double u_x[3] = {free->u_x[0][l], free->u_x[1][l],
+                               free->u_x[2][l]};
+        const double omega_x[3] = {free->omega_x[0][l], free->omega_x[1][l],
+                                   free->omega_x[2][l]};
+        double moved[6] = {minus[0], minus[1], minus[2], 0, 0, 0};
+        double column[6];
+
+        apply(matrix, moved, column);
+        add_column(axis, column, &b->uu[0][l], &b->wu[0][l], 3);
+        for (int i = 0; i < 6; i++)
+        {
+            column[i] = -matrix[l + 3][i];
+        }
+        add_column(axis, column, &b->uw[0][l], &b->ww[0][l], 3);
+        to_body(axis, u_x, omega_x, moved);
+        apply(matrix, moved, column);
+        add_column(axis, column, &b->ux[0][l], &b->wx[0][l], 3);
+        add_column(axis, change[l], &b->ux[0][l], &b->wx[0][l], 3);
+    }
+    for (int n = 0; n < 4; n++)
+    {
+        double moved[6], column[6], turned[3];
+
+        ellipsoid_product(d[n], slip, moved);
+        for (int i = 0; i < 3; i++)
+        {
+            moved[i] += m->flow_points > 0
+                          ? axis[i][0] * free->u_q[0][n]
+                                + axis[i][1] * free->u_q[1][n]
+                                + axis[i][2] * free->u_q[2][n]
+                          : 0;
+            moved[i + 3] = free->omega_q[i][n];
+        }
+        apply(matrix, moved, column);
+        add_column(axis, column, &b->uq[0][n], &b->wq[0][n], 4);
+        add_column(axis, change[n + 3], &b->uq[0][n], &b->wq[0][n], 4);
+        ellipsoid_combination(d[n], action[0], action[1], action[2], turned);
+        for (int i = 0; i < 3; i++)
+        {
+            b->uq[i][n] += turned[i];
+        }
+    }
+}
+
+ellipsoid_status ellipsoid_wall_drag(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    ellipsoid_facet_cache *cache, ellipsoid_state *state, int balanced,
+    double axis[3][3], double axis_derivatives[4][3][3],
+    const ellipsoid_free_motion *free, double force[3], double torque[3],
+    ellipsoid_blocks *blocks, int *acted)
+{
+    ellipsoid_planes planes;
+    const ellipsoid_status status = ellipsoid_find_planes(
+        model, surroundings, state->x, state->q, axis,
+        blocks ? axis_derivatives : NULL, cache, &planes);
+    double slip[3], turn[3], rates[6], action[6];
+
+    *acted = status == ELLIPSOID_OK && planes.count > 0;
+    if (!*acted)
+    {
+        return status;
+    }
+    if (balanced)
+    {
+        ellipsoid_copy(free->u, state->u);
+        ellipsoid_copy(free->omega, state->omega);
+        yield_to(model, &planes, axis, force, torque, state->u, state->omega);
+        if (!blocks)
+        {
+            return ELLIPSOID_OK;
+        }
+    }
+    ellipsoid_difference(free->u, state->u, slip);
+    ellipsoid_difference(free->omega, state->omega, turn);
+    to_body(axis, slip, turn, rates);
+    resist(model, &planes, rates, action);
+    add_lab(axis, action, force);
+    ellipsoid_add(torque, action + 3);
+    if (blocks)
+    {
+        add_blocks(model, &planes, axis, axis_derivatives, free, slip, rates,
+                   action, blocks);
+    }
+    return ELLIPSOID_OK;
+}
+
+ellipsoid_status ellipsoid_wall_mobility(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    ellipsoid_facet_cache *cache, const double x[3], const double q[4],
+    const double force[3], const double torque[3], double u[3], double omega[3])
+{
+    const double opposite[4] = {q[0], q[1], q[2], -q[3]};
+    double axis[3][3];
+    ellipsoid_planes planes;
+    ellipsoid_status status;
+
+    ellipsoid_rotation_inline(opposite, axis);
+    status = ellipsoid_find_planes(model, surroundings, x, q, axis, NULL, cache,
+                                   &planes);
+    if (status == ELLIPSOID_OK)
+    {
+        yield_to(model, &planes, axis, force, torque, u, omega);
+    }
+    return status;
+}

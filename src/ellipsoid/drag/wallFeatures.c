@@ -1,0 +1,195 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    wallFeatures.c - where a body would meet a facet near it.
+
+    The body, grown about its centre, meets the walls in places one after the
+    other: where y -> y.M y, M = R diag(1/a_i^2) R^T, has a local minimum on the
+    wall, y = w - x. The plane through such a place w on which the grown body
+    rests has the normal n ~ -M (w - x). On a flat wall it is the wall itself,
+    however the body lies; and it cuts the body only if the wall does. The place
+    is inside a facet, on a convex edge or at a vertex under the conditions of
+    facets.c, with the scalar product by M.
+*/
+#include "drag/wallResistance.h"
+
+#include <math.h>
+
+/* Relative slack of conditions, as in facets.c. */
+static const double slack = 1e-9;
+
+/* r: from the place to the centre, body frame */
+static int set_place(ellipsoid_wall_feature *p, int feature, int k, double foot,
+                     const double r[3], const double covector[3])
+{
+    const double length = ellipsoid_length(covector);
+
+    if (!(length > 0))
+    {
+        return 0;
+    }
+    p->feature = feature;
+    p->k = k;
+    p->foot = foot;
+    ellipsoid_set(p->normal, covector[0] / length, covector[1] / length,
+                  covector[2] / length);
+    p->height = ellipsoid_dot(p->normal, r);
+    return 1;
+}
+
+/* Vectors of a facet in the body frame. */
+typedef struct corners
+{
+    double from[3][3], along[3][3]; /* vertex to centre; edges */
+} corners;
+
+static int place_on_edge(const ellipsoid_wall_search *s, const corners *c,
+                         int k, double foot, const double normal[3],
+                         ellipsoid_wall_feature *p)
+{
+    double r[3], w[3], inward[3];
+
+    for (int i = 0; i < 3; i++)
+    {
+        r[i] = c->from[k][i] - foot * c->along[k][i];
+    }
+    ellipsoid_shrink(s, r, w);
+    ellipsoid_product(s->axis, p->facet->edge_inward[k], inward);
+    return ellipsoid_dot(w, inward) <= slack * ellipsoid_length(w)
+        && ellipsoid_dot(r, normal) >= -slack * ellipsoid_length(r)
+        && set_place(p, ELLIPSOID_ON_EDGE, k, foot, r, w);
+}
+
+/* bare: the square of the scaled distance to the facet's plane */
+static int place_at_vertex(const ellipsoid_wall_search *s, const corners *c,
+                           const double normal[3], double bare,
+                           ellipsoid_wall_feature *p)
+{
+    const ellipsoid_facet *facet = p->facet;
+    double nearest = HUGE_VAL, w[3], lab[3];
+    int k = 0;
+
+    for (int n = 0; n < 3; n++)
+    {
+        double squared;
+
+        ellipsoid_shrink(s, c->from[n], w);
+        squared = ellipsoid_dot(c->from[n], w);
+        if (squared < nearest)
+        {
+            nearest = squared;
+            k = n;
+        }
+    }
+    ellipsoid_shrink(s, c->from[k], w);
+    ellipsoid_combination(s->axis, w[0], w[1], w[2], lab);
+    return (ellipsoid_facet_answers(facet, k)
+            || bare >= (1 - 2 * slack) * nearest)
+        && ellipsoid_facet_is_apex(facet, k, lab, slack * ellipsoid_length(w))
+        && ellipsoid_dot(c->from[k], normal)
+               >= -slack * ellipsoid_length(c->from[k])
+        && set_place(p, ELLIPSOID_ON_VERTEX, k, 0, c->from[k], w);
+}
+
+/* The place beside the facet's face, over a convex edge. */
+static int place_on_rim(const ellipsoid_wall_search *s, const double normal[3],
+                        double bare, const int outside[3],
+                        ellipsoid_wall_feature *p)
+{
+    const ellipsoid_facet *facet = p->facet;
+    double best = HUGE_VAL, foot = 0;
+    int edge = 0;
+    corners c = {{{0}}, {{0}}};
+
+    for (int k = 0; k < 3; k++)
+    {
+        double line[3];
+
+        ellipsoid_difference(s->x, facet->vertex[k], line);
+        ellipsoid_product(s->axis, line, c.from[k]);
+        ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
+                             line);
+        ellipsoid_product(s->axis, line, c.along[k]);
+    }
+    for (int k = 0; k < 3; k++)
+    {
+        double w[3], at, past;
+
+        ellipsoid_shrink(s, c.along[k], w);
+        at = ellipsoid_dot(c.from[k], w) / ellipsoid_dot(c.along[k], w);
+        past = fmax(0, fmax(-at, at - 1)) * sqrt(ellipsoid_dot(c.along[k], w));
+        if (outside[k] && facet->edge[k] == ELLIPSOID_EDGE_CONVEX
+            && past < best)
+        {
+            best = past;
+            edge = k;
+            foot = at;
+        }
+    }
+    if (best > 0 && place_at_vertex(s, &c, normal, bare, p))
+    {
+        return 1;
+    }
+    p->over[(edge + 1) % 3] = foot > 1;
+    p->over[(edge + 2) % 3] = foot < 0;
+    return place_on_edge(s, &c, edge, foot, normal, p);
+}
+
+/* Finds the plane that this facet gives; 0 if there is none. */
+int ellipsoid_find_feature(const ellipsoid_wall_search *s,
+                         const ellipsoid_facet *facet, ellipsoid_wall_feature *p)
+{
+    double from[3], normal[3], b[3], foot[3], height, support2, far;
+    int outside[3], on_rim = 0;
+
+    ellipsoid_difference(s->x, facet->vertex[0], from);
+    height = ellipsoid_dot(from, facet->normal);
+    if (!(height > 0 && height < s->range))
+    {
+        return 0;
+    }
+    ellipsoid_product(s->axis, facet->normal, normal);
+    for (int i = 0; i < 3; i++)
+    {
+        b[i] = s->square[i] * normal[i];
+    }
+    support2 = ellipsoid_dot(normal, b);
+    ellipsoid_combination(s->axis, b[0], b[1], b[2], foot);
+    for (int i = 0; i < 3; i++)
+    {
+        foot[i] = s->x[i] - foot[i] * height / support2;
+    }
+    ellipsoid_difference(foot, facet->middle, from);
+    far = facet->radius
+        + ellipsoid_fading * s->longest * height / sqrt(support2);
+    if (!ellipsoid_facet_has_rim(facet)
+        && ellipsoid_dot(from, from) > far * far)
+    {
+        return 0; /* it has faded */
+    }
+    for (int k = 0; k < 3; k++)
+    {
+        double along[3], inward[3];
+
+        ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
+                             along);
+        ellipsoid_cross(facet->normal, along, inward);
+        ellipsoid_difference(foot, facet->vertex[k], from);
+        outside[k] = ellipsoid_dot(inward, from) < 0;
+        on_rim = on_rim
+              || (outside[k] && facet->edge[k] == ELLIPSOID_EDGE_CONVEX);
+    }
+    memset(p, 0, sizeof(*p));
+    p->facet = facet;
+    if (on_rim)
+    {
+        return place_on_rim(s, normal, height * height / support2, outside, p);
+    }
+    p->feature = ELLIPSOID_ON_FACE;
+    memcpy(p->over, outside, sizeof(p->over));
+    ellipsoid_copy(normal, p->normal);
+    p->height = height;
+    return 1;
+}

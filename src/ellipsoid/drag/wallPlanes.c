@@ -1,0 +1,477 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    wallPlanes.c - which planes stand for the walls near a cell.
+
+    Each place where the grown body would meet a facet (wallFeatures.c) gives one.
+    Over a seam that is not convex a place does not end at once: facets, and
+    edges beyond their ends, go on as if they were larger, and their plane fades
+    while the place moves away by a part of the height (lengths by M). So
+    nothing jumps where a wall goes on in other facets. How planes of nearly one
+    normal share is told in planeWeights.c.
+*/
+#include "drag/wallResistance.h"
+
+#include <math.h>
+
+enum
+{
+    POSE = ELLIPSOID_POSE_SIZE
+};
+
+/* What makes two planes one, seen twice. */
+static const double same = 1e-8;
+
+/* The part of the range within which a wall counts fully. */
+static const double full = 0.5;
+
+/* How far the centre may move before facets are listed again, in ranges. */
+static const double margin_part = 0.1;
+
+/* Changes by a component n of the pose, body frame, of a vector from a fixed
+   point to the centre, or of a fixed direction. */
+static void changed(const ellipsoid_wall_search *s, int n, int is_point,
+                    const double lab[3], double change[3])
+{
+    if (n >= 3)
+    {
+        ellipsoid_product(s->turned[n - 3], lab, change);
+    }
+    else if (is_point)
+    {
+        ellipsoid_set(change, s->axis[0][n], s->axis[1][n], s->axis[2][n]);
+    }
+    else
+    {
+        ellipsoid_set(change, 0, 0, 0);
+    }
+}
+
+/* The place slides along the edge so that the covector stays across it. */
+static void slide(const ellipsoid_wall_search *s, const ellipsoid_wall_feature *p,
+                  int n, const double along_lab[3], const double w[3],
+                  double change[3])
+{
+    double along[3], shrunk[3], turned[3], slip;
+
+    ellipsoid_product(s->axis, along_lab, along);
+    ellipsoid_shrink(s, along, shrunk);
+    changed(s, n, 0, along_lab, turned);
+    for (int i = 0; i < 3; i++)
+    {
+        change[i] -= p->foot * turned[i];
+    }
+    slip = (ellipsoid_dot(change, shrunk) + ellipsoid_dot(w, turned))
+         / ellipsoid_dot(along, shrunk);
+    for (int i = 0; i < 3; i++)
+    {
+        change[i] -= slip * along[i];
+    }
+}
+
+static void rim_slopes(const ellipsoid_wall_search *s,
+                       const ellipsoid_wall_feature *p, ellipsoid_plane *plane)
+{
+    const double *vertex = p->facet->vertex[p->k];
+    const double *m = p->normal;
+    double line[3], along[3], r[3], w[3], length;
+
+    ellipsoid_difference(s->x, vertex, line);
+    ellipsoid_difference(p->facet->vertex[(p->k + 1) % 3], vertex, along);
+    for (int i = 0; i < 3; i++)
+    {
+        const double lab[3] = {line[0] - p->foot * along[0],
+                               line[1] - p->foot * along[1],
+                               line[2] - p->foot * along[2]};
+
+        r[i] = ellipsoid_dot(s->axis[i], lab);
+    }
+    ellipsoid_shrink(s, r, w);
+    length = ellipsoid_length(w);
+    for (int n = 0; n < POSE; n++)
+    {
+        double change[3], turn[3], along_m;
+
+        changed(s, n, 1, line, change);
+        if (p->feature == ELLIPSOID_ON_EDGE)
+        {
+            slide(s, p, n, along, w, change);
+        }
+        ellipsoid_shrink(s, change, turn);
+        along_m = ellipsoid_dot(m, turn);
+        for (int i = 0; i < 3; i++)
+        {
+            plane->normal_slope[n][i] = (turn[i] - along_m * m[i]) / length;
+        }
+        plane->height.slope[n] = ellipsoid_dot(plane->normal_slope[n], r)
+                               + ellipsoid_dot(m, change);
+    }
+}
+
+static void face_slopes(const ellipsoid_wall_search *s,
+                        const ellipsoid_wall_feature *p, ellipsoid_plane *plane)
+{
+    for (int n = 0; n < POSE; n++)
+    {
+        changed(s, n, 0, p->facet->normal, plane->normal_slope[n]);
+        plane->height.slope[n] = n < 3 ? p->facet->normal[n] : 0;
+    }
+}
+
+/* The window's smooth end: 1, and its derivatives 0, at t = 0; 0 at t = 1. */
+static void set_window(const ellipsoid_wall_search *s, ellipsoid_plane *plane)
+{
+    const double *m = plane->normal, height = plane->height.value;
+    double b[3], support2, arm, t;
+
+    for (int i = 0; i < 3; i++)
+    {
+        b[i] = s->square[i] * m[i];
+    }
+    support2 = ellipsoid_dot(m, b);
+    arm = ellipsoid_length(b);
+    t = (height * arm / (support2 * s->range) - full) / (1 - full);
+    memset(&plane->window, 0, sizeof(plane->window));
+    if (t >= 1)
+    {
+        return;
+    }
+    plane->window.value = t <= 0 ? 1
+                                 : 1 - t * t * t * (10 + t * (6 * t - 15));
+    if (t <= 0 || !s->turned)
+    {
+        return;
+    }
+    for (int n = 0; n < POSE; n++)
+    {
+        const double *by = plane->normal_slope[n];
+        const double of_b[3] = {s->square[0] * by[0], s->square[1] * by[1],
+                                s->square[2] * by[2]};
+        const double distance =
+            plane->height.slope[n] * arm / support2
+            + height / support2
+                  * (ellipsoid_dot(b, of_b) / arm
+                     - 2 * arm * ellipsoid_dot(b, by) / support2);
+
+        plane->window.slope[n] = -30 * t * t * (1 - t) * (1 - t) * distance
+                               / (s->range * (1 - full));
+    }
+}
+
+/* How the place's distance from the centre, as seen by the body, changes: r =
+   D m h/p^2 */
+static void place_slope(const ellipsoid_wall_search *s,
+                        const ellipsoid_plane *plane, double support2, int n,
+                        double change[3])
+{
+    const double *m = plane->normal, *by = plane->normal_slope[n];
+    double of_support2 = 0;
+
+    for (int i = 0; i < 3; i++)
+    {
+        of_support2 += 2 * s->square[i] * m[i] * by[i];
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        change[i] = s->square[i] / support2
+                  * (by[i] * plane->height.value
+                     + m[i]
+                           * (plane->height.slope[n]
+                              - plane->height.value * of_support2 / support2));
+    }
+}
+
+/*
+    Takes from the window by how far the place lies beside the facet, over edge
+    k. With y = h/p the scaled height and d the scaled distance, u = d/(y f),
+    the rest is 1 - u^2 (3 - 2 u).
+*/
+static void fade(const ellipsoid_wall_search *s, const ellipsoid_wall_feature *p,
+                 int k, ellipsoid_plane *plane)
+{
+    const double *m = plane->normal, *vertex = p->facet->vertex[k];
+    double line[3], along[3], lab[3], zeta[3], epsilon[3], out[3];
+    double support2 = 0, d, u, rest, ratio;
+
+    for (int i = 0; i < 3; i++)
+    {
+        support2 += s->square[i] * m[i] * m[i];
+    }
+    ellipsoid_difference(s->x, vertex, line);
+    ellipsoid_difference(p->facet->vertex[(k + 1) % 3], vertex, along);
+    ellipsoid_product(s->axis, line, zeta);
+    ellipsoid_product(s->axis, along, epsilon);
+    for (int i = 0; i < 3; i++)
+    {
+        const double a = sqrt(s->square[i]);
+
+        zeta[i] = (zeta[i]
+                   - s->square[i] * m[i] * plane->height.value / support2)
+                / a;
+        epsilon[i] /= a;
+    }
+    ratio = ellipsoid_dot(zeta, epsilon) / ellipsoid_dot(epsilon, epsilon);
+    for (int i = 0; i < 3; i++)
+    {
+        out[i] = zeta[i] - ratio * epsilon[i];
+    }
+    d = ellipsoid_length(out);
+    u = d * sqrt(support2) / (ellipsoid_fading * plane->height.value);
+    if (!(u < 1))
+    {
+        plane->window.value = 0;
+        return;
+    }
+    rest = 1 - u * u * (3 - 2 * u);
+    ellipsoid_copy(along, lab);
+    for (int n = 0; s->turned && n < POSE; n++)
+    {
+        double moved[3], turned[3], slid[3], of_d = 0, of_support2 = 0;
+
+        changed(s, n, 1, line, moved);
+        changed(s, n, 0, lab, turned);
+        place_slope(s, plane, support2, n, slid);
+        for (int i = 0; i < 3; i++)
+        {
+            of_d += out[i] * (moved[i] - slid[i] - ratio * turned[i])
+                  / sqrt(s->square[i]);
+            of_support2 += 2 * s->square[i] * m[i] * plane->normal_slope[n][i];
+        }
+        of_d = d > 0 ? of_d / d : 0;
+        plane->window.slope[n] =
+            plane->window.slope[n] * rest
+            - plane->window.value * 6 * (1 - u)
+                  * (u * of_d * sqrt(support2)
+                         / (ellipsoid_fading * plane->height.value)
+                     + u * u
+                           * (0.5 * of_support2 / support2
+                              - plane->height.slope[n] / plane->height.value));
+    }
+    plane->window.value *= rest;
+}
+
+/* ------------------------------------------------------------ all planes */
+
+static int is_same(const ellipsoid_wall_search *s, const ellipsoid_plane *a,
+                   const ellipsoid_plane *b)
+{
+    double d[3];
+
+    ellipsoid_difference(a->normal, b->normal, d);
+    return ellipsoid_dot(d, d) < same * same
+        && fabs(a->height.value - b->height.value) < same * s->range;
+}
+
+/* Of planes seen twice the one that fades less is kept. */
+static void keep(const ellipsoid_wall_search *s, const ellipsoid_plane *plane,
+                 ellipsoid_planes *all)
+{
+    int farthest = 0;
+
+    for (int i = 0; i < all->count; i++)
+    {
+        if (is_same(s, &all->at[i], plane))
+        {
+            if (plane->window.value > all->at[i].window.value)
+            {
+                all->at[i] = *plane;
+            }
+            return;
+        }
+        if (all->at[i].height.value > all->at[farthest].height.value)
+        {
+            farthest = i;
+        }
+    }
+    if (all->count < ELLIPSOID_MAX_PLANES)
+    {
+        all->at[all->count++] = *plane;
+    }
+    else if (plane->height.value < all->at[farthest].height.value)
+    {
+        all->at[farthest] = *plane;
+    }
+}
+
+static void add_plane(const ellipsoid_wall_search *s,
+                      const ellipsoid_wall_feature *p, ellipsoid_planes *all)
+{
+    ellipsoid_plane plane;
+
+    memset(&plane, 0, sizeof(plane));
+    ellipsoid_copy(p->normal, plane.normal);
+    plane.height.value = p->height;
+    if (s->turned)
+    {
+        if (p->feature == ELLIPSOID_ON_FACE)
+        {
+            face_slopes(s, p, &plane);
+        }
+        else
+        {
+            rim_slopes(s, p, &plane);
+        }
+    }
+    set_window(s, &plane);
+    for (int k = 0; k < 3 && plane.window.value > 0; k++)
+    {
+        if (p->over[k])
+        {
+            fade(s, p, k, &plane);
+        }
+    }
+    if (plane.window.value > 0)
+    {
+        keep(s, &plane, all);
+    }
+}
+
+/*
+    Could this facet be met while the centre moves by up to the margin? A place
+    within a face lies in a direction from the centre that makes no larger angle
+    with the normal than tangents of the body allow: cos >= 2 a b/(a^2 + b^2)
+    with the largest and the smallest semi-axis. Beside the face it has faded
+    over `fading` times the height, b/a times as long along the body.
+*/
+static int may_matter(const ellipsoid_facet *facet, const double x[3],
+                      double reach, double margin, double slimness)
+{
+    const double cosine = 2 * slimness / (1 + slimness * slimness);
+    double d[3], height, nearest, beside;
+
+    ellipsoid_difference(x, facet->middle, d);
+    height = ellipsoid_dot(d, facet->normal);
+    beside = ellipsoid_fading * slimness * (height + margin);
+    nearest = ellipsoid_length(d) - facet->radius;
+    if (!(height > -margin && height < reach && nearest < reach))
+    {
+        return 0;
+    }
+    return ellipsoid_facet_has_rim(facet)
+        || cosine * (nearest - margin - beside) <= height + margin;
+}
+
+/* Lists facets anew if the centre has moved too far. */
+static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
+                                const double x[3], double range,
+                                double slimness, ellipsoid_facet_cache *cache)
+{
+    /* a plane's place is up to so far beside its facet, not square to the way
+       to it where the body is not a sphere */
+    const double wide = range * (1 + ellipsoid_fading * slimness);
+    const double margin = margin_part * range;
+    ellipsoid_facet_list list;
+    ellipsoid_status status;
+    double d[3];
+
+    ellipsoid_difference(x, cache->near_x, d);
+    if (cache->near_count >= 0
+        && ellipsoid_dot(d, d) <= cache->near_margin * cache->near_margin)
+    {
+        return ELLIPSOID_OK;
+    }
+    cache->near_count = -1;
+    status = ellipsoid_list_facets(surroundings, x, wide + margin, &list);
+    if (status != ELLIPSOID_OK)
+    {
+        return status;
+    }
+    cache->near_facets = list.facets;
+    ellipsoid_copy(x, cache->near_x);
+
+    int count = 0;
+
+    for (int k = 0; k < list.count; k++)
+    {
+        if (!may_matter(&list.facets[list.index[k]], x, wide + margin, margin,
+                        slimness))
+        {
+            continue;
+        }
+        if (count == ELLIPSOID_MAX_NEAR)
+        {
+            return ELLIPSOID_TOO_MANY_FACETS;
+        }
+        cache->near_facet[count++] = list.index[k];
+    }
+    cache->near_count = count;
+    cache->near_margin = list.count == 0 && list.reach > wide + margin
+                           ? list.reach - wide
+                           : margin;
+    return ELLIPSOID_OK;
+}
+
+/* Axes of length one, and their derivatives, from those of any q. */
+static void normalise_axes(const double q[4], double axis[3][3],
+                           double derivatives[4][3][3], double unit[3][3],
+                           double turned[4][3][3])
+{
+    const double per = 1 / ellipsoid_square4(q);
+
+    for (int i = 0; i < 3; i++)
+    {
+        for (int l = 0; l < 3; l++)
+        {
+            unit[i][l] = per * axis[i][l];
+            for (int n = 0; derivatives && n < 4; n++)
+            {
+                turned[n][i][l] =
+                    per * (derivatives[n][i][l] - 2 * q[n] * unit[i][l]);
+            }
+        }
+    }
+}
+
+ellipsoid_status
+ellipsoid_find_planes(const ellipsoid_model *model,
+                      const ellipsoid_surroundings *surroundings,
+                      const double x[3], const double q[4],
+                      double axis[3][3], double axis_derivatives[4][3][3],
+                      ellipsoid_facet_cache *cache,
+                      ellipsoid_planes *planes)
+{
+    const double *a = model->options.semi_axes;
+    const double range = model->options.wall_range;
+    const double longest = fmax(a[0], fmax(a[1], a[2]));
+    const double shortest = fmin(a[0], fmin(a[1], a[2]));
+    const ellipsoid_status status =
+        collect(surroundings, x, range, longest / shortest, cache);
+    double unit[3][3], turned[4][3][3];
+
+    planes->count = 0;
+    if (status != ELLIPSOID_OK || cache->near_count == 0)
+    {
+        return status;
+    }
+    normalise_axes(q, axis, axis_derivatives, unit, turned);
+
+    const ellipsoid_wall_search s = {x,
+                      {a[0] * a[0], a[1] * a[1], a[2] * a[2]},
+                      unit,
+                      axis_derivatives ? turned : NULL,
+                      range,
+                      longest};
+
+    for (int k = 0; k < cache->near_count; k++)
+    {
+        ellipsoid_wall_feature found;
+
+        const int facet = cache->near_facet[k];
+
+        if (ellipsoid_find_feature(&s, &cache->near_facets[facet], &found))
+        {
+            add_plane(&s, &found, planes);
+        }
+    }
+    if (planes->count == 1)
+    {
+        planes->at[0].weight = planes->at[0].window;
+    }
+    else
+    {
+        ellipsoid_weigh_planes(model, planes);
+    }
+    return ELLIPSOID_OK;
+}

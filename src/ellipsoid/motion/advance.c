@@ -1,0 +1,389 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    advance.c - a group of cells through time: start, steps, end.
+*/
+#include "motion/motion.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* An error that shortens the step as far as one rejection may. */
+static const double far_too_large = 1e6;
+
+/*
+    Has a step that lets go of a wall or a cell been held back by it? The method
+    takes the contact for a spring that also pulls, so that a long step ends
+    beside the wall though the cell is free to go, which the error estimate does
+    not show. Then the velocity that the cell takes up would have led much
+    farther along the contact's push than the step did. Both are counted as the
+    work of that push, force and torque.
+*/
+static int was_held_back(const ellipsoid_cell *p,
+                         const ellipsoid_evaluation *start,
+                         const ellipsoid_evaluation *next, double h)
+{
+    const ellipsoid_contact *was = &start->contact, *is = &next->contact;
+    const double *from = start->state.q, *to = next->state.q;
+    const double back[4] = {-from[0], -from[1], -from[2], from[3]};
+    const double lag = p->inertial ? 1 / fmax(1 / h, p->rate) : 0;
+    const double turning_lag =
+        p->inertial ? 1 / fmax(1 / h, p->rotation_rate) : 0;
+    double force[3], torque[3], slight, made = 0, coming = 0, turned[4];
+
+    if (is->touching_beads >= was->touching_beads
+        && is->touched_cell_count >= was->touched_cell_count
+        && is->deepest >= 0.5 * was->deepest
+        && is->cell_deepest >= 0.5 * was->cell_deepest)
+    {
+        return 0;
+    }
+    ellipsoid_copy(was->force, force);
+    ellipsoid_add(force, was->cell_force);
+    ellipsoid_copy(was->torque, torque);
+    ellipsoid_add(torque, was->cell_torque);
+    slight = 10 * p->model->options.tolerance
+           * (ellipsoid_length(force) * p->length + ellipsoid_length(torque));
+    /* back * to, of which twice the vector is the turn in the body */
+    ellipsoid_spin(to, back, turned);
+    for (int i = 0; i < 3; i++)
+    {
+        const double turn = 2 * (turned[i] + to[3] * back[i]);
+        const double u = next->state.u[i] + lag * next->derivative.u[i];
+        const double omega =
+            next->state.omega[i] + turning_lag * next->derivative.omega[i];
+
+        made += force[i] * (next->state.x[i] - start->state.x[i])
+              + torque[i] * turn;
+        coming += h * (force[i] * u + torque[i] * omega);
+    }
+    return coming > 4 * fmax(made, 0) + slight;
+}
+
+static int is_one_held_back(ellipsoid_group *g, double h)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        if (ellipsoid_has_contact(g, cell)
+            && was_held_back(&g->cell[cell], &g->start[cell], &g->next[cell],
+                             h))
+        {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/*
+    One attempt at a Rosenbrock step. A step counts only if the equations can be
+    evaluated where it ends.
+*/
+static ellipsoid_status
+try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
+{
+    ellipsoid_status status = ELLIPSOID_OK;
+
+    if (!g->has_blocks)
+    {
+        status = ellipsoid_group_evaluate(g, g->start, !g->inertial, 1);
+        g->has_blocks = status == ELLIPSOID_OK;
+    }
+    if (status == ELLIPSOID_OK)
+    {
+        status = ellipsoid_rosenbrock_step(g, planned->h);
+    }
+    if (status == ELLIPSOID_OK)
+    {
+        status = ellipsoid_judge_step(g, planned->h, error);
+    }
+    if (status != ELLIPSOID_OK || *error > 1)
+    {
+        return status;
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        double *y = g->stages[cell].y;
+
+        ellipsoid_normalise(y + AT_Q);
+        memcpy(&g->next[cell].state, y, sizeof(g->next[cell].state));
+    }
+    g->next_has_blocks = !planned->last;
+    status =
+        ellipsoid_group_evaluate(g, g->next, !g->inertial, g->next_has_blocks);
+    /* there is room for the couplings of one time only */
+    g->has_blocks = g->has_blocks && !(g->pairs && g->next_has_blocks);
+    if (status == ELLIPSOID_OK && is_one_held_back(g, planned->h))
+    {
+        *error = far_too_large;
+    }
+    return status;
+}
+
+/*
+    One attempt at a step. Without inertia it is explicit, unless a cell touches
+    something in it or is turned by a dipole: both may be stiff. Sets next;
+    *error is above 1 if it is too large.
+*/
+static ellipsoid_status try_step(ellipsoid_group *g,
+                                 const ellipsoid_plan *planned, double *error,
+                                 int *explicitly)
+{
+    int touched = g->aligned;
+    ellipsoid_status status = ELLIPSOID_OK;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        touched = touched || ellipsoid_in_contact(&g->start[cell].contact);
+    }
+    if (!g->inertial && !touched)
+    {
+        status = ellipsoid_explicit_step(g, planned->h, &touched);
+    }
+    *explicitly = !g->inertial && !touched;
+    if (!*explicitly)
+    {
+        return try_rosenbrock(g, planned, error);
+    }
+    g->next_has_blocks = 0;
+    return status == ELLIPSOID_OK ? ellipsoid_judge_step(g, planned->h, error)
+                                  : status;
+}
+
+/* Tells the accepted step, of which g->step has the times. */
+static void describe_step(const ellipsoid_group *g, int explicitly)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        ellipsoid_step *step = &g->step[cell];
+
+        step->before = g->start[cell].state;
+        step->after = g->next[cell].state;
+        step->contact = g->next[cell].contact;
+        if (explicitly)
+        {
+            ellipsoid_explicit_dense(&g->stages[cell], step, step->dense);
+        }
+        else
+        {
+            ellipsoid_rosenbrock_dense(&g->stages[cell], step->dense);
+        }
+    }
+}
+
+/*
+    Takes one step from the start, shortened until it succeeds. Sets next, the
+    steps and the controller.
+*/
+static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
+                                  long *attempts,
+                                  ellipsoid_controller *controller)
+{
+    const ellipsoid_options *o = &g->cell[0].model->options;
+    const double shortest =
+        fmax(o->minimum_step, 4 * DBL_EPSILON * fmax(fabs(t), DBL_MIN));
+    double largest_factor = 5, proposal = controller->step;
+
+    if (!(proposal > 0))
+    {
+        const ellipsoid_status status = ellipsoid_first_step(g, &proposal);
+
+        if (status != ELLIPSOID_OK)
+        {
+            return status;
+        }
+    }
+    if (o->maximum_step < shortest)
+    {
+        return ELLIPSOID_STEP_UNDERFLOW;
+    }
+    proposal = fmin(fmax(proposal, shortest), o->maximum_step);
+    while (*attempts < o->maximum_steps)
+    {
+        const ellipsoid_plan planned = ellipsoid_plan_step(proposal, t, end);
+        double error = 0;
+        int explicitly;
+        ellipsoid_status status;
+
+        g->culprit = -1;
+        status = try_step(g, &planned, &error, &explicitly);
+
+        const int accepted = status == ELLIPSOID_OK && error <= 1;
+        const int order = g->stages[0].order;
+
+        ++*attempts;
+        for (int cell = 0; cell < g->count; cell++)
+        {
+            ellipsoid_statistics *statistics = g->cell[cell].statistics;
+
+            statistics->accepted += accepted;
+            statistics->rejected += !accepted;
+        }
+        if (accepted)
+        {
+            controller->step =
+                planned.h
+                * fmin(ellipsoid_step_factor(order, error,
+                                             controller->previous_error),
+                       largest_factor);
+            if (planned.shortened)
+            {
+                controller->step = fmax(controller->step, proposal);
+            }
+            else
+            {
+                controller->previous_error = fmax(error, 1e-4);
+            }
+            for (int cell = 0; cell < g->count; cell++)
+            {
+                g->step[cell].start = t;
+                g->step[cell].end = planned.last ? end : t + planned.h;
+            }
+            if (g->observed)
+            {
+                describe_step(g, explicitly);
+            }
+            return ELLIPSOID_OK;
+        }
+        if (status != ELLIPSOID_OK && !ellipsoid_may_recover(status))
+        {
+            return status;
+        }
+        proposal =
+            planned.h
+            * (status == ELLIPSOID_OK ? ellipsoid_step_factor(order, error, 0)
+                                      : 0.25);
+        largest_factor = 1;
+        if (proposal < shortest)
+        {
+            return status == ELLIPSOID_NON_FINITE ? status
+                                                  : ELLIPSOID_STEP_UNDERFLOW;
+        }
+    }
+    return ELLIPSOID_TOO_MANY_STEPS;
+}
+
+/* An orientation of length one is taken as it is, so that a run can be
+   continued without a change in the last digit. */
+static ellipsoid_status set_start(int inertial, const ellipsoid_state *state,
+                                  ellipsoid_evaluation *start)
+{
+    double y[UNKNOWNS], sum = 0, square;
+
+    memcpy(y, state, sizeof(y));
+    for (int n = 0; n < UNKNOWNS; n++)
+    {
+        y[n] = ellipsoid_is_rate(n) && !inertial ? 0 : y[n]; /* not read */
+        sum += y[n];
+    }
+    square = ellipsoid_square4(y + AT_Q);
+    if (!isfinite(sum) || !isfinite(square) || !(square >= DBL_MIN))
+    {
+        return ELLIPSOID_NON_FINITE;
+    }
+    if (fabs(square - 1) > 1e-14)
+    {
+        ellipsoid_normalise(y + AT_Q);
+    }
+    memcpy(&start->state, y, sizeof(start->state));
+    return ELLIPSOID_OK;
+}
+
+/* Where the run begins. */
+static ellipsoid_status begin(ellipsoid_group *g,
+                              const ellipsoid_member members[], double t,
+                              double end)
+{
+    ellipsoid_status status = ELLIPSOID_OK;
+
+    for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
+    {
+        status = set_start(g->inertial, members[cell].state, &g->start[cell]);
+        g->culprit = status == ELLIPSOID_OK ? -1 : cell;
+    }
+    if (status == ELLIPSOID_OK)
+    {
+        status = ellipsoid_noise_layer(g, t, end);
+    }
+    if (status != ELLIPSOID_OK)
+    {
+        return status;
+    }
+    g->has_blocks = g->inertial;
+    return ellipsoid_group_evaluate(g, g->start, !g->inertial, g->has_blocks);
+}
+
+/* The step control of the group follows from those of its members. */
+static ellipsoid_controller common(const ellipsoid_group *g,
+                                   const ellipsoid_member members[])
+{
+    ellipsoid_controller all = *members[0].controller;
+
+    for (int cell = 1; cell < g->count; cell++)
+    {
+        const ellipsoid_controller *own = members[cell].controller;
+
+        all.step = fmin(all.step, own->step);
+        all.previous_error = fmax(all.previous_error, own->previous_error);
+    }
+    return all;
+}
+
+/* Hands the step to the members. Does one want to stop? */
+static int hand_over(ellipsoid_group *g, const ellipsoid_member members[],
+                     const ellipsoid_controller *controller,
+                     ellipsoid_observer observer)
+{
+    int stopped = 0;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_evaluation *next = &g->next[cell];
+        ellipsoid_statistics *statistics = g->cell[cell].statistics;
+
+        *members[cell].state = next->state;
+        *members[cell].controller = *controller;
+        statistics->deepest = fmax(statistics->deepest, next->contact.deepest);
+    }
+    for (int cell = 0; observer && cell < g->count; cell++)
+    {
+        if (observer(members[cell].observer_context, &g->step[cell])
+            && !stopped)
+        {
+            stopped = 1;
+            g->culprit = cell;
+        }
+    }
+    return stopped;
+}
+
+ellipsoid_status ellipsoid_group_advance(ellipsoid_group *g,
+                                         const ellipsoid_member members[],
+                                         double *t, double end,
+                                         ellipsoid_observer observer,
+                                         long *attempts)
+{
+    ellipsoid_controller controller = common(g, members);
+    ellipsoid_status status = begin(g, members, *t, end);
+
+    while (status == ELLIPSOID_OK && *t < end)
+    {
+        status = take_step(g, *t, end, attempts, &controller);
+        if (status == ELLIPSOID_OK)
+        {
+            ellipsoid_evaluation *finished = g->start;
+
+            *t = g->step[0].end;
+            if (hand_over(g, members, &controller, observer))
+            {
+                status = ELLIPSOID_STOPPED;
+            }
+            g->start = g->next;
+            g->next = finished;
+            g->has_blocks = g->next_has_blocks;
+        }
+    }
+    return status;
+}

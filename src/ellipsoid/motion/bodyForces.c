@@ -1,0 +1,139 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    bodyForces.c - what acts on the body besides drag and contact.
+*/
+#include "motion/motion.h"
+
+/* F_PG = -V grad p; the other one is in equations.c, where it costs less. */
+static void add_pressure_gradient(const ellipsoid_model *m,
+                                  const ellipsoid_flow_sample *flow,
+                                  double force[3])
+{
+    if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
+    {
+        for (int i = 0; i < 3; i++)
+        {
+            force[i] -= m->volume * flow->pressure_gradient[i];
+        }
+    }
+}
+
+static void add_pressure_gradient_blocks(const ellipsoid_model *m,
+                                         ellipsoid_flow_sample *flow,
+                                         ellipsoid_blocks *b)
+{
+    const double *u = flow->velocity;
+
+    for (int i = 0; i < 3; i++)
+    {
+        if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_DUDT)
+        {
+            const double *g = flow->gradient[i];
+            double of_gradient[3], of_velocity[3];
+
+            ellipsoid_combination(flow->gradient_jacobian[i], u[0], u[1], u[2],
+                                  of_gradient);
+            ellipsoid_combination(flow->velocity_jacobian, g[0], g[1], g[2],
+                                  of_velocity);
+            for (int l = 0; l < 3; l++)
+            {
+                b->ux[i][l] +=
+                    m->fluid_mass * (of_gradient[l] + of_velocity[l]);
+            }
+        }
+        else if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
+        {
+            for (int l = 0; l < 3; l++)
+            {
+                b->ux[i][l] -= m->volume * flow->pressure_jacobian[i][l];
+            }
+        }
+    }
+}
+
+/* R^T v = (r_1 . v, r_2 . v, r_3 . v) */
+static void add_torque_of_dipole(const double dipole[3], double axis[3][3],
+                                 const double v[3], double torque[3])
+{
+    double body[3], turning[3];
+
+    ellipsoid_product(axis, v, body);
+    ellipsoid_cross(dipole, body, turning);
+    ellipsoid_add(torque, turning);
+}
+
+/* F_E = charge E (paper eq. (1), second form), T^_E = dipole x R^T E. */
+static ellipsoid_status add_electric(const ellipsoid_model *m,
+                                     const ellipsoid_surroundings *surroundings,
+                                     const double x[3], double axis[3][3],
+                                     double d[4][3][3], double force[3],
+                                     double torque[3], ellipsoid_blocks *b)
+{
+    const ellipsoid_options *o = &m->options;
+    double field[3] = {0, 0, 0}, jacobian[3][3] = {{0}};
+
+    if (surroundings->field)
+    {
+        const int answer = surroundings->field(surroundings->field_context, x,
+                                               field, d ? jacobian : NULL);
+
+        if (answer != 0)
+        {
+            return ellipsoid_answer_status(answer);
+        }
+    }
+    ellipsoid_add(field, o->electric_field);
+    for (int i = 0; i < 3; i++)
+    {
+        force[i] += o->charge * field[i];
+    }
+    add_torque_of_dipole(o->dipole, axis, field, torque);
+
+    for (int l = 0; d && l < 3; l++)
+    {
+        const double column[3] = {jacobian[0][l], jacobian[1][l],
+                                  jacobian[2][l]};
+        double turning[3] = {0, 0, 0};
+
+        add_torque_of_dipole(o->dipole, axis, column, turning);
+        for (int i = 0; i < 3; i++)
+        {
+            b->ux[i][l] += o->charge * column[i];
+            b->wx[i][l] += turning[i];
+        }
+    }
+    for (int n = 0; d && n < 4; n++)
+    {
+        double turning[3] = {0, 0, 0};
+
+        add_torque_of_dipole(o->dipole, d[n], field, turning);
+        for (int i = 0; i < 3; i++)
+        {
+            b->wq[i][n] += turning[i];
+        }
+    }
+    return ELLIPSOID_OK;
+}
+
+ellipsoid_status ellipsoid_add_body_forces(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const double x[3], double axis[3][3], double axis_derivatives[4][3][3],
+    ellipsoid_flow_sample *flow, double force[3], double torque[3],
+    ellipsoid_blocks *blocks)
+{
+    if (flow)
+    {
+        add_pressure_gradient(model, flow, force);
+        if (blocks)
+        {
+            add_pressure_gradient_blocks(model, flow, blocks);
+        }
+    }
+    return model->electric
+             ? add_electric(model, surroundings, x, axis, axis_derivatives,
+                            force, torque, blocks)
+             : ELLIPSOID_OK;
+}

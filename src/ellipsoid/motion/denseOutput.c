@@ -1,0 +1,35 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    denseOutput.c - the state inside an accepted step, of either method.
+*/
+#include "motion/motion.h"
+
+/* At the ends the step's own states. */
+void ellipsoid_step_state(const ellipsoid_step *step, double t,
+                          ellipsoid_state *state)
+{
+    const double s = (t - step->start) / (step->end - step->start);
+    const double r = 1 - s;
+    double before[UNKNOWNS], after[UNKNOWNS], y[UNKNOWNS];
+
+    if (t <= step->start || t >= step->end)
+    {
+        *state = t <= step->start ? step->before : step->after;
+        return;
+    }
+    memcpy(before, &step->before, sizeof(before));
+    memcpy(after, &step->after, sizeof(after));
+    for (int n = 0; n < UNKNOWNS; n++)
+    {
+        const double *d[3] = {&step->dense[0][n], &step->dense[1][n],
+                              &step->dense[2][n]};
+        const double bend = *d[0] + s * (*d[1] + r * *d[2]);
+
+        y[n] = r * before[n] + s * (after[n] + r * bend);
+    }
+    ellipsoid_normalise(y + AT_Q);
+    memcpy(state, y, sizeof(*state));
+}

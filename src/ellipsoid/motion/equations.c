@@ -1,0 +1,538 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    equations.c - the equations of motion and their derivatives.
+
+    The flow acts through the motion that it would give a body free of other
+    forces, u_free and omega_free:
+        F_H = mu R K^ R^T (u_free - u),   T^_H,i = mu C_i (omega_free,i - w^_i)
+    and without inertia all other forces are balanced by these.
+
+    Everything is a polynomial in the quaternion, so the derivatives are exact
+    also where q is not of length one, as inside a step.
+*/
+#include "motion/motion.h"
+
+#include <math.h>
+#include <string.h>
+
+_Static_assert(sizeof(ellipsoid_state) == ELLIPSOID_STATE_SIZE * sizeof(double),
+               "the state is thirteen doubles without padding");
+
+/* What one evaluation shares between values and derivatives. */
+typedef struct evaluation
+{
+    const ellipsoid_model *model;
+    const ellipsoid_state *state;
+    ellipsoid_flow_sample *flow;
+    ellipsoid_free_motion free;
+    double axis[3][3];    /* r_i: body axes in the lab, the columns of R(q) */
+    double stretch[3][3]; /* G r_i; of FLOW_CENTRE */
+    double force[3];      /* lab */
+    double torque[3];     /* body */
+} evaluation;
+
+/* ----------------------------------------------------- flow at the centre */
+
+/*
+    Jeffery (1922), eqs. 36: omega_free,i = s_i e^_jk + W^_i, i, j, k cyclic.
+    With G^ = R^T G R that is p G^_kj - m G^_jk, p = (1 + s_i)/2,
+    m = (1 - s_i)/2: strain and vorticity merge.
+*/
+static inline double free_spin_about(const evaluation *e, int i, int j, int k)
+{
+    const double p = 0.5 + 0.5 * e->model->strain_factor[i];
+    const double m = 0.5 - 0.5 * e->model->strain_factor[i];
+
+    return p * ellipsoid_dot(e->axis[k], e->stretch[j])
+         - m * ellipsoid_dot(e->axis[j], e->stretch[k]);
+}
+
+static inline void set_free_motion(evaluation *e)
+{
+    ellipsoid_product(e->flow->gradient, e->axis[0], e->stretch[0]);
+    ellipsoid_product(e->flow->gradient, e->axis[1], e->stretch[1]);
+    ellipsoid_product(e->flow->gradient, e->axis[2], e->stretch[2]);
+    ellipsoid_set(e->free.u, e->flow->velocity[0], e->flow->velocity[1],
+                  e->flow->velocity[2]);
+    ellipsoid_set(e->free.omega, free_spin_about(e, 0, 1, 2),
+                  free_spin_about(e, 1, 2, 0), free_spin_about(e, 2, 0, 1));
+}
+
+/*
+    As omega_free,i = r_k . (p G - m G^T) r_j, a change of the axes adds
+    dr_k . (p G - m G^T) r_j + dr_j . (p G^T - m G) r_k.
+*/
+static inline void free_spin_derivatives(evaluation *e, double d[4][3][3],
+                                         double back[3][3],
+                                         double change[3][3][3], int i, int j,
+                                         int k)
+{
+    const double p = 0.5 + 0.5 * e->model->strain_factor[i];
+    const double m = 0.5 - 0.5 * e->model->strain_factor[i];
+    const double *rj = e->axis[j], *rk = e->axis[k];
+    double by_j[3], by_k[3], with[3], against[3];
+
+    for (int l = 0; l < 3; l++)
+    {
+        by_k[l] = p * e->stretch[j][l] - m * back[j][l];
+        by_j[l] = p * back[k][l] - m * e->stretch[k][l];
+    }
+    for (int n = 0; n < 4; n++)
+    {
+        e->free.omega_q[i][n] =
+            ellipsoid_dot(d[n][k], by_k) + ellipsoid_dot(d[n][j], by_j);
+    }
+    ellipsoid_combination(change[j], p * rk[0], p * rk[1], p * rk[2], with);
+    ellipsoid_combination(change[k], m * rj[0], m * rj[1], m * rj[2], against);
+    for (int l = 0; l < 3; l++)
+    {
+        e->free.omega_x[i][l] = with[l] - against[l];
+    }
+}
+
+static void set_free_derivatives(evaluation *e, double d[4][3][3])
+{
+    double back[3][3];      /* G^T r_i */
+    double change[3][3][3]; /* [i][s][l]: sum_t dG_st/dx_l r_i[t] */
+
+    memcpy(e->free.u_x, e->flow->velocity_jacobian, sizeof(e->free.u_x));
+    for (int i = 0; i < 3; i++)
+    {
+        const double *r = e->axis[i];
+
+        ellipsoid_combination(e->flow->gradient, r[0], r[1], r[2], back[i]);
+        for (int s = 0; s < 3; s++)
+        {
+            ellipsoid_combination(e->flow->gradient_jacobian[s], r[0], r[1],
+                                  r[2], change[i][s]);
+        }
+    }
+    free_spin_derivatives(e, d, back, change, 0, 1, 2);
+    free_spin_derivatives(e, d, back, change, 1, 2, 0);
+    free_spin_derivatives(e, d, back, change, 2, 0, 1);
+}
+
+/* ------------------------------------------------------------------ drag */
+
+/* u and omega with which the drag balances all other forces. */
+static inline void balance(evaluation *e, double u[3], double omega[3])
+{
+    const double *m = e->model->mobility, *w = e->model->rotation_mobility;
+    double slip[3];
+
+    ellipsoid_combination(e->axis, m[0] * ellipsoid_dot(e->axis[0], e->force),
+                          m[1] * ellipsoid_dot(e->axis[1], e->force),
+                          m[2] * ellipsoid_dot(e->axis[2], e->force), slip);
+    ellipsoid_set(u, e->free.u[0] + slip[0], e->free.u[1] + slip[1],
+                  e->free.u[2] + slip[2]);
+    ellipsoid_set(omega, e->free.omega[0] + w[0] * e->torque[0],
+                  e->free.omega[1] + w[1] * e->torque[1],
+                  e->free.omega[2] + w[2] * e->torque[2]);
+}
+
+/* Oberbeck (1876), Jeffery (1922), Brenner (1964): see above. */
+static inline void add_drag(evaluation *e, double slip[3], double resisted[3])
+{
+    const double mu = e->model->viscosity, *k = e->model->resistance;
+    const double *c = e->model->rotation_resistance;
+    const double *free_u = e->free.u, *free_w = e->free.omega;
+    const double *u = e->state->u, *w = e->state->omega;
+    double force[3];
+
+    ellipsoid_set(slip, free_u[0] - u[0], free_u[1] - u[1], free_u[2] - u[2]);
+    ellipsoid_set(resisted, mu * k[0] * ellipsoid_dot(e->axis[0], slip),
+                  mu * k[1] * ellipsoid_dot(e->axis[1], slip),
+                  mu * k[2] * ellipsoid_dot(e->axis[2], slip));
+    ellipsoid_combination(e->axis, resisted[0], resisted[1], resisted[2],
+                          force);
+    ellipsoid_add(e->force, force);
+    e->torque[0] += mu * c[0] * (free_w[0] - w[0]);
+    e->torque[1] += mu * c[1] * (free_w[1] - w[1]);
+    e->torque[2] += mu * c[2] * (free_w[2] - w[2]);
+}
+
+/* Derivatives of F = sum_i r_i mu K^_i (r_i . slip) and of T^. */
+static void add_drag_blocks(evaluation *e, double d[4][3][3],
+                            const double slip[3], const double resisted[3],
+                            ellipsoid_blocks *b)
+{
+    const ellipsoid_model *m = e->model;
+    double scaled[3][3];
+
+    for (int i = 0; i < 3; i++)
+    {
+        const double k = m->viscosity * m->resistance[i];
+
+        ellipsoid_set(scaled[i], k * e->axis[i][0], k * e->axis[i][1],
+                      k * e->axis[i][2]);
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        const double c = m->viscosity * m->rotation_resistance[i];
+        double row[3], by_x[3];
+
+        ellipsoid_combination(scaled, e->axis[0][i], e->axis[1][i],
+                              e->axis[2][i], row);
+        ellipsoid_combination(e->free.u_x, row[0], row[1], row[2], by_x);
+        for (int l = 0; l < 3; l++)
+        {
+            b->uu[i][l] -= row[l];
+            b->ux[i][l] += by_x[l];
+            b->wx[i][l] += c * e->free.omega_x[i][l];
+        }
+        for (int n = 0; n < 4; n++)
+        {
+            b->wq[i][n] += c * e->free.omega_q[i][n];
+            if (m->flow_points > 0)
+            {
+                b->uq[i][n] += row[0] * e->free.u_q[0][n]
+                             + row[1] * e->free.u_q[1][n]
+                             + row[2] * e->free.u_q[2][n];
+            }
+        }
+        b->ww[i][i] -= c;
+    }
+    for (int n = 0; n < 4; n++)
+    {
+        double turned[3], moved[3], carried[3];
+
+        ellipsoid_product(d[n], slip, turned);
+        ellipsoid_combination(d[n], resisted[0], resisted[1], resisted[2],
+                              moved);
+        ellipsoid_combination(scaled, turned[0], turned[1], turned[2], carried);
+        b->uq[0][n] += moved[0] + carried[0];
+        b->uq[1][n] += moved[1] + carried[1];
+        b->uq[2][n] += moved[2] + carried[2];
+    }
+}
+
+/* Drag where walls are near; copies for the same reason as in set_free(). */
+static inline ellipsoid_status
+add_wall_drag(evaluation *e, const ellipsoid_surroundings *surroundings,
+              ellipsoid_state *state, int balanced,
+              ellipsoid_facet_cache *cache, double d[4][3][3],
+              ellipsoid_blocks *blocks, int *acted)
+{
+    const ellipsoid_free_motion free = e->free;
+    double axis[3][3], force[3], torque[3];
+    ellipsoid_status status;
+
+    memcpy(axis, e->axis, sizeof(axis));
+    ellipsoid_copy(e->force, force);
+    ellipsoid_copy(e->torque, torque);
+    status = ellipsoid_wall_drag(e->model, surroundings, cache, state, balanced,
+                                 axis, d, &free, force, torque, blocks, acted);
+    ellipsoid_copy(force, e->force);
+    ellipsoid_copy(torque, e->torque);
+    return status;
+}
+
+/* --------------------------------------------------------------- contact */
+
+/* F_W and T^_W. */
+static inline ellipsoid_status
+add_contact(evaluation *e, const ellipsoid_surroundings *surroundings,
+            ellipsoid_facet_cache *cache, ellipsoid_contact *contact,
+            ellipsoid_blocks *b)
+{
+    ellipsoid_contact_jacobian jacobian;
+    const ellipsoid_status status = ellipsoid_contact_evaluate(
+        e->model, surroundings, e->state, cache, contact, b ? &jacobian : NULL);
+
+    if (status != ELLIPSOID_OK)
+    {
+        return status;
+    }
+    ellipsoid_add(e->force, contact->force);
+    ellipsoid_add(e->torque, contact->torque);
+    if (b && contact->touching_beads > 0)
+    {
+        static const double ones[3] = {1, 1, 1};
+
+        ellipsoid_add_to_blocks(&jacobian, 1, ones, b);
+    }
+    return ELLIPSOID_OK;
+}
+
+/* --------------------------------------------------------------- the sum */
+
+/* I w x w */
+static inline double gyroscopic(const double inertia[3], const double w[3],
+                                int j, int k)
+{
+    return (inertia[j] - inertia[k]) * w[j] * w[k];
+}
+
+/* Forces to accelerations, paper eqs. (1) and (3). */
+static inline void accelerations(const evaluation *e, int inertial,
+                                 ellipsoid_state *derivative)
+{
+    const double *inertia = e->model->inertia, *f = e->force, *t = e->torque;
+    const double *w = e->state->omega;
+    const double per_mass = 1 / e->model->mass;
+    double torque[3] = {t[0], t[1], t[2]};
+
+    if (inertial)
+    {
+        torque[0] += gyroscopic(inertia, w, 1, 2);
+        torque[1] += gyroscopic(inertia, w, 2, 0);
+        torque[2] += gyroscopic(inertia, w, 0, 1);
+    }
+    ellipsoid_set(derivative->u, f[0] * per_mass, f[1] * per_mass,
+                  f[2] * per_mass);
+    ellipsoid_set(derivative->omega, torque[0] / inertia[0],
+                  torque[1] / inertia[1], torque[2] / inertia[2]);
+}
+
+static void finish_blocks(const evaluation *e, int inertial,
+                          ellipsoid_blocks *b)
+{
+    const double *inertia = e->model->inertia;
+    const double *w = e->state->omega;
+    const double per_mass = 1 / e->model->mass;
+
+    for (int i = 0; i < 3; i++)
+    {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const double per_inertia = 1 / inertia[i];
+
+        if (inertial)
+        {
+            b->ww[i][j] += (inertia[j] - inertia[k]) * w[k];
+            b->ww[i][k] += (inertia[j] - inertia[k]) * w[j];
+        }
+        for (int l = 0; l < 3; l++)
+        {
+            b->uu[i][l] *= per_mass;
+            b->ux[i][l] *= per_mass;
+            b->uw[i][l] *= per_mass;
+            b->wu[i][l] *= per_inertia;
+            b->ww[i][l] *= per_inertia;
+            b->wx[i][l] *= per_inertia;
+        }
+        for (int n = 0; n < 4; n++)
+        {
+            b->uq[i][n] *= per_mass;
+            b->wq[i][n] *= per_inertia;
+        }
+    }
+}
+
+/* Kinematics, paper eqs. (2) and (4). One NaN or infinity makes the sum one. */
+static inline ellipsoid_status finish(const double u[3], const double omega[3],
+                                      const double at[4],
+                                      ellipsoid_state *derivative)
+{
+    double q[4];
+
+    ellipsoid_set(derivative->x, u[0], u[1], u[2]);
+    ellipsoid_spin(omega, at, q);
+    for (int n = 0; n < 4; n++)
+    {
+        derivative->q[n] = 0.5 * q[n];
+    }
+    return isfinite(ellipsoid_sum(derivative->u) + ellipsoid_sum(derivative->x)
+                    + ellipsoid_sum(derivative->omega) + ellipsoid_sum(q)
+                    + q[3])
+             ? ELLIPSOID_OK
+             : ELLIPSOID_NON_FINITE;
+}
+
+/* The motion that the flow would give a free body. The copy is for those who
+   want an address: so the compiler need not give the original one. */
+static inline ellipsoid_status
+set_free(evaluation *e, const ellipsoid_surroundings *surroundings,
+         double d[4][3][3], int derivatives)
+{
+    if (e->model->flow_points > 0)
+    {
+        double axis[3][3];
+        ellipsoid_free_motion motion;
+        ellipsoid_status status;
+
+        memcpy(axis, e->axis, sizeof(axis));
+        status = ellipsoid_faxen(e->model, surroundings, e->state->x,
+                                     e->flow->velocity, axis,
+                                     derivatives ? d : NULL, &motion);
+        if (status == ELLIPSOID_OK)
+        {
+            e->free = motion;
+        }
+        return status;
+    }
+    set_free_motion(e);
+    if (derivatives)
+    {
+        set_free_derivatives(e, d);
+    }
+    return ELLIPSOID_OK;
+}
+
+/* All but drag and contact. */
+static inline ellipsoid_status
+set_forces(evaluation *e, const ellipsoid_surroundings *surroundings,
+           const ellipsoid_noise *noise, double d[4][3][3],
+           ellipsoid_blocks *blocks)
+{
+    const ellipsoid_model *m = e->model;
+
+    ellipsoid_set(e->force, m->constant_force[0], m->constant_force[1],
+                  m->constant_force[2]);
+    ellipsoid_set(e->torque, m->options.external_torque[0],
+                  m->options.external_torque[1], m->options.external_torque[2]);
+    if (e->flow && m->options.pressure_gradient == ELLIPSOID_PRESSURE_DUDT)
+    {
+        double push[3];
+
+        ellipsoid_product(e->flow->gradient, e->flow->velocity, push);
+        ellipsoid_set(push, m->fluid_mass * push[0], m->fluid_mass * push[1],
+                      m->fluid_mass * push[2]);
+        ellipsoid_add(e->force, push);
+    }
+    if (blocks || noise || m->electric
+        || m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
+    {
+        double axis[3][3], force[3], torque[3];
+        ellipsoid_status status;
+
+        memcpy(axis, e->axis, sizeof(axis));
+        ellipsoid_copy(e->force, force);
+        ellipsoid_copy(e->torque, torque);
+        status = ellipsoid_add_body_forces(m, surroundings, e->state->x, axis,
+                                      blocks ? d : NULL, e->flow, force, torque,
+                                      blocks);
+        if (noise)
+        {
+            ellipsoid_add_noise(noise, axis, d, force, torque, blocks);
+        }
+        ellipsoid_copy(force, e->force);
+        ellipsoid_copy(torque, e->torque);
+        return status;
+    }
+    return ELLIPSOID_OK;
+}
+
+/* Inlined below, with constants that tell the compiler what to leave
+   out; e has no address taken, so that it stays in registers. */
+static inline ellipsoid_status
+evaluate(const ellipsoid_model *model,
+         const ellipsoid_surroundings *surroundings,
+         const ellipsoid_noise *noise, ellipsoid_state *state, int balanced,
+         ellipsoid_facet_cache *cache, ellipsoid_state *derivative,
+         ellipsoid_contact *contact, ellipsoid_blocks *blocks)
+{
+    const int inertial = model->options.motion == ELLIPSOID_MOTION_INERTIAL;
+    const int drag = model->options.drag && surroundings->flow;
+    const double *q = state->q;
+    double d[4][3][3];
+    ellipsoid_status status = ELLIPSOID_OK;
+    ellipsoid_flow_sample flow;
+    double u[3], omega[3];
+    int resisted_by_walls = 0;
+    evaluation e;
+
+    e.model = model;
+    e.state = state;
+    e.flow = NULL;
+    if (blocks)
+    {
+        memset(blocks, 0, sizeof(*blocks));
+        ellipsoid_axis_derivatives(q, d);
+    }
+    if (surroundings->flow)
+    {
+        const int answer = surroundings->flow(surroundings->flow_context,
+                                              state->x, blocks != NULL, &flow);
+
+        if (answer != 0)
+        {
+            return ellipsoid_answer_status(answer);
+        }
+        e.flow = &flow;
+    }
+
+    /* the columns of R(q) are the rows of R of the opposite turn */
+    const double opposite[4] = {q[0], q[1], q[2], -q[3]};
+
+    ellipsoid_rotation_inline(opposite, e.axis);
+    if (drag)
+    {
+        status = set_free(&e, surroundings, d, blocks != NULL);
+    }
+    if (status == ELLIPSOID_OK)
+    {
+        status = set_forces(&e, surroundings, noise, d, blocks);
+    }
+    if (status == ELLIPSOID_OK && ellipsoid_has_walls(model, surroundings))
+    {
+        status = add_contact(&e, surroundings, cache, contact, blocks);
+    }
+    if (status != ELLIPSOID_OK)
+    {
+        return status;
+    }
+    if (drag && ellipsoid_has_near_walls(model, surroundings))
+    {
+        status = add_wall_drag(&e, surroundings, state, balanced, cache, d,
+                               blocks, &resisted_by_walls);
+        if (status != ELLIPSOID_OK)
+        {
+            return status;
+        }
+    }
+    ellipsoid_copy(state->u, u);
+    ellipsoid_copy(state->omega, omega);
+    if (balanced && !resisted_by_walls)
+    {
+        balance(&e, u, omega);
+        ellipsoid_copy(u, state->u);
+        ellipsoid_copy(omega, state->omega);
+    }
+    if (drag && !resisted_by_walls && (blocks || !balanced))
+    {
+        double slip[3], resisted[3];
+
+        add_drag(&e, slip, resisted);
+        if (blocks)
+        {
+            add_drag_blocks(&e, d, slip, resisted, blocks);
+        }
+    }
+    if (blocks)
+    {
+        finish_blocks(&e, inertial, blocks);
+    }
+    if (balanced)
+    {
+        ellipsoid_set(derivative->u, 0, 0, 0);
+        ellipsoid_set(derivative->omega, 0, 0, 0);
+    }
+    else
+    {
+        accelerations(&e, inertial, derivative);
+    }
+    return finish(u, omega, q, derivative);
+}
+
+ellipsoid_status ellipsoid_evaluate(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const ellipsoid_noise *noise, ellipsoid_state *state, int balanced,
+    ellipsoid_facet_cache *cache, ellipsoid_state *derivative,
+    ellipsoid_contact *contact, ellipsoid_blocks *blocks)
+{
+    if (blocks)
+    {
+        return evaluate(model, surroundings, noise, state, balanced, cache,
+                        derivative, contact, blocks);
+    }
+    if (balanced)
+    {
+        return evaluate(model, surroundings, noise, state, 1, cache, derivative,
+                        contact, NULL);
+    }
+    return evaluate(model, surroundings, noise, state, 0, cache, derivative,
+                    contact, NULL);
+}

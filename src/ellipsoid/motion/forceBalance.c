@@ -1,0 +1,290 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    forceBalance.c - velocities that balance forces which depend on them.
+
+    Drag alone is linear in u and omega, and equations.c inverts it. Friction
+    and damping are not, and they couple the cells of a group: Newton's method,
+    with the linear system of a step whose length vanishes. It begins at rest,
+    so that the result is that of the poses alone. From there, where friction
+    holds, towards sliding, its tangents fall short; where one goes too far the
+    change is shortened. Where that does not do, as many beads slide at speeds
+    far above the slip speed, this comes down to its value by and by.
+*/
+#include "motion/motion.h"
+
+#include <math.h>
+
+enum
+{
+    MOST_ITERATIONS = 60,
+    MOST_HALVINGS = 40, /* damping turns sharply where it lets go */
+    CHANGE = ELLIPSOID_MAX_STAGES - 1 /* a stage that no implicit step has */
+};
+
+/* The slip speeds begin at so much of their value, and fall by a factor. */
+static const double smoothest = 1e12, less_smooth = 0.1;
+
+/* Newton has converged when it changes velocities by so much of themselves; or
+   by this little more, and goes no further: rounding, where speeds are very
+   many slip speeds. */
+static const double converged = 1e-12, nearly = 1e-8;
+
+/* Where friction or damping is 1e10 times what drag is, rounding leaves more;
+   it is taken if nothing better has come in half of the iterations. */
+static const double stalled = 1e-5;
+
+/* What is left of the power of the unbalanced forces along the change of
+   velocities, if its sign has turned: then the step went too far. */
+static const double too_far = 0.5;
+
+/* Power of the unbalanced forces, [W]. */
+static double power_along(const ellipsoid_group *g,
+                          const ellipsoid_evaluation *points)
+{
+    double power = 0;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_model *m = g->cell[cell].model;
+        const ellipsoid_state *slope = &points[cell].derivative;
+        const double *change = g->stages[cell].k[CHANGE];
+
+        for (int i = 0; i < 3; i++)
+        {
+            power += m->mass * slope->u[i] * change[AT_U + i]
+                   + m->inertia[i] * slope->omega[i] * change[AT_OMEGA + i];
+        }
+    }
+    return power;
+}
+
+static void move(const ellipsoid_group *g, double part, ellipsoid_evaluation *points)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const double *change = g->stages[cell].k[CHANGE];
+
+        for (int i = 0; i < 3; i++)
+        {
+            points[cell].state.u[i] += part * change[AT_U + i];
+            points[cell].state.omega[i] += part * change[AT_OMEGA + i];
+        }
+    }
+}
+
+/* Are the changes a small part of the velocities and the slip speed? */
+static int are_small(const ellipsoid_group *g, const ellipsoid_evaluation *points,
+                     double part)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_cell *p = &g->cell[cell];
+        const ellipsoid_state *state = &points[cell].state;
+        const double *change = g->stages[cell].k[CHANGE];
+        const double speed = ellipsoid_length(state->u)
+                           + p->length * ellipsoid_length(state->omega)
+                           + 1e-3 * p->model->options.slip_speed;
+
+        if (!(ellipsoid_length(change + AT_U)
+                  + p->length * ellipsoid_length(change + AT_OMEGA)
+              <= part * speed))
+        {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Newton's change of velocities, from points that have their blocks. */
+static int set_changes(ellipsoid_group *g, ellipsoid_evaluation *points)
+{
+    ellipsoid_evaluation *const start = g->start;
+    const int inertial = g->inertial;
+    double shortest = HUGE_VAL;
+    int regular;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_cell *p = &g->cell[cell];
+        double *k = g->stages[cell].k[CHANGE];
+
+        memset(k, 0, sizeof(g->stages[cell].k[CHANGE]));
+        ellipsoid_copy(points[cell].derivative.u, k + AT_U);
+        ellipsoid_copy(points[cell].derivative.omega, k + AT_OMEGA);
+        shortest = fmin(shortest, 1 / fmax(p->rate, p->rotation_rate));
+    }
+    g->start = points;
+    g->inertial = 0;
+    regular = ellipsoid_group_prepare(g, 1e-20 * shortest);
+    if (regular)
+    {
+        ellipsoid_group_solve(g, CHANGE);
+    }
+    g->start = start;
+    g->inertial = inertial;
+    return regular;
+}
+
+static ellipsoid_status iterate(ellipsoid_group *g, ellipsoid_evaluation *points)
+{
+    ellipsoid_status status = ellipsoid_group_evaluate_once(g, points, 0, 1);
+    double previous = HUGE_VAL;
+
+    for (int n = 0; status == ELLIPSOID_OK && n < MOST_ITERATIONS; n++)
+    {
+        double before, part = 1;
+
+        if (!set_changes(g, points))
+        {
+            return ELLIPSOID_NON_FINITE;
+        }
+        before = power_along(g, points);
+        move(g, part, points);
+        if (are_small(g, points, converged)
+            || (before > 0.25 * previous && are_small(g, points, nearly))
+            || (n > MOST_ITERATIONS / 2 && are_small(g, points, stalled)))
+        {
+            return ELLIPSOID_OK;
+        }
+        previous = before;
+        status = ellipsoid_group_evaluate_once(g, points, 0, 1);
+        for (int l = 0; status == ELLIPSOID_OK && l < MOST_HALVINGS
+                        && power_along(g, points) / before < -too_far;
+             l++)
+        {
+            part *= 0.5;
+            move(g, -part, points);
+            status = ellipsoid_group_evaluate_once(g, points, 0, 1);
+        }
+    }
+    return status == ELLIPSOID_OK ? ELLIPSOID_NON_FINITE : status;
+}
+
+static void be_at_rest(const ellipsoid_group *g, ellipsoid_evaluation *points)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        ellipsoid_set(points[cell].state.u, 0, 0, 0);
+        ellipsoid_set(points[cell].state.omega, 0, 0, 0);
+    }
+}
+
+/* First as it is; then with slip speeds that fall to their values. Models
+   without gyroscopic torque stand in meanwhile. */
+static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
+                                         ellipsoid_evaluation *points,
+                                         ellipsoid_balance_model *stand_in)
+{
+    ellipsoid_status status;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        stand_in[cell].own = g->cell[cell].model;
+        stand_in[cell].model = *g->cell[cell].model;
+        stand_in[cell].model.options.motion = ELLIPSOID_MOTION_INERTIALESS;
+        g->cell[cell].model = &stand_in[cell].model;
+    }
+    be_at_rest(g, points);
+    status = iterate(g, points);
+    if (status == ELLIPSOID_NON_FINITE)
+    {
+        be_at_rest(g, points);
+        status = ELLIPSOID_OK;
+        for (double smooth = smoothest; status == ELLIPSOID_OK && smooth > 0.5;
+             smooth *= less_smooth)
+        {
+            for (int cell = 0; cell < g->count; cell++)
+            {
+                stand_in[cell].model.options.slip_speed =
+                    smooth * stand_in[cell].own->options.slip_speed;
+            }
+            status = iterate(g, points);
+        }
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        g->cell[cell].model = stand_in[cell].own;
+    }
+    return status;
+}
+
+/* One cell has no memory of its own for a stand-in. */
+static ellipsoid_status iterate_alone(ellipsoid_group *g,
+                                      ellipsoid_evaluation *points)
+{
+    ellipsoid_balance_model stand_in;
+
+    return iterate_smoothly(g, points, &stand_in);
+}
+
+ellipsoid_status ellipsoid_friction_balance(ellipsoid_group *g,
+                                            ellipsoid_evaluation *points,
+                                            int with_blocks)
+{
+    ellipsoid_status status;
+    int touches = 0;
+
+    be_at_rest(g, points);
+    status = ellipsoid_group_evaluate_once(g, points, 1, with_blocks);
+    for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
+    {
+        touches = touches || ellipsoid_in_contact(&points[cell].contact);
+    }
+    if (!touches)
+    {
+        return status;
+    }
+    g->has_blocks = 0; /* the couplings are no longer those of the start */
+    status = g->pairs ? iterate_smoothly(g, points, g->pairs->stand_in)
+                      : iterate_alone(g, points);
+    if (status == ELLIPSOID_OK)
+    {
+        status = ellipsoid_group_evaluate_once(g, points, 0, with_blocks);
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        ellipsoid_state *slope = &points[cell].derivative;
+
+        ellipsoid_set(slope->u, 0, 0, 0);
+        ellipsoid_set(slope->omega, 0, 0, 0);
+    }
+    return status;
+}
+
+ellipsoid_status ellipsoid_force_balance(const ellipsoid_model *model,
+                                    const ellipsoid_surroundings *surroundings,
+                                    ellipsoid_state *state,
+                                    ellipsoid_facet_cache *cache,
+                                    ellipsoid_state *derivative)
+{
+    const double *a = model->options.semi_axes;
+    ellipsoid_statistics statistics = {0};
+    ellipsoid_evaluation point;
+    ellipsoid_stages stages;
+    ellipsoid_stage_matrix system;
+    ellipsoid_cell cell = {
+        .model = model,
+        .surroundings = surroundings,
+        .cache = cache,
+        .statistics = &statistics,
+        .length = fmax(a[0], fmax(a[1], a[2])),
+        .rate = 1 / model->relaxation_time,
+        .rotation_rate = 1 / model->rotation_relaxation_time};
+    ellipsoid_group g = {.count = 1,
+                         .rubs = model->dissipative,
+                         .cell = &cell,
+                         .start = &point,
+                         .stages = &stages,
+                         .system = &system};
+    ellipsoid_status status;
+
+    point.state = *state;
+    point.contact = (ellipsoid_contact){.gap = HUGE_VAL, .cell_gap = HUGE_VAL};
+    status = ellipsoid_group_evaluate(&g, &point, 1, 0);
+    *state = point.state;
+    *derivative = point.derivative;
+    return status;
+}

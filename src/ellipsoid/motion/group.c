@@ -1,0 +1,231 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    group.c - one cell, or several that may touch, are made a group and
+    advanced, from one noise interval to the next.
+*/
+#include "motion/motion.h"
+
+#include <math.h>
+#include <stdalign.h>
+#include <string.h>
+
+/* Memory for as many neighbours of a cell, in the mean: touching, and near.
+   Twelve fit around it. */
+static const int touching_each = 16, near_each = 32;
+
+static ellipsoid_cell problem_of(const ellipsoid_member *member,
+                                    const ellipsoid_noise *noise)
+{
+    const ellipsoid_model *m = member->model;
+    const double *a = m->options.semi_axes;
+    const int drag = m->options.drag && member->surroundings->flow != NULL;
+
+    return (ellipsoid_cell){
+        .model = m,
+        .surroundings = member->surroundings,
+        .cache = member->cache,
+        .statistics = member->statistics,
+        .length = fmax(a[0], fmax(a[1], a[2])),
+        .rate = drag ? 1 / m->relaxation_time : 0,
+        .rotation_rate = drag ? 1 / m->rotation_relaxation_time : 0,
+        .noise = m->options.brownian && drag ? noise : NULL,
+        .inertial = m->options.motion == ELLIPSOID_MOTION_INERTIAL,
+        .walls = ellipsoid_has_walls(m, member->surroundings),
+    };
+}
+
+/* Can these go together, and at all? */
+static ellipsoid_status check(const ellipsoid_group *g)
+{
+    const ellipsoid_cell *first = &g->cell[0];
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_cell *p = &g->cell[cell];
+
+        if (p->inertial != first->inertial || !p->noise != !first->noise
+            || (p->noise
+                && p->model->options.noise_interval
+                       != first->model->options.noise_interval)
+            || (!p->inertial && !(p->rate > 0)))
+        {
+            return ELLIPSOID_BAD_OPTION;
+        }
+    }
+    return ELLIPSOID_OK;
+}
+
+/* From noise interval to noise interval, to the end. */
+static ellipsoid_status advance(ellipsoid_group *g,
+                                const ellipsoid_member members[], double *t,
+                                double end, ellipsoid_observer observer)
+{
+    ellipsoid_noise *noise = g->noise;
+    const ellipsoid_contact nothing = {.gap = HUGE_VAL, .cell_gap = HUGE_VAL};
+    ellipsoid_status status;
+    long attempts = 0;
+
+    if (!isfinite(*t) || !isfinite(end))
+    {
+        return ELLIPSOID_NON_FINITE;
+    }
+    if (!(*t < end))
+    {
+        return ELLIPSOID_OK;
+    }
+    g->culprit = -1;
+    g->aligned = g->rubs = 0;
+    g->observed = observer != NULL;
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        g->cell[cell] = problem_of(&members[cell], &noise[cell]);
+        g->aligned = g->aligned || members[cell].model->aligned;
+        g->rubs = g->rubs || members[cell].model->dissipative;
+        g->start[cell].contact = g->next[cell].contact = nothing;
+    }
+    g->inertial = g->cell[0].inertial;
+    status = check(g);
+    while (status == ELLIPSOID_OK && *t < end)
+    {
+        double until = end;
+
+        for (int cell = 0; g->cell[0].noise && cell < g->count; cell++)
+        {
+            if (status == ELLIPSOID_OK)
+            {
+                status = ellipsoid_noise_at(members[cell].model,
+                                            members[cell].surroundings, *t,
+                                            &noise[cell]);
+            }
+            if (noise[cell].end < end - noise[cell].slack)
+            {
+                until = noise[cell].end;
+            }
+        }
+        if (status == ELLIPSOID_OK)
+        {
+            status = ellipsoid_group_advance(g, members, t, until, observer,
+                                             &attempts);
+        }
+    }
+    return status;
+}
+
+ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
+                                   const ellipsoid_surroundings *surroundings,
+                                   ellipsoid_state *state, double *t,
+                                   double end, ellipsoid_controller *controller,
+                                   ellipsoid_facet_cache *cache,
+                                   ellipsoid_observer observer,
+                                   void *observer_context,
+                                   ellipsoid_statistics *statistics)
+{
+    const ellipsoid_member member = {model,      surroundings, state,
+                                     controller, cache,        observer_context,
+                                     statistics};
+    ellipsoid_cell cell;
+    ellipsoid_evaluation start, next;
+    ellipsoid_stages stages;
+    ellipsoid_stage_matrix system;
+    ellipsoid_step step;
+    ellipsoid_noise noise = {{0}, {0}, 0, 0, 0};
+    ellipsoid_group g = {
+        .count = 1,
+        .cell = &cell,
+        .start = &start,
+        .next = &next,
+        .stages = &stages,
+        .system = &system,
+        .step = &step,
+        .noise = &noise,
+    };
+
+    return advance(&g, &member, t, end, observer);
+}
+
+/* ---------------------------------------------------------------- memory */
+
+/* Takes `count` things of a size from the memory, or only counts bytes. */
+static void *take(unsigned char *memory, size_t *used, size_t size, int count)
+{
+    const size_t unit = alignof(max_align_t);
+    unsigned char *at = memory ? memory + *used : NULL;
+
+    *used += (size * (size_t)count + unit - 1) / unit * unit;
+    return at;
+}
+
+size_t ellipsoid_group_lay_out(int count, void *memory, ellipsoid_group *g,
+                               ellipsoid_pairs *pairs)
+{
+    const int squared = count * count;
+    double(*bead)[ELLIPSOID_MAX_BEADS][3];
+    size_t used = 0;
+
+    memset(g, 0, sizeof(*g));
+    memset(pairs, 0, sizeof(*pairs));
+    g->count = count;
+    g->pairs = pairs;
+    g->cell = take(memory, &used, sizeof(*g->cell), count);
+    g->start = take(memory, &used, sizeof(*g->start), count);
+    g->next = take(memory, &used, sizeof(*g->next), count);
+    g->stages = take(memory, &used, sizeof(*g->stages), count);
+    g->system = take(memory, &used, sizeof(*g->system), count);
+    g->step = take(memory, &used, sizeof(*g->step), count);
+    g->noise = take(memory, &used, sizeof(*g->noise), count);
+    pairs->capacity = touching_each * count;
+    pairs->coupling =
+        take(memory, &used, sizeof(*pairs->coupling), pairs->capacity);
+    pairs->near_capacity = near_each * count;
+    /* one more, where the next is tried */
+    pairs->near =
+        take(memory, &used, sizeof(*pairs->near), pairs->near_capacity + 1);
+    pairs->listed_at = take(memory, &used, sizeof(*pairs->listed_at), count);
+    pairs->body = take(memory, &used, sizeof(*pairs->body), count);
+    pairs->stand_in = take(memory, &used, sizeof(*pairs->stand_in), count);
+    bead = take(memory, &used, sizeof(*bead), count);
+    for (int cell = 0; memory && cell < count; cell++)
+    {
+        pairs->body[cell].bead = bead[cell];
+    }
+    pairs->block = take(memory, &used, sizeof(*pairs->block), squared);
+    pairs->blocks = take(memory, &used, sizeof(*pairs->blocks), squared);
+    pairs->rates = take(memory, &used, sizeof(*pairs->rates), count);
+    return used;
+}
+
+size_t ellipsoid_group_size(int count)
+{
+    ellipsoid_group g;
+    ellipsoid_pairs pairs;
+
+    return ellipsoid_group_lay_out(count, NULL, &g, &pairs);
+}
+
+ellipsoid_status ellipsoid_advance_group(int count,
+                                         const ellipsoid_member members[],
+                                         double *t, double end,
+                                         ellipsoid_observer observer,
+                                         void *memory, int *which)
+{
+    ellipsoid_group g;
+    ellipsoid_pairs pairs;
+    ellipsoid_status status;
+
+    *which = -1;
+    if (count < 1)
+    {
+        return ELLIPSOID_BAD_OPTION;
+    }
+    ellipsoid_group_lay_out(count, memory, &g, &pairs);
+    if (count == 1)
+    {
+        g.pairs = NULL;
+    }
+    status = advance(&g, members, t, end, observer);
+    *which = status == ELLIPSOID_OK ? -1 : g.culprit;
+    return status;
+}

@@ -1,0 +1,178 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    groupContacts.c - the forces between the cells of a group, added to
+    evaluations that were made without them.
+*/
+#include "motion/motion.h"
+
+#include <math.h>
+
+/* A force and torque more, at a point that has been evaluated. */
+static ellipsoid_status push(const ellipsoid_cell *p, ellipsoid_evaluation *at,
+                             int balanced)
+{
+    const ellipsoid_model *m = p->model;
+    const ellipsoid_contact *c = &at->contact;
+    ellipsoid_state *slope = &at->derivative, *state = &at->state;
+    double moved[3], omega[3], turned[4];
+    ellipsoid_status status = ELLIPSOID_OK;
+
+    if (!balanced)
+    {
+        for (int i = 0; i < 3; i++)
+        {
+            slope->u[i] += c->cell_force[i] / m->mass;
+            slope->omega[i] += c->cell_torque[i] / m->inertia[i];
+        }
+        return ELLIPSOID_OK;
+    }
+    if (ellipsoid_has_near_walls(m, p->surroundings))
+    {
+        memset(moved, 0, sizeof(moved));
+        memset(omega, 0, sizeof(omega));
+        status = ellipsoid_wall_mobility(m, p->surroundings, p->cache, state->x,
+                                      state->q, c->cell_force, c->cell_torque,
+                                      moved, omega);
+    }
+    else
+    {
+        double r[3][3], body[3];
+
+        ellipsoid_rotation_inline(state->q, r);
+        ellipsoid_to_body(r, c->cell_force, body);
+        for (int i = 0; i < 3; i++)
+        {
+            body[i] *= m->mobility[i];
+            omega[i] = m->rotation_mobility[i] * c->cell_torque[i];
+        }
+        ellipsoid_product(r, body, moved);
+    }
+    ellipsoid_add(state->u, moved);
+    ellipsoid_add(state->omega, omega);
+    ellipsoid_copy(state->u, slope->x);
+    ellipsoid_spin(omega, state->q, turned);
+    for (int n = 0; n < 4; n++)
+    {
+        slope->q[n] += 0.5 * turned[n];
+    }
+    return status;
+}
+
+static void note_cell(ellipsoid_contact *contact, uint32_t id)
+{
+    if (contact->touched_cell_count < ELLIPSOID_MAX_TOUCHED)
+    {
+        contact->touched_cell[contact->touched_cell_count++] = id;
+    }
+}
+
+/* What a cell feels of another goes into its point and the couplings. */
+static void keep(ellipsoid_group *g, ellipsoid_evaluation *points,
+                 const ellipsoid_pair_contact *m, const ellipsoid_pair_wrench *felt,
+                 int row, int column)
+{
+    const ellipsoid_model *model = g->cell[row].model;
+    ellipsoid_contact *contact = &points[row].contact;
+    ellipsoid_pairs *pairs = g->pairs;
+
+    if (m->gap < ellipsoid_pair_horizon(model, g->cell[column].model))
+    {
+        contact->cell_gap = fmin(contact->cell_gap, m->gap);
+    }
+    contact->cell_deepest = fmax(0, -contact->cell_gap);
+    if (m->touching == 0)
+    {
+        return;
+    }
+    ellipsoid_add(contact->cell_force, felt->force);
+    ellipsoid_add(contact->cell_torque, felt->torque);
+    note_cell(contact, g->cell[column].surroundings->id);
+    if (m->derivatives)
+    {
+        ellipsoid_coupling *c = &pairs->coupling[pairs->count++];
+        const double of_torque[3] = {1 / model->inertia[0],
+                                     1 / model->inertia[1],
+                                     1 / model->inertia[2]};
+
+        c->row = row;
+        c->column = column;
+        memset(&c->blocks, 0, sizeof(c->blocks));
+        ellipsoid_add_to_blocks(&felt->other, 1 / model->mass, of_torque,
+                                &c->blocks);
+        ellipsoid_add_to_blocks(&felt->own, 1 / model->mass, of_torque,
+                                &points[row].blocks);
+    }
+}
+
+static ellipsoid_status add_pair(ellipsoid_group *g, ellipsoid_evaluation *points,
+                                 const ellipsoid_near_pair *near,
+                                 int with_blocks)
+{
+    const int a = near->a, b = near->b;
+    const ellipsoid_options *of_a = &g->cell[a].model->options;
+    const ellipsoid_options *of_b = &g->cell[b].model->options;
+    const ellipsoid_friction_law law =
+        ellipsoid_friction_law_between(g->cell[a].model, g->cell[b].model);
+    ellipsoid_pair_wrench felt_by_a, felt_by_b;
+    ellipsoid_pair_contact m = {
+        .a = ellipsoid_placed_body(g, points, a),
+        .b = ellipsoid_placed_body(g, points, b),
+        .state_a = &points[a].state,
+        .state_b = &points[b].state,
+        .stiffness = ellipsoid_pair_stiffness(of_a, of_b),
+        .law = law,
+        .rubs = law.friction > 0 || law.damping > 0,
+        .gap = ellipsoid_pair_horizon(g->cell[a].model, g->cell[b].model),
+        .derivatives = with_blocks,
+        .of_a = &felt_by_a,
+        .of_b = &felt_by_b,
+    };
+
+    ellipsoid_pair_contact_evaluate(&m, near);
+    if (m.touching > 0 && with_blocks
+        && g->pairs->count + 2 > g->pairs->capacity)
+    {
+        g->culprit = b;
+        return ELLIPSOID_TOO_MANY_CELLS;
+    }
+    keep(g, points, &m, &felt_by_a, a, b);
+    keep(g, points, &m, &felt_by_b, b, a);
+    return ELLIPSOID_OK;
+}
+
+ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *g,
+                                     ellipsoid_evaluation *points, int balanced,
+                                     int with_blocks)
+{
+    ellipsoid_status status = ellipsoid_near_pairs_collect(g, points);
+
+    g->pairs->count = with_blocks ? 0 : g->pairs->count;
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_model *model = g->cell[cell].model;
+        ellipsoid_contact *c = &points[cell].contact;
+
+        memset(c->cell_force, 0, sizeof(c->cell_force));
+        memset(c->cell_torque, 0, sizeof(c->cell_torque));
+        c->cell_gap = ellipsoid_pair_horizon(model, model);
+        c->cell_deepest = 0;
+        c->touched_cell_count = 0;
+        g->pairs->body[cell].model = NULL;
+    }
+    for (int n = 0; status == ELLIPSOID_OK && n < g->pairs->near_count; n++)
+    {
+        status = add_pair(g, points, &g->pairs->near[n], with_blocks);
+    }
+    for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
+    {
+        if (points[cell].contact.touched_cell_count > 0)
+        {
+            status = push(&g->cell[cell], &points[cell], balanced);
+            g->culprit = status == ELLIPSOID_OK ? -1 : cell;
+        }
+    }
+    return status;
+}

@@ -1,0 +1,52 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    groupRhs.c - the equations of several cells, contacts between them included.
+*/
+#include "motion/motion.h"
+
+static ellipsoid_status evaluate(ellipsoid_group *g, ellipsoid_evaluation *points,
+                                 int balanced, int with_blocks)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_status status = ellipsoid_cell_evaluate(
+            &g->cell[cell], &points[cell], balanced, with_blocks);
+
+        if (status != ELLIPSOID_OK)
+        {
+            g->culprit = cell;
+            return status;
+        }
+    }
+    return ellipsoid_add_group_contacts(g, points, balanced, with_blocks);
+}
+
+/* Balanced, the derivatives depend on velocities that all contacts decide:
+   these come first. */
+ellipsoid_status ellipsoid_group_rhs(ellipsoid_group *g,
+                                            ellipsoid_evaluation *points,
+                                            int balanced, int with_blocks)
+{
+    ellipsoid_status status;
+
+    if (!balanced || !with_blocks)
+    {
+        return evaluate(g, points, balanced, with_blocks);
+    }
+    status = evaluate(g, points, 1, 0);
+    if (status == ELLIPSOID_OK)
+    {
+        status = evaluate(g, points, 0, 1);
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        ellipsoid_state *slope = &points[cell].derivative;
+
+        ellipsoid_set(slope->u, 0, 0, 0);
+        ellipsoid_set(slope->omega, 0, 0, 0);
+    }
+    return status;
+}

@@ -1,0 +1,423 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    motion.h - what the integrator's files share.
+
+    Everything advances a group of cells in common steps; mostly it is a group
+    of one. Not for users; tests may include it.
+*/
+#ifndef ELLIPSOID_MOTION_H
+#define ELLIPSOID_MOTION_H
+
+#include "contact/contact.h"
+#include "drag/drag.h"
+
+/* Where the unknowns are in a vector of thirteen. */
+enum
+{
+    UNKNOWNS = ELLIPSOID_STATE_SIZE,
+    AT_U = 0,
+    AT_X = 3,
+    AT_OMEGA = 6,
+    AT_Q = 9
+};
+
+/* Is the n-th unknown one of u and omega? */
+static inline int ellipsoid_is_rate(int n)
+{
+    return n < AT_X || (n >= AT_OMEGA && n < AT_Q);
+}
+
+/*
+    The Rosenbrock coefficients as in Hairer & Wanner II, eq. (IV.7.25):
+    (1/(gamma h) - J) K_i = f(y0 + sum a_ij K_j) + sum c_ij/h K_j,
+    y1 = y0 + sum m_j K_j; the error estimate is K_6, and
+    y(s) = y0 (1-s) + s (y1 + (1-s) (d_0 + s d_1)), d_i = sum_j dense_ij K_j.
+*/
+#define ELLIPSOID_ROSENBROCK_STAGES 6
+
+typedef struct ellipsoid_rosenbrock_table
+{
+    double gamma;
+    double a[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
+    double c[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
+    double dense[2][ELLIPSOID_ROSENBROCK_STAGES];
+    int in_time[ELLIPSOID_ROSENBROCK_STAGES]; /* stages by their time */
+} ellipsoid_rosenbrock_table;
+
+extern const ellipsoid_rosenbrock_table
+    ellipsoid_rosenbrock_set; /* rodas4p2.c */
+
+/* -------------------------------------------------------- the equations */
+
+/* Adds to force [N, lab] and torque [N m, body], and to the blocks if wanted,
+   what is not drag, contact, constant or DUDT; of that the blocks alone
+   (bodyForces.c). flow may be NULL. */
+ellipsoid_status ellipsoid_add_body_forces(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const double x[3], double axis[3][3], double axis_derivatives[4][3][3],
+    ellipsoid_flow_sample *flow, double force[3], double torque[3],
+    ellipsoid_blocks *blocks);
+
+/*
+    One evaluation of the equations: derivative, the contact met (may be NULL
+    where there are no walls) and, if not NULL, the blocks. balanced: the
+    state's u and omega are first set to those that balance the forces; their
+    derivatives are then zero. noise may be NULL. Returns STEP_UNDERFLOW where a
+    callback asks for a shorter step.
+*/
+ellipsoid_status ellipsoid_evaluate(const ellipsoid_model *model,
+                                    const ellipsoid_surroundings *surroundings,
+                                    const ellipsoid_noise *noise,
+                                    ellipsoid_state *state, int balanced,
+                                    ellipsoid_facet_cache *cache,
+                                    ellipsoid_state *derivative,
+                                    ellipsoid_contact *contact,
+                                    ellipsoid_blocks *blocks);
+
+/* --------------------------------------------------------------- a cell */
+
+/* One cell's surroundings, and what an advance does not change. */
+typedef struct ellipsoid_cell
+{
+    const ellipsoid_model *model;
+    const ellipsoid_surroundings *surroundings;
+    ellipsoid_facet_cache *cache;
+    ellipsoid_statistics *statistics;
+    double length;                /* [m] largest semi-axis */
+    double rate;                  /* [1/s] 1/tau of u, 0 in vacuum */
+    double rotation_rate;         /* [1/s] 1/tau of omega, 0 in vacuum */
+    const ellipsoid_noise *noise; /* NULL: none */
+    int inertial;
+    int walls;
+} ellipsoid_cell;
+
+/* The equations in one state; at the start of a step kept while steps are
+   rejected. */
+typedef struct ellipsoid_evaluation
+{
+    union
+    {
+        ellipsoid_state state;
+        double y[UNKNOWNS];
+    };
+    union
+    {
+        ellipsoid_state derivative;
+        double slope[UNKNOWNS];
+    };
+    ellipsoid_blocks blocks;
+    ellipsoid_contact contact;
+} ellipsoid_evaluation;
+
+#define ELLIPSOID_MAX_STAGES 7
+
+/* The stages of one step. */
+typedef struct ellipsoid_stages
+{
+    double k[ELLIPSOID_MAX_STAGES][UNKNOWNS];
+    double y[UNKNOWNS]; /* result */
+    double error[UNKNOWNS];
+    int order; /* of the error estimate in the step */
+    /* Where contact is felt: poses, in the order of their time, and the gap [m]
+       that a bead may cross there with nothing in its way */
+    int sampled;
+    const int *in_time;
+    double x[ELLIPSOID_MAX_STAGES][3], q[ELLIPSOID_MAX_STAGES][4];
+    double gap[ELLIPSOID_MAX_STAGES];
+} ellipsoid_stages;
+
+/*
+    (g M - J) k = r with g = 1/(gamma h), M = I but for inertialess motion.
+    As dx/dt = u, k_x = (r_x + k_u)/g. As Q^2 = -|omega|^2 I,
+        (g I - Q/2)^-1 = (g I + Q/2)/(g^2 + |omega|^2/4)
+    gives k_q from k_omega. A dense 6x6 system in (k_u, k_omega) is left. The
+    solution is wanted six times, hence explicit matrices instead of
+    substitutions, in which each number waits for the one before.
+*/
+typedef struct ellipsoid_stage_matrix
+{
+    double per_g;
+    double to_rates[UNKNOWNS][6]; /* transposed: (k_u, k_omega) from r; of a
+                                     cell of a group: their part in its row */
+    double q_from_q[4][4];        /* transposed: k_q from r_q */
+    double q_from_w[3][4];        /* transposed: k_q from k_omega */
+} ellipsoid_stage_matrix;
+
+/* Rows (u, omega) of one cell by the unknowns of one, its own or another's,
+   once x and q are eliminated: -J is left in `rates`, and what multiplies r_x
+   and r_q; both transposed. */
+typedef struct ellipsoid_reduced
+{
+    double x[3][6], q[4][6];
+    double rates[6][6];
+} ellipsoid_reduced;
+
+/* Returns 0 if the step is so long that the matrix is singular
+   (stageMatrix.c). */
+int ellipsoid_stage_matrix_prepare(ellipsoid_stage_matrix *system,
+                                   const ellipsoid_evaluation *start, int inertial,
+                                   double h);
+
+/* r and k may be the same. */
+void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *system,
+                                  const double r[UNKNOWNS], double k[UNKNOWNS]);
+
+/* The same by parts, for a group: rows against the unknowns of `column`; what
+   the cell needs for k_x and k_q; these from r and (k_u, k_omega). */
+void ellipsoid_stage_matrix_reduce(const ellipsoid_blocks *blocks,
+                                   const ellipsoid_state *column, double h,
+                                   ellipsoid_reduced *reduced);
+void ellipsoid_stage_matrix_kinematics(ellipsoid_stage_matrix *system,
+                                       const ellipsoid_state *state, double h);
+void ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *system,
+                                   const double rates[6],
+                                   const double r[UNKNOWNS],
+                                   double k[UNKNOWNS]);
+
+/* -------------------------------------------------------------- a group */
+
+/* How the rows of one cell depend on the pose of another that it touches. */
+typedef struct ellipsoid_coupling
+{
+    int row, column;
+    ellipsoid_blocks blocks;
+    ellipsoid_reduced reduced;
+} ellipsoid_coupling;
+
+/* A model that differs, for a time, from that of a cell (forceBalance.c). */
+typedef struct ellipsoid_balance_model
+{
+    const ellipsoid_model *own;
+    ellipsoid_model model;
+} ellipsoid_balance_model;
+
+/* What a group of several needs; arrays in the caller's memory. */
+typedef struct ellipsoid_pairs
+{
+    int capacity, count; /* of couplings, at the start of a step */
+    ellipsoid_coupling *coupling;
+    int near_capacity, near_count;
+    ellipsoid_near_pair *near;
+    int is_listed;
+    ellipsoid_state *listed_at; /* where the near pairs were listed */
+    ellipsoid_body *body;       /* in the poses of an evaluation */
+    ellipsoid_balance_model *stand_in; /* for each cell */
+    int *block;             /* [count][count]: number of a 6x6 block, or -1 */
+    double (*blocks)[6][6]; /* of the factorised matrix */
+    double (*rates)[6];     /* right-hand sides, solutions */
+} ellipsoid_pairs;
+
+/* A group of cells at the start of a step and on the way to its end. */
+typedef struct ellipsoid_group
+{
+    int count;
+    int inertial; /* all or none */
+    int aligned;  /* is one by a dipole? */
+    int rubs;     /* do contacts of one depend on velocities? */
+    int observed; /* is the whole of ellipsoid_step asked for? */
+    ellipsoid_cell *cell;
+    ellipsoid_evaluation *start, *next; /* next serves the stages, too */
+    ellipsoid_stages *stages;
+    ellipsoid_stage_matrix *system;
+    ellipsoid_step *step;
+    ellipsoid_noise *noise;
+    ellipsoid_pairs *pairs; /* NULL: alone */
+    int has_blocks, next_has_blocks;
+    int culprit; /* who failed last, or -1 */
+} ellipsoid_group;
+
+/* Lays a group of several out in memory, which may be NULL; returns the bytes
+   it takes (group.c). */
+size_t ellipsoid_group_lay_out(int count, void *memory, ellipsoid_group *group,
+                               ellipsoid_pairs *pairs);
+
+/* Does it feel anything? */
+static inline int ellipsoid_has_contact(const ellipsoid_group *g, int cell)
+{
+    return g->pairs != NULL || g->cell[cell].walls;
+}
+
+/* A stage's pose and the gap there [m], for the guard against tunnelling: two
+   cells may both move, each by half the gap between them. */
+static inline void ellipsoid_stages_sample(ellipsoid_stages *stages, int stage,
+                                           const ellipsoid_evaluation *at)
+{
+    memcpy(stages->x[stage], at->state.x, sizeof(at->state.x));
+    memcpy(stages->q[stage], at->state.q, sizeof(at->state.q));
+    stages->gap[stage] =
+        fmin(fmax(at->contact.gap, 0), 0.5 * fmax(at->contact.cell_gap, 0));
+}
+
+/* ellipsoid_evaluate() for one cell, counted. */
+static inline ellipsoid_status
+ellipsoid_cell_evaluate(const ellipsoid_cell *p, ellipsoid_evaluation *at,
+                           int balanced, int with_blocks)
+{
+    p->statistics->rhs++;
+    p->statistics->jacobians += with_blocks;
+    return ellipsoid_evaluate(p->model, p->surroundings, p->noise, &at->state,
+                              balanced, p->cache, &at->derivative, &at->contact,
+                              with_blocks ? &at->blocks : NULL);
+}
+
+/* For several cells, contacts between them included (group.c). */
+ellipsoid_status ellipsoid_group_rhs(ellipsoid_group *group,
+                                            ellipsoid_evaluation *points,
+                                            int balanced, int with_blocks);
+
+/* For one cell with drag, its velocities set to those that balance. */
+ellipsoid_status ellipsoid_force_balance(const ellipsoid_model *model,
+                                    const ellipsoid_surroundings *surroundings,
+                                    ellipsoid_state *state,
+                                    ellipsoid_facet_cache *cache,
+                                    ellipsoid_state *derivative);
+
+/* Likewise, for one cell or several whose contacts depend on the velocities
+   that are to be balanced (forceBalance.c). */
+ellipsoid_status ellipsoid_friction_balance(ellipsoid_group *group,
+                                            ellipsoid_evaluation *points,
+                                            int with_blocks);
+
+/* As below, for contacts that do not depend on velocities, or not balanced. */
+static inline ellipsoid_status
+ellipsoid_group_evaluate_once(ellipsoid_group *g, ellipsoid_evaluation *points,
+                          int balanced, int with_blocks)
+{
+    if (g->pairs)
+    {
+        return ellipsoid_group_rhs(g, points, balanced, with_blocks);
+    }
+    g->culprit = 0;
+    return ellipsoid_cell_evaluate(g->cell, points, balanced, with_blocks);
+}
+
+/*
+    Evaluates the equations in the states of all points. balanced says whether u
+    and omega are set first. with_blocks: and the Jacobian, with couplings.
+*/
+static inline ellipsoid_status ellipsoid_group_evaluate(ellipsoid_group *g,
+                                                        ellipsoid_evaluation *points,
+                                                        int balanced,
+                                                        int with_blocks)
+{
+    if (balanced && g->rubs)
+    {
+        return ellipsoid_friction_balance(g, points, with_blocks);
+    }
+    return ellipsoid_group_evaluate_once(g, points, balanced, with_blocks);
+}
+
+/* A cell of the group where the points are, placed at most once. */
+const ellipsoid_body *ellipsoid_placed_body(ellipsoid_group *group,
+                                            const ellipsoid_evaluation *points,
+                                            int cell);
+
+/* Sees to it that all pairs that may touch in these states are listed.
+   TOO_MANY_CELLS: there is no memory for so many. */
+ellipsoid_status ellipsoid_near_pairs_collect(ellipsoid_group *group,
+                                              const ellipsoid_evaluation *points);
+
+/* Adds the forces between the cells to points that have been evaluated
+   without (pairContact.c). */
+ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *group,
+                                     ellipsoid_evaluation *points, int balanced,
+                                     int with_blocks);
+
+/*
+    The linear system of several cells: that of each, coupled by contacts. It is
+    solved for stages k_i in place. 0 if it is singular (groupMatrix.c).
+*/
+int ellipsoid_group_matrix_prepare(ellipsoid_group *group, double h);
+void ellipsoid_group_matrix_solve(const ellipsoid_group *group, int stage);
+
+static inline int ellipsoid_group_prepare(ellipsoid_group *g, double h)
+{
+    return g->pairs ? ellipsoid_group_matrix_prepare(g, h)
+                    : ellipsoid_stage_matrix_prepare(g->system, g->start,
+                                                     g->inertial, h);
+}
+
+static inline void ellipsoid_group_solve(const ellipsoid_group *g, int stage)
+{
+    if (g->pairs)
+    {
+        ellipsoid_group_matrix_solve(g, stage);
+        return;
+    }
+
+    double *k = g->stages->k[stage];
+
+    ellipsoid_stage_matrix_solve(g->system, k, k);
+}
+
+/*
+    One Rosenbrock step of length h [s] from a start that has its blocks; y has
+    a q not yet of length one. Returns STEP_UNDERFLOW or NON_FINITE where a
+    shorter step may succeed.
+*/
+ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *group, double h);
+
+/* The continuous extension of such a step. */
+void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,
+                                double dense[3][UNKNOWNS]);
+
+/*
+    One explicit step of inertialess motion (rungeKutta.c). Its last stage is
+    `next`, the end of the step. *touched is set, and the step not finished,
+    where a stage touches something: the equations are stiff there.
+*/
+ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *group, double h,
+                                         int *touched);
+
+/* The continuous extension of such a step. */
+void ellipsoid_explicit_dense(ellipsoid_stages *stages,
+                              const ellipsoid_step *step,
+                              double dense[3][UNKNOWNS]);
+
+/* At the start of a noise interval that lasts many relaxation times: takes the
+   start to where they have passed, in no time (brownian.c). */
+ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *group, double t,
+                                       double until);
+
+/* -------------------------------------------------------- step control */
+
+/* A step as planned. */
+typedef struct ellipsoid_plan
+{
+    double h;
+    int last;      /* ends at `end` */
+    int shortened; /* less than proposed, to land on `end` */
+} ellipsoid_plan;
+
+/* The next step from t towards end (stepControl.c). */
+ellipsoid_plan ellipsoid_plan_step(double proposal, double t, double end);
+
+/* Sets *step to a first step from the start. */
+ellipsoid_status ellipsoid_first_step(ellipsoid_group *group, double *step);
+
+/* Sets *error to what the step has made, above 1 if it is too much. NON_FINITE
+   if it is not finite. */
+ellipsoid_status ellipsoid_judge_step(const ellipsoid_group *group, double h,
+                                      double *error);
+
+/* The factor by which the next step differs from one that made that error. */
+double ellipsoid_step_factor(int order, double error, double previous_error);
+
+/* Is it a failure that a shorter step may cure? */
+static inline int ellipsoid_may_recover(ellipsoid_status status)
+{
+    return status == ELLIPSOID_STEP_UNDERFLOW || status == ELLIPSOID_NON_FINITE;
+}
+
+/* Takes a group from *t to `end` [s]; the observer may stop it (advance.c).
+   Controllers and observers are the members'; *attempts counts on. */
+ellipsoid_status ellipsoid_group_advance(ellipsoid_group *group,
+                                         const ellipsoid_member members[],
+                                         double *t, double end,
+                                         ellipsoid_observer observer,
+                                         long *attempts);
+
+#endif

@@ -1,0 +1,125 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    nearPairs.c - which beads of which cells of a group may touch.
+
+    The list holds all beads of two cells with gaps below the horizon and a
+    margin, and is good until a bead can have moved half the margin. What is
+    summed is then the same, in the same order, whenever it was made.
+*/
+#include "motion/motion.h"
+
+#include <math.h>
+
+/* How far two beads may come nearer before the list is made anew, in radii. */
+static const double margin = 0.5;
+
+const ellipsoid_body *ellipsoid_placed_body(ellipsoid_group *g,
+                                            const ellipsoid_evaluation *points,
+                                            int cell)
+{
+    ellipsoid_body *b = &g->pairs->body[cell];
+
+    if (!b->model)
+    {
+        ellipsoid_place_body(b, g->cell[cell].model, points[cell].state.x,
+                             points[cell].state.q);
+    }
+    return b;
+}
+
+/* Has a bead of this cell moved so far that the list may lack something? */
+static int has_left(const ellipsoid_pairs *pairs, const ellipsoid_model *model,
+                    const ellipsoid_state *now, int cell)
+{
+    const ellipsoid_state *then = &pairs->listed_at[cell];
+    double move[3], turn[4];
+
+    ellipsoid_difference(now->x, then->x, move);
+    for (int n = 0; n < 4; n++)
+    {
+        turn[n] = now->q[n] - then->q[n];
+    }
+    /* |dR s| <= 2 |dq| |s| and a little for |q| that are not one */
+    return ellipsoid_length(move)
+             + 2.5 * model->reach * sqrt(ellipsoid_square4(turn))
+         > 0.5 * margin * model->options.bead_radius;
+}
+
+static ellipsoid_status collect(ellipsoid_group *g,
+                                const ellipsoid_evaluation *points)
+{
+    ellipsoid_pairs *pairs = g->pairs;
+
+    pairs->near_count = 0;
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        pairs->body[cell].model = NULL;
+    }
+    for (int a = 0; a < g->count; a++)
+    {
+        for (int b = a + 1; b < g->count; b++)
+        {
+            const ellipsoid_model *of_a = g->cell[a].model;
+            const ellipsoid_model *of_b = g->cell[b].model;
+            const double far = ellipsoid_pair_horizon(of_a, of_b)
+                             + margin
+                                   * fmax(of_a->options.bead_radius,
+                                          of_b->options.bead_radius);
+            ellipsoid_near_pair *near = &pairs->near[pairs->near_count];
+
+            if (ellipsoid_are_apart(of_a, points[a].state.x, of_b,
+                                    points[b].state.x, far))
+            {
+                continue;
+            }
+            ellipsoid_placed_body(g, points, a);
+            ellipsoid_placed_body(g, points, b);
+            if (ellipsoid_pair_is_exact(of_a, of_b))
+            {
+                near->listed =
+                    ellipsoid_surface_gap(&pairs->body[a], &pairs->body[b]) < far;
+            }
+            else
+            {
+                ellipsoid_list_beads(&pairs->body[a], &pairs->body[b], far,
+                                     near);
+            }
+            near->a = a;
+            near->b = b;
+            pairs->near_count += near->listed != 0;
+            if (pairs->near_count > pairs->near_capacity)
+            {
+                pairs->is_listed = 0;
+                g->culprit = b;
+                return ELLIPSOID_TOO_MANY_CELLS;
+            }
+        }
+    }
+    return ELLIPSOID_OK;
+}
+
+ellipsoid_status ellipsoid_near_pairs_collect(ellipsoid_group *g,
+                                              const ellipsoid_evaluation *points)
+{
+    ellipsoid_pairs *pairs = g->pairs;
+    int current = pairs->is_listed;
+
+    for (int cell = 0; current && cell < g->count; cell++)
+    {
+        current =
+            !has_left(pairs, g->cell[cell].model, &points[cell].state, cell);
+    }
+    if (current)
+    {
+        return ELLIPSOID_OK;
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        pairs->listed_at[cell] = points[cell].state;
+    }
+    pairs->is_listed = 1;
+    return collect(g, points);
+}

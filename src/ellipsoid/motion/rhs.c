@@ -1,0 +1,121 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    rhs.c - right-hand side, balanced motion, drag and dense Jacobian
+    for callers; the integrator uses the blocks of equations.c as they are.
+*/
+#include "motion/motion.h"
+
+#include <string.h>
+
+ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
+                               const ellipsoid_surroundings *surroundings,
+                               const ellipsoid_state *state,
+                               ellipsoid_facet_cache *cache,
+                               ellipsoid_state *derivative)
+{
+    const int balanced = model->options.motion == ELLIPSOID_MOTION_INERTIALESS;
+    ellipsoid_state at = *state;
+    ellipsoid_contact contact;
+
+    if (balanced && !surroundings->flow)
+    {
+        return ELLIPSOID_BAD_OPTION;
+    }
+    if (balanced)
+    {
+        return ellipsoid_force_balance(model, surroundings, &at, cache, derivative);
+    }
+    return ellipsoid_evaluate(model, surroundings, NULL, &at, 0, cache,
+                              derivative, &contact, NULL);
+}
+
+ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
+                                   const ellipsoid_surroundings *surroundings,
+                                   ellipsoid_state *state,
+                                   ellipsoid_facet_cache *cache)
+{
+    ellipsoid_state at = *state, derivative;
+    ellipsoid_status status;
+
+    if (!surroundings->flow || !model->options.drag)
+    {
+        return ELLIPSOID_BAD_OPTION;
+    }
+    status = ellipsoid_force_balance(model, surroundings, &at, cache, &derivative);
+    if (status == ELLIPSOID_OK)
+    {
+        *state = at;
+    }
+    return status;
+}
+
+void ellipsoid_drag_at_rest(const ellipsoid_model *model, const double q[4],
+                         const double velocity[3], double drag[3])
+{
+    double r[3][3], along[3];
+
+    ellipsoid_rotation_inline(q, r);
+    ellipsoid_to_body(r, velocity, along);
+    for (int i = 0; i < 3; i++)
+    {
+        along[i] *= model->viscosity * model->resistance[i];
+    }
+    ellipsoid_product(r, along, drag);
+}
+
+ellipsoid_status
+ellipsoid_jacobian(const ellipsoid_model *model,
+                   const ellipsoid_surroundings *surroundings,
+                   const ellipsoid_state *state, ellipsoid_facet_cache *cache,
+                   double jacobian[ELLIPSOID_STATE_SIZE][ELLIPSOID_STATE_SIZE])
+{
+    ellipsoid_contact contact;
+    ellipsoid_state at = *state, derivative;
+    ellipsoid_blocks b;
+    const ellipsoid_status status = ellipsoid_evaluate(
+        model, surroundings, NULL, &at, 0, cache, &derivative, &contact, &b);
+    const double *w = state->omega, *q = state->q;
+    /* 1/2 Q(omega) and the derivative of 1/2 Q(omega) q by omega */
+    const double qq[4][4] = {{0, w[2], -w[1], w[0]},
+                             {-w[2], 0, w[0], w[1]},
+                             {w[1], -w[0], 0, w[2]},
+                             {-w[0], -w[1], -w[2], 0}};
+    const double qw[4][3] = {{q[3], -q[2], q[1]},
+                             {q[2], q[3], -q[0]},
+                             {-q[1], q[0], q[3]},
+                             {-q[0], -q[1], -q[2]}};
+
+    if (status != ELLIPSOID_OK)
+    {
+        return status;
+    }
+    memset(jacobian, 0,
+           sizeof(double[ELLIPSOID_STATE_SIZE][ELLIPSOID_STATE_SIZE]));
+    for (int i = 0; i < 3; i++)
+    {
+        memcpy(&jacobian[AT_U + i][AT_U], b.uu[i], sizeof(b.uu[i]));
+        memcpy(&jacobian[AT_U + i][AT_X], b.ux[i], sizeof(b.ux[i]));
+        memcpy(&jacobian[AT_U + i][AT_OMEGA], b.uw[i], sizeof(b.uw[i]));
+        memcpy(&jacobian[AT_U + i][AT_Q], b.uq[i], sizeof(b.uq[i]));
+        jacobian[AT_X + i][AT_U + i] = 1;
+        memcpy(&jacobian[AT_OMEGA + i][AT_U], b.wu[i], sizeof(b.wu[i]));
+        memcpy(&jacobian[AT_OMEGA + i][AT_X], b.wx[i], sizeof(b.wx[i]));
+        memcpy(&jacobian[AT_OMEGA + i][AT_OMEGA], b.ww[i], sizeof(b.ww[i]));
+        memcpy(&jacobian[AT_OMEGA + i][AT_Q], b.wq[i], sizeof(b.wq[i]));
+    }
+    for (int n = 0; n < 4; n++)
+    {
+        for (int l = 0; l < 3; l++)
+        {
+            jacobian[AT_Q + n][AT_OMEGA + l] = 0.5 * qw[n][l];
+        }
+        for (int l = 0; l < 4; l++)
+        {
+            jacobian[AT_Q + n][AT_Q + l] = 0.5 * qq[n][l];
+        }
+    }
+    return ELLIPSOID_OK;
+}

@@ -1,0 +1,169 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    rosenbrock.c - one step of a Rosenbrock method.
+
+    Hairer & Wanner, Solving Ordinary Differential Equations II (1996), section
+    IV.7. Without inertia the equations for u and omega become algebraic, with
+    index 1, and the method is that of section VI.4: the same with a mass matrix
+    that has zeros there.
+*/
+#include "motion/motion.h"
+
+#include <math.h>
+#include <string.h>
+
+/* sum_j<count weight[j] k_j; inlined with a constant count. */
+static inline void weighted_sum(double k[][UNKNOWNS], const double *weight,
+                                int count, double sum[UNKNOWNS])
+{
+    for (int n = 0; n < UNKNOWNS; n++)
+    {
+        double s = weight[0] * k[0][n];
+
+        for (int j = 1; j < count; j++)
+        {
+            s += weight[j] * k[j][n];
+        }
+        sum[n] = s;
+    }
+}
+
+static inline void stage_sums(double k[][UNKNOWNS], int stage,
+                              double a[UNKNOWNS], double c[UNKNOWNS])
+{
+    const double *wa = ellipsoid_rosenbrock_set.a[stage];
+    const double *wc = ellipsoid_rosenbrock_set.c[stage];
+
+    switch (stage)
+    {
+        case 1:
+            weighted_sum(k, wa, 1, a);
+            weighted_sum(k, wc, 1, c);
+            break;
+        case 2:
+            weighted_sum(k, wa, 2, a);
+            weighted_sum(k, wc, 2, c);
+            break;
+        case 3:
+            weighted_sum(k, wa, 3, a);
+            weighted_sum(k, wc, 3, c);
+            break;
+        case 4:
+            weighted_sum(k, wa, 4, a);
+            weighted_sum(k, wc, 4, c);
+            break;
+        default:
+            weighted_sum(k, wa, 5, a);
+            weighted_sum(k, wc, 5, c);
+    }
+}
+
+/* Sets the state of a stage and, in k, what belongs to its right-hand side
+   besides the equations: sum c_ij/h K_j, where there is mass. */
+static inline int set_stage(const ellipsoid_evaluation *start, int stage,
+                            const double mass[UNKNOWNS], ellipsoid_stages *s,
+                            ellipsoid_evaluation *at)
+{
+    double change[UNKNOWNS], *k = s->k[stage];
+
+    stage_sums(s->k, stage, change, k);
+    for (int n = 0; n < UNKNOWNS; n++)
+    {
+        at->y[n] = start->y[n] + change[n];
+        k[n] *= mass[n];
+    }
+    return ellipsoid_is_pose(at->state.x, at->state.q);
+}
+
+/* All of the step for `count` cells; inlined for one and for several. */
+static inline ellipsoid_status take(ellipsoid_group *g, int count, double h)
+{
+    double mass[UNKNOWNS]; /* over h */
+
+    for (int n = 0; n < UNKNOWNS; n++)
+    {
+        mass[n] = ellipsoid_is_rate(n) && !g->inertial ? 0 : 1 / h;
+    }
+    for (int cell = 0; cell < count; cell++)
+    {
+        ellipsoid_stages *s = &g->stages[cell];
+
+        s->order = 4;
+        s->sampled = ELLIPSOID_ROSENBROCK_STAGES;
+        s->in_time = ellipsoid_rosenbrock_set.in_time;
+        memcpy(s->k[0], g->start[cell].slope, sizeof(s->k[0]));
+        if (ellipsoid_has_contact(g, cell))
+        {
+            ellipsoid_stages_sample(s, 0, &g->start[cell]);
+        }
+    }
+    ellipsoid_group_solve(g, 0);
+
+    for (int i = 1; i < ELLIPSOID_ROSENBROCK_STAGES; i++)
+    {
+        ellipsoid_status status;
+
+        for (int cell = 0; cell < count; cell++)
+        {
+            if (!set_stage(&g->start[cell], i, mass, &g->stages[cell],
+                           &g->next[cell]))
+            {
+                return ELLIPSOID_STEP_UNDERFLOW;
+            }
+        }
+        status = ellipsoid_group_evaluate(g, g->next, 0, 0);
+        if (status != ELLIPSOID_OK)
+        {
+            return status;
+        }
+        for (int cell = 0; cell < count; cell++)
+        {
+            ellipsoid_stages *s = &g->stages[cell];
+
+            if (ellipsoid_has_contact(g, cell))
+            {
+                ellipsoid_stages_sample(s, i, &g->next[cell]);
+            }
+            for (int n = 0; n < UNKNOWNS; n++)
+            {
+                s->k[i][n] += g->next[cell].slope[n];
+            }
+        }
+        ellipsoid_group_solve(g, i);
+    }
+    /* the last stage is the error estimate, and leads to the result */
+    for (int cell = 0; cell < count; cell++)
+    {
+        ellipsoid_stages *s = &g->stages[cell];
+
+        for (int n = 0; n < UNKNOWNS; n++)
+        {
+            s->error[n] = s->k[ELLIPSOID_ROSENBROCK_STAGES - 1][n];
+            s->y[n] = g->next[cell].y[n] + s->error[n];
+        }
+    }
+    return ELLIPSOID_OK;
+}
+
+ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *g, double h)
+{
+    if (!ellipsoid_group_prepare(g, h))
+    {
+        return ELLIPSOID_NON_FINITE;
+    }
+    return g->count == 1 ? take(g, 1, h) : take(g, g->count, h);
+}
+
+void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,
+                                double dense[3][UNKNOWNS])
+{
+    for (int i = 0; i < 2; i++)
+    {
+        weighted_sum(stages->k, ellipsoid_rosenbrock_set.dense[i],
+                     ELLIPSOID_ROSENBROCK_STAGES - 1, dense[i]);
+    }
+    memset(dense[2], 0, sizeof(dense[2]));
+}

@@ -1,0 +1,243 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    rungeKutta.c - one explicit step of inertialess motion, and its dense
+   output.
+
+    Tsitouras, Comput. Math. Appl. 62, 770 (2011): order 5(4), the last stage
+    is the first of the next step, with a continuous extension of order 4. Its
+    error is half that of Dormand and Prince's method for the same work.
+*/
+#include "motion/motion.h"
+
+enum
+{
+    STAGES = 7
+};
+
+static const double table[STAGES][STAGES - 1] = {
+    {0},
+    {0.161},
+    {-0.008480655492356989, 0.335480655492357},
+    {2.8971530571054935, -6.359448489975075, 4.3622954328695815},
+    {5.325864828439257, -11.748883564062828, 7.4955393428898365,
+     -0.09249506636175525},
+    {5.86145544294642, -12.92096931784711, 8.159367898576159,
+     -0.071584973281401, -0.028269050394068383},
+    {0.09646076681806523, 0.01, 0.4798896504144996, 1.379008574103742,
+     -3.290069515436081, 2.324710524099774}};
+
+/* of the result less that of order 4 */
+static const double of_error[STAGES] = {-0.00178001105222577714,
+                                        -0.0008164344596567469,
+                                        0.007880878010261995,
+                                        -0.1447110071732629,
+                                        0.5823571654525552,
+                                        -0.45808210592918697,
+                                        1.0 / 66};
+
+/* of the fourth power of time in the continuous extension */
+static const double of_dense[STAGES] = {-1.0530884977290216,
+                                        0.1017,
+                                        2.490627285651253,
+                                        -16.548102889244902,
+                                        47.37952196281928,
+                                        -34.87065786149661,
+                                        2.5};
+
+/* The stages' times 0, 0.161, 0.327, 0.9, 0.98, 1, 1 ascend. */
+static const int in_time[STAGES] = {0, 1, 2, 3, 4, 5, 6};
+
+/* sum_j<count weight[j] k_j; inlined with a constant count. */
+static inline void weighted_sum(double k[][UNKNOWNS], const double *weight,
+                                int count, double sum[UNKNOWNS])
+{
+    for (int n = AT_X; n < UNKNOWNS; n++)
+    {
+        sum[n] = weight[0] * k[0][n];
+    }
+    for (int j = 1; j < count; j++)
+    {
+        for (int n = AT_X; n < UNKNOWNS; n++)
+        {
+            sum[n] += weight[j] * k[j][n];
+        }
+    }
+}
+
+static void stage_sum(double k[][UNKNOWNS], int stage, double sum[UNKNOWNS])
+{
+    switch (stage)
+    {
+        case 1:
+            weighted_sum(k, table[1], 1, sum);
+            break;
+        case 2:
+            weighted_sum(k, table[2], 2, sum);
+            break;
+        case 3:
+            weighted_sum(k, table[3], 3, sum);
+            break;
+        case 4:
+            weighted_sum(k, table[4], 4, sum);
+            break;
+        case 5:
+            weighted_sum(k, table[5], 5, sum);
+            break;
+        default:
+            weighted_sum(k, table[6], 6, sum);
+    }
+}
+
+/* A stage's slopes: of x, and of q; and, for dense output, omega itself in
+   the place of its derivative. */
+static inline void keep_slopes(const ellipsoid_state *state,
+                               const ellipsoid_state *derivative,
+                               double k[UNKNOWNS])
+{
+    ellipsoid_copy(derivative->x, k + AT_X);
+    ellipsoid_copy(state->omega, k + AT_OMEGA);
+    memcpy(k + AT_Q, derivative->q, sizeof(derivative->q));
+}
+
+/* Sets the state of a stage; the last one is the result. */
+static inline int set_stage(const ellipsoid_evaluation *start, int stage, double h,
+                            ellipsoid_stages *s, ellipsoid_evaluation *at)
+{
+    double change[UNKNOWNS];
+
+    stage_sum(s->k, stage, change);
+    for (int n = AT_X; n < UNKNOWNS; n++)
+    {
+        at->y[n] = start->y[n] + (ellipsoid_is_rate(n) ? 0 : h * change[n]);
+    }
+    if (!ellipsoid_is_pose(at->state.x, at->state.q))
+    {
+        return 0;
+    }
+    if (stage == STAGES - 1)
+    {
+        ellipsoid_normalise(at->state.q);
+    }
+    return 1;
+}
+
+/* All of the step for `count` cells; inlined for one and for several. */
+static inline ellipsoid_status take(ellipsoid_group *g, int count, double h,
+                                    int *touched)
+{
+    *touched = 0;
+    for (int cell = 0; cell < count; cell++)
+    {
+        const ellipsoid_evaluation *start = &g->start[cell];
+        ellipsoid_stages *s = &g->stages[cell];
+
+        s->order = 5;
+        s->sampled = STAGES;
+        s->in_time = in_time;
+        keep_slopes(&start->state, &start->derivative, s->k[0]);
+        if (ellipsoid_has_contact(g, cell))
+        {
+            ellipsoid_stages_sample(s, 0, start);
+        }
+    }
+
+    for (int i = 1; i < STAGES; i++)
+    {
+        ellipsoid_status status;
+
+        for (int cell = 0; cell < count; cell++)
+        {
+            if (!set_stage(&g->start[cell], i, h, &g->stages[cell],
+                           &g->next[cell]))
+            {
+                return ELLIPSOID_STEP_UNDERFLOW;
+            }
+        }
+        status = ellipsoid_group_evaluate(g, g->next, 1, 0);
+        if (status != ELLIPSOID_OK)
+        {
+            return status;
+        }
+        for (int cell = 0; cell < count; cell++)
+        {
+            const ellipsoid_evaluation *at = &g->next[cell];
+            ellipsoid_stages *s = &g->stages[cell];
+
+            if (ellipsoid_has_contact(g, cell))
+            {
+                *touched = *touched || ellipsoid_in_contact(&at->contact);
+                ellipsoid_stages_sample(s, i, at);
+            }
+            keep_slopes(&at->state, &at->derivative, s->k[i]);
+        }
+        if (*touched)
+        {
+            return ELLIPSOID_OK;
+        }
+    }
+    for (int cell = 0; cell < count; cell++)
+    {
+        ellipsoid_stages *s = &g->stages[cell];
+
+        weighted_sum(s->k, of_error, STAGES, s->error);
+        for (int n = 0; n < UNKNOWNS; n++)
+        {
+            s->error[n] = ellipsoid_is_rate(n) ? 0 : h * s->error[n];
+        }
+        memcpy(s->y, g->next[cell].y, sizeof(s->y));
+    }
+    return ELLIPSOID_OK;
+}
+
+ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g, double h,
+                                         int *touched)
+{
+    return g->count == 1 ? take(g, 1, h, touched)
+                         : take(g, g->count, h, touched);
+}
+
+/*
+    With D = y1 - y0 the extension is y0 + s D + s (1-s) (d_0 + s d_1
+    + s (1-s) d_2), d_0 = h k_1 - D, d_1 = D - h k_7 - d_0,
+    d_2 = h sum_j dense_j k_j. u and omega are slopes: theirs is the derivative
+    of the extension of x, and of that of an angle with slopes omega.
+*/
+void ellipsoid_explicit_dense(ellipsoid_stages *stages,
+                              const ellipsoid_step *step,
+                              double dense[3][UNKNOWNS])
+{
+    const double h = step->end - step->start;
+    double(*k)[UNKNOWNS] = stages->k;
+    double before[UNKNOWNS], after[UNKNOWNS], change[UNKNOWNS];
+
+    memcpy(before, &step->before, sizeof(before));
+    memcpy(after, &step->after, sizeof(after));
+    weighted_sum(k, table[STAGES - 1], STAGES - 1, change);
+    weighted_sum(k, of_dense, STAGES, dense[2]);
+    for (int n = AT_X; n < UNKNOWNS; n++)
+    {
+        const double d =
+            ellipsoid_is_rate(n) ? h * change[n] : after[n] - before[n];
+
+        dense[0][n] = h * k[0][n] - d;
+        dense[1][n] = d - h * k[STAGES - 1][n] - dense[0][n];
+        dense[2][n] *= h;
+    }
+    for (int n = 0; n < 3; n++)
+    {
+        const int of[2] = {AT_X + n, AT_OMEGA + n};
+        const int to[2] = {AT_U + n, AT_OMEGA + n};
+
+        for (int i = 0; i < 2; i++)
+        {
+            const double d1 = dense[1][of[i]], d2 = dense[2][of[i]];
+
+            dense[0][to[i]] = (3 * d1 + 2 * d2) / h;
+            dense[1][to[i]] = -4 * d2 / h;
+            dense[2][to[i]] = 0;
+        }
+    }
+}

@@ -1,0 +1,225 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    stageMatrix.c - the linear systems of a Rosenbrock step.
+
+    In a file of its own so that it is compiled once: inlined into the stages it
+    makes them slower, as they outgrow the processor's cache for instructions.
+*/
+#include "motion/motion.h"
+
+#include <math.h>
+#include <string.h>
+
+/* What is needed on the way there. */
+typedef struct elimination
+{
+    const ellipsoid_state *state;
+    double g, per_g;
+    double per_square; /* 1/(g^2 + |omega|^2/4) */
+} elimination;
+
+static inline elimination of_step(const ellipsoid_state *state, double h)
+{
+    const double per_g = ellipsoid_rosenbrock_set.gamma * h, g = 1 / per_g;
+    const double square =
+        g * g + 0.25 * ellipsoid_dot(state->omega, state->omega);
+
+    return (elimination){state, g, per_g, 1 / square};
+}
+
+/* (g I + sign Q/2) v / (g^2 + |omega|^2/4): the inverse of g I - sign Q/2.
+   Q is antisymmetric, so a row is multiplied by it with the sign reversed. */
+static inline void turn(const elimination *e, double sign, const double v[4],
+                        double result[4])
+{
+    double turned[4];
+
+    ellipsoid_spin(e->state->omega, v, turned);
+    for (int n = 0; n < 4; n++)
+    {
+        result[n] = e->per_square * (e->g * v[n] + sign * 0.5 * turned[n]);
+    }
+}
+
+/* -row d(Q(omega) q / 2)/domega_i, i, j, k cyclic */
+static inline double coupling(const double row[4], const double q[4], int i,
+                              int j, int k)
+{
+    return -0.5
+         * (row[i] * q[3] + row[j] * q[k] - row[k] * q[j] - row[3] * q[i]);
+}
+
+/* One row: blocks / g, blocks (g I - Q/2)^-1, and -J; transposed. */
+static inline void reduce_row(const elimination *e, int row,
+                              const double of_u[3], const double of_x[3],
+                              const double of_w[3], const double of_q[4],
+                              ellipsoid_reduced *to)
+{
+    const double *q = e->state->q;
+    double turned[4];
+
+    turn(e, -1, of_q, turned);
+    for (int n = 0; n < 3; n++)
+    {
+        to->x[n][row] = e->per_g * of_x[n];
+        to->rates[n][row] = -(of_u[n] + to->x[n][row]);
+    }
+    for (int n = 0; n < 4; n++)
+    {
+        to->q[n][row] = turned[n];
+    }
+    to->rates[3][row] = coupling(turned, q, 0, 1, 2) - of_w[0];
+    to->rates[4][row] = coupling(turned, q, 1, 2, 0) - of_w[1];
+    to->rates[5][row] = coupling(turned, q, 2, 0, 1) - of_w[2];
+}
+
+static inline void reduce(const elimination *e, const ellipsoid_blocks *b,
+                          ellipsoid_reduced *to)
+{
+    for (int i = 0; i < 3; i++)
+    {
+        reduce_row(e, i, b->uu[i], b->ux[i], b->uw[i], b->uq[i], to);
+        reduce_row(e, i + 3, b->wu[i], b->wx[i], b->ww[i], b->wq[i], to);
+    }
+}
+
+/* result = inverse column; the inverse is transposed. */
+static inline void apply_inverse(double inverse[6][6], const double column[6],
+                                 double result[6])
+{
+    for (int n = 0; n < 6; n++)
+    {
+        double sum = inverse[0][n] * column[0];
+
+        for (int i = 1; i < 6; i++)
+        {
+            sum += inverse[i][n] * column[i];
+        }
+        result[n] = sum;
+    }
+}
+
+static void fill_quaternion_part(const elimination *e,
+                                 ellipsoid_stage_matrix *s)
+{
+    const double *q = e->state->q;
+    const double spin[3][4] = {
+        {0.5 * q[3], 0.5 * q[2], -0.5 * q[1], -0.5 * q[0]},
+        {-0.5 * q[2], 0.5 * q[3], 0.5 * q[0], -0.5 * q[1]},
+        {0.5 * q[1], -0.5 * q[0], 0.5 * q[3], -0.5 * q[2]}};
+    const double *w = e->state->omega;
+    const double c = e->per_square, d = c * e->g;
+    const double a0 = 0.5 * c * w[0], a1 = 0.5 * c * w[1], a2 = 0.5 * c * w[2];
+    const double table[4][4] = {{d, -a2, a1, -a0},
+                                {a2, d, -a0, -a1},
+                                {-a1, a0, d, -a2},
+                                {a0, a1, a2, d}};
+
+    memcpy(s->q_from_q, table, sizeof(table));
+    for (int i = 0; i < 3; i++)
+    {
+        turn(e, 1, spin[i], s->q_from_w[i]);
+    }
+}
+
+int ellipsoid_stage_matrix_prepare(ellipsoid_stage_matrix *s,
+                                   const ellipsoid_evaluation *start, int inertial,
+                                   double h)
+{
+    const elimination e = of_step(&start->state, h);
+    ellipsoid_reduced reduced;
+
+    reduce(&e, &start->blocks, &reduced);
+    for (int n = 0; inertial && n < 6; n++)
+    {
+        reduced.rates[n][n] += e.g;
+    }
+    if (!ellipsoid_invert6(reduced.rates))
+    {
+        return 0;
+    }
+    s->per_g = e.per_g;
+    memcpy(s->to_rates[AT_U], reduced.rates[0], sizeof(double[3][6]));
+    memcpy(s->to_rates[AT_OMEGA], reduced.rates[3], sizeof(double[3][6]));
+    for (int n = 0; n < 3; n++)
+    {
+        apply_inverse(reduced.rates, reduced.x[n], s->to_rates[AT_X + n]);
+    }
+    for (int n = 0; n < 4; n++)
+    {
+        apply_inverse(reduced.rates, reduced.q[n], s->to_rates[AT_Q + n]);
+    }
+    fill_quaternion_part(&e, s);
+    return 1;
+}
+
+static inline void kinematics(const ellipsoid_stage_matrix *s,
+                              const double a[6], const double r[UNKNOWNS],
+                              double k[UNKNOWNS])
+{
+    double q[4];
+
+    for (int n = 0; n < 4; n++)
+    {
+        q[n] = (s->q_from_q[0][n] * r[AT_Q] + s->q_from_q[1][n] * r[AT_Q + 1])
+             + (s->q_from_q[2][n] * r[AT_Q + 2]
+                + s->q_from_q[3][n] * r[AT_Q + 3])
+             + (s->q_from_w[0][n] * a[3] + s->q_from_w[1][n] * a[4]
+                + s->q_from_w[2][n] * a[5]);
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        k[AT_U + i] = a[i];
+        k[AT_X + i] = s->per_g * (r[AT_X + i] + a[i]);
+        k[AT_OMEGA + i] = a[i + 3];
+    }
+    memcpy(k + AT_Q, q, sizeof(q));
+}
+
+void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *s,
+                                  const double r[UNKNOWNS], double k[UNKNOWNS])
+{
+    double a[6];
+
+    for (int n = 0; n < 6; n++)
+    {
+        const double(*t)[6] = s->to_rates;
+
+        a[n] = ((t[0][n] * r[0] + t[1][n] * r[1])
+                + (t[2][n] * r[2] + t[3][n] * r[3]))
+             + ((t[4][n] * r[4] + t[5][n] * r[5])
+                + (t[6][n] * r[6] + t[7][n] * r[7]))
+             + ((t[8][n] * r[8] + t[9][n] * r[9])
+                + (t[10][n] * r[10] + t[11][n] * r[11]))
+             + t[12][n] * r[12];
+    }
+    kinematics(s, a, r, k);
+}
+
+void ellipsoid_stage_matrix_reduce(const ellipsoid_blocks *blocks,
+                                   const ellipsoid_state *column, double h,
+                                   ellipsoid_reduced *reduced)
+{
+    const elimination e = of_step(column, h);
+
+    reduce(&e, blocks, reduced);
+}
+
+void ellipsoid_stage_matrix_kinematics(ellipsoid_stage_matrix *s,
+                                       const ellipsoid_state *state, double h)
+{
+    const elimination e = of_step(state, h);
+
+    s->per_g = e.per_g;
+    fill_quaternion_part(&e, s);
+}
+
+void ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *s,
+                                   const double rates[6],
+                                   const double r[UNKNOWNS], double k[UNKNOWNS])
+{
+    kinematics(s, rates, r, k);
+}

@@ -1,0 +1,282 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    stepControl.c - how long a step is, and whether it is good enough.
+*/
+#include "motion/motion.h"
+
+#include <float.h>
+#include <math.h>
+
+/* m u^2 + omega I omega, of velocities or of their errors */
+static double twice_kinetic(const ellipsoid_model *m, const double y[UNKNOWNS])
+{
+    const double *w = y + AT_OMEGA;
+
+    return m->mass * ellipsoid_dot(y + AT_U, y + AT_U)
+         + m->inertia[0] * w[0] * w[0] + m->inertia[1] * w[1] * w[1]
+         + m->inertia[2] * w[2] * w[2];
+}
+
+/*
+    In vacuum errors of u and omega last, and change the energy: the root of
+    what they make against the body's own, in motion at either end or in the
+    contact at the start (Hertz: 2/5 of force times depth).
+*/
+static double lasting_error(const ellipsoid_model *m,
+                            const ellipsoid_evaluation *start,
+                            const ellipsoid_stages *stages)
+{
+    const ellipsoid_contact *c = &start->contact;
+    const double kinetic = fmax(twice_kinetic(m, start->y),
+                                twice_kinetic(m, stages->y));
+    const double elastic =
+        0.8
+        * (ellipsoid_length(c->force) * fmax(c->deepest, 0)
+           + ellipsoid_length(c->cell_force) * fmax(c->cell_deepest, 0));
+    const double all = kinetic + elastic;
+
+    return all > 0 ? sqrt(twice_kinetic(m, stages->error) / all) : 0;
+}
+
+/*
+    Where friction may hold a body, errors of its velocities are to be below the
+    slip speed, or each step would find it slipping another way.
+*/
+static double slip_error(const ellipsoid_cell *p,
+                         const ellipsoid_evaluation *start, const double error[])
+{
+    const ellipsoid_options *o = &p->model->options;
+
+    return o->friction > 0 && ellipsoid_in_contact(&start->contact)
+             ? (ellipsoid_length(error + AT_U)
+                + p->length * ellipsoid_length(error + AT_OMEGA))
+                   / o->slip_speed
+             : 0;
+}
+
+/*
+    The error in units of the tolerance. Errors of u and omega count by what
+    they do to x and q: they last one relaxation time or one step, whichever is
+    shorter. So the stiff components do not govern the step.
+*/
+static double scaled_error(const ellipsoid_cell *p,
+                           const ellipsoid_evaluation *start,
+                           const ellipsoid_stages *stages, double h)
+{
+    const double per_h = 1 / h, *error = stages->error;
+    const double ex = ellipsoid_length(error + AT_X) / p->length;
+    const double eq = sqrt(ellipsoid_square4(error + AT_Q));
+    double eu = 0, ew = 0, slip = 0, sum;
+
+    if (p->inertial)
+    {
+        eu =
+            ellipsoid_length(error + AT_U) / (p->length * fmax(p->rate, per_h));
+        ew = ellipsoid_length(error + AT_OMEGA) / fmax(p->rotation_rate, per_h);
+        if (!(p->rate > 0))
+        {
+            eu += lasting_error(p->model, start, stages);
+        }
+        slip = slip_error(p, start, error);
+    }
+    sum = ex + eu + ew + eq + slip;
+
+    /* fmax would drop a NaN */
+    return isfinite(sum)
+             ? fmax(fmax(fmax(ex, eq), fmax(eu, ew))
+                        / p->model->options.tolerance,
+                    slip)
+             : sum;
+}
+
+/*
+    The walls are felt only at the poses where the equations are evaluated. A
+    bead that passes through a wall between two of them unseen has to leave the
+    one gap, the wall by two radii less an overlap, and the other gap. So none
+    does if none travels farther than both gaps and a bead radius: the farthest
+    travel in units of that. Of two cells either moves half as far at most.
+*/
+static double unseen_travel(const ellipsoid_cell *p,
+                            const ellipsoid_stages *stages, double bare)
+{
+    double worst = 0;
+
+    for (int n = 1; n < stages->sampled; n++)
+    {
+        const int i = stages->in_time[n - 1], j = stages->in_time[n];
+        const double safe = stages->gap[i] + stages->gap[j]
+                          + bare * p->model->options.bead_radius;
+        double move[3], turn[4], travel;
+
+        for (int l = 0; l < 3; l++)
+        {
+            move[l] = stages->x[j][l] - stages->x[i][l];
+        }
+        for (int l = 0; l < 4; l++)
+        {
+            turn[l] = stages->q[j][l] - stages->q[i][l];
+        }
+        /* a change of q by d turns the body by 2 d */
+        travel = ellipsoid_length(move)
+               + 2 * p->model->reach * sqrt(ellipsoid_square4(turn));
+        worst = fmax(worst, travel / safe);
+    }
+    return worst;
+}
+
+/*
+    The last two steps share what is left, so that none is tiny. A proposal
+    that lands on `end` but for rounding is not altered: a run cut there goes
+    on as if it had not been cut.
+*/
+ellipsoid_plan ellipsoid_plan_step(double proposal, double t, double end)
+{
+    const double left = end - t;
+    const double slack = 4 * DBL_EPSILON * fmax(fabs(t), proposal);
+
+    if (fabs(left - proposal) <= slack)
+    {
+        return (ellipsoid_plan){proposal, 1, 0};
+    }
+    if (left < proposal)
+    {
+        return (ellipsoid_plan){left, 1, 1};
+    }
+    if (left < 1.25 * proposal)
+    {
+        return (ellipsoid_plan){0.5 * left, 0, 1};
+    }
+    return (ellipsoid_plan){proposal, 0, 0};
+}
+
+/*
+    PI control (Hairer & Wanner II, section IV.2): the factor by which the next
+    step differs, where errors grow with the step to the power of the order.
+*/
+double ellipsoid_step_factor(int order, double error, double previous_error)
+{
+    const double e = log(fmax(error, 1e-8));
+    const double exponent = previous_error > 0 && error <= 1
+                              ? 0.4 * log(previous_error) - 0.7 * e
+                              : -e;
+
+    return fmin(fmax(0.9 * exp(exponent / order), 0.2), 5);
+}
+
+/* What one cell says to it: `there` is a short way `ahead` along its slopes. */
+static double longest_step(const ellipsoid_cell *p,
+                           const ellipsoid_evaluation *start, double turn,
+                           double ahead, const ellipsoid_state *there)
+{
+    double change, bend[3], curve[4];
+
+    ellipsoid_difference(there->x, start->derivative.x, bend);
+    for (int n = 0; n < 4; n++)
+    {
+        curve[n] = there->q[n] - start->derivative.q[n];
+    }
+    change = fmax(ellipsoid_length(bend) / p->length,
+                  sqrt(ellipsoid_square4(curve)));
+    return 2 * pow(p->model->options.tolerance, 0.2)
+         / fmax(turn, sqrt(change / ahead));
+}
+
+/*
+    Sets *step to a first step. With inertia it resolves the relaxation.
+    Without, the times in which q turns and in which the slopes change say how
+    long it may be; the latter from a short way along the slopes.
+*/
+ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double *step)
+{
+    const ellipsoid_options *o = &g->cell[0].model->options;
+    double pace = 0, ahead;
+    ellipsoid_status status;
+
+    *step = o->initial_step;
+    if (*step > 0)
+    {
+        return ELLIPSOID_OK;
+    }
+    *step = o->maximum_step;
+    for (int cell = 0; g->inertial && cell < g->count; cell++)
+    {
+        const ellipsoid_model *m = g->cell[cell].model;
+
+        *step =
+            fmin(*step,
+                 0.25 * fmin(m->relaxation_time, m->rotation_relaxation_time));
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_state *slope = &g->start[cell].derivative;
+
+        pace =
+            fmax(pace, fmax(sqrt(ellipsoid_square4(slope->q)),
+                            ellipsoid_length(slope->x) / g->cell[cell].length));
+    }
+    if (g->inertial || !(pace > 0))
+    {
+        return ELLIPSOID_OK;
+    }
+    ahead = 0.01 / pace;
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_state *slope = &g->start[cell].derivative;
+        ellipsoid_state *at = &g->next[cell].state;
+
+        *at = g->start[cell].state;
+        for (int i = 0; i < 3; i++)
+        {
+            at->x[i] += ahead * slope->x[i];
+        }
+        for (int n = 0; n < 4; n++)
+        {
+            at->q[n] += ahead * slope->q[n];
+        }
+    }
+    status = ellipsoid_group_evaluate(g, g->next, 1, 0);
+    if (status != ELLIPSOID_OK)
+    {
+        *step = ahead;
+        return ellipsoid_may_recover(status) ? ELLIPSOID_OK : status;
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const double turn =
+            sqrt(ellipsoid_square4(g->start[cell].derivative.q));
+
+        *step = fmin(*step, longest_step(&g->cell[cell], &g->start[cell], turn,
+                                         ahead, &g->next[cell].derivative));
+    }
+    return ELLIPSOID_OK;
+}
+
+/* Is the error of a step, or what it may have passed unseen, acceptable? */
+ellipsoid_status ellipsoid_judge_step(const ellipsoid_group *g, double h,
+                                      double *error)
+{
+    *error = 0;
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_cell *p = &g->cell[cell];
+        const ellipsoid_stages *stages = &g->stages[cell];
+        const double made = scaled_error(p, &g->start[cell], stages, h);
+
+        if (!isfinite(made))
+        {
+            return ELLIPSOID_NON_FINITE;
+        }
+        *error = fmax(*error, made);
+        if (ellipsoid_has_contact(g, cell))
+        {
+            const double travel = unseen_travel(p, stages, g->pairs ? 0.5 : 1);
+
+            /* travel is proportional to the step */
+            *error = fmax(*error, pow(travel, (double)stages->order));
+        }
+    }
+    return ELLIPSOID_OK;
+}

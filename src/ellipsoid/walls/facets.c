@@ -1,0 +1,332 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    facets.c - a point against one facet: does the distance from the point to
+    the wall have a local minimum there?
+
+    It does inside the facet where the point projects into it, on an edge where
+    neither of its two facets comes nearer, at a vertex where none of its edges
+    does. Each facet answers from what it knows of its neighbours; an edge is
+    answered for by both its facets, with the same result. Edges that are not
+    marked concave are treated as if they were convex: on a flat one the answer
+    is that of the facets beside it, so rounding leaves no gap between them.
+*/
+#include "walls/walls.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Relative slack of 'not nearer': closes the gaps that rounding would leave. */
+static const double slack = 1e-9;
+
+/* A turn smaller than this [rad] is the mesh's rounding. */
+static const double flat = 1e-6;
+
+int ellipsoid_facet_has_rim(const ellipsoid_facet *facet)
+{
+    return facet->edge[0] == ELLIPSOID_EDGE_CONVEX
+        || facet->edge[1] == ELLIPSOID_EDGE_CONVEX
+        || facet->edge[2] == ELLIPSOID_EDGE_CONVEX;
+}
+
+int ellipsoid_facet_answers(const ellipsoid_facet *facet, int k)
+{
+    return facet->edge[k] == ELLIPSOID_EDGE_CONVEX
+        || facet->edge[(k + 2) % 3] == ELLIPSOID_EDGE_CONVEX;
+}
+
+int ellipsoid_facet_is_apex(const ellipsoid_facet *facet, int k,
+                            const double r[3], double tolerance)
+{
+    for (int i = 0; i < facet->star_count[k]; i++)
+    {
+        if (ellipsoid_dot(r, facet->star[k][i]) > tolerance)
+        {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Fills *nearest from r, the vector from an edge or a vertex to the point. */
+static int from_rim(const ellipsoid_facet *facet, const double r[3],
+                    double length, ellipsoid_nearest *nearest)
+{
+    if (ellipsoid_dot(r, facet->normal) < -slack * length)
+    {
+        return 0; /* from behind */
+    }
+
+    nearest->height = length;
+    for (int i = 0; i < 3; i++)
+    {
+        nearest->normal[i] = length > 0 ? r[i] / length : facet->normal[i];
+    }
+    return 1;
+}
+
+static int nearest_on_edge(const ellipsoid_facet *facet, int k, double foot,
+                           double reach, const double along[3],
+                           const double from_vertex[3],
+                           ellipsoid_nearest *nearest)
+{
+    const double size = sqrt(ellipsoid_dot(along, along));
+    double r[3], length;
+
+    for (int i = 0; i < 3; i++)
+    {
+        r[i] = from_vertex[i] - foot * along[i];
+        nearest->edge[i] = along[i] / size;
+    }
+
+    /* once more: of a long edge the foot is rounded to more than r is */
+    const double left = ellipsoid_dot(r, nearest->edge);
+
+    for (int i = 0; i < 3; i++)
+    {
+        r[i] -= left * nearest->edge[i];
+    }
+    length = sqrt(ellipsoid_dot(r, r));
+
+    nearest->feature = length > 0 ? ELLIPSOID_ON_EDGE : ELLIPSOID_ON_FACE;
+    return length < reach && facet->edge[k] != ELLIPSOID_EDGE_CONCAVE
+        && ellipsoid_dot(r, facet->edge_inward[k]) <= slack * length
+        && from_rim(facet, r, length, nearest);
+}
+
+int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
+                            const double centre[3], double reach,
+                            ellipsoid_nearest *nearest)
+{
+    const double *n = facet->normal;
+    double from[3][3], along[3][3], squared, length;
+    int outside = 0, closest = 0;
+
+    ellipsoid_difference(centre, facet->vertex[0], from[0]);
+
+    const double height = ellipsoid_dot(from[0], n);
+
+    if (!(fabs(height) < reach))
+    {
+        return 0;
+    }
+    ellipsoid_difference(centre, facet->vertex[1], from[1]);
+    ellipsoid_difference(centre, facet->vertex[2], from[2]);
+
+    for (int k = 0; k < 3; k++)
+    {
+        double inward[3];
+
+        ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
+                             along[k]);
+        ellipsoid_cross(n, along[k], inward);
+        if (ellipsoid_dot(inward, from[k]) < 0)
+        {
+            const double foot = ellipsoid_dot(from[k], along[k])
+                              / ellipsoid_dot(along[k], along[k]);
+
+            if (foot >= 0 && foot <= 1)
+            {
+                return nearest_on_edge(facet, k, foot, reach, along[k],
+                                       from[k], nearest);
+            }
+            outside = 1;
+        }
+    }
+    if (!outside)
+    {
+        nearest->feature = ELLIPSOID_ON_FACE;
+        nearest->height = height;
+        ellipsoid_copy(n, nearest->normal);
+        return 1;
+    }
+
+    squared = ellipsoid_dot(from[0], from[0]);
+    for (int k = 1; k < 3; k++)
+    {
+        const double other = ellipsoid_dot(from[k], from[k]);
+
+        if (other < squared)
+        {
+            squared = other;
+            closest = k;
+        }
+    }
+    length = sqrt(squared);
+    nearest->feature = length > 0 ? ELLIPSOID_ON_VERTEX : ELLIPSOID_ON_FACE;
+    return length < reach
+        && (ellipsoid_facet_answers(facet, closest)
+            || fabs(height) >= (1 - slack) * length)
+        && ellipsoid_facet_is_apex(facet, closest, from[closest],
+                                   slack * length)
+        && from_rim(facet, from[closest], length, nearest);
+}
+
+/* As nearest_on_edge(), for some point within `margin` of the given one. */
+static int edge_concerns(const ellipsoid_facet *facet, int k, double inside,
+                         double foot, double size, const double from[3],
+                         double reach, double margin)
+{
+    const double along = foot / size;
+
+    return facet->edge[k] != ELLIPSOID_EDGE_CONCAVE && inside <= margin * size
+        && along >= -margin && along <= size + margin
+        && ellipsoid_dot(from, from) - along * along <= reach * reach
+        && ellipsoid_dot(from, facet->edge_inward[k]) <= margin;
+}
+
+int ellipsoid_facet_concerns(const ellipsoid_facet *facet,
+                             const double centre[3], double reach,
+                             double margin)
+{
+    /* each condition changes by no more than the point moves */
+    const double wide = margin + 2 * slack * (reach + margin);
+    const double far = reach + wide;
+    int face = 1;
+
+    for (int k = 0; k < 3; k++)
+    {
+        double from[3], along[3], inward[3];
+
+        ellipsoid_difference(centre, facet->vertex[k], from);
+        if (k == 0 && !(fabs(ellipsoid_dot(from, facet->normal)) <= far))
+        {
+            return 0;
+        }
+        ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
+                             along);
+        ellipsoid_cross(facet->normal, along, inward);
+
+        const double length = sqrt(ellipsoid_dot(along, along));
+        const double inside = ellipsoid_dot(inward, from);
+        const double foot = ellipsoid_dot(from, along);
+
+        if (edge_concerns(facet, k, inside, foot, length, from, far, wide)
+            || (ellipsoid_dot(from, from) <= far * far
+                && ellipsoid_facet_is_apex(facet, k, from, wide)))
+        {
+            return 1;
+        }
+        face = face && inside >= -wide * length;
+    }
+    return face;
+}
+
+int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3])
+{
+    double sides[3][3], longest = 0, squared = 0;
+    int opposite = 0;
+
+    memcpy(facet->vertex, vertex, sizeof facet->vertex);
+    for (int k = 0; k < 3; k++)
+    {
+        ellipsoid_difference(vertex[(k + 2) % 3], vertex[(k + 1) % 3],
+                             sides[k]);
+
+        const double size = ellipsoid_dot(sides[k], sides[k]);
+
+        if (size > longest)
+        {
+            longest = size;
+            opposite = k;
+        }
+    }
+    /* of the two shorter sides: those of slivers differ most in direction */
+    ellipsoid_cross(sides[(opposite + 1) % 3], sides[(opposite + 2) % 3],
+                    facet->normal);
+
+    const double area = ellipsoid_length(facet->normal);
+
+    for (int i = 0; i < 3; i++)
+    {
+        facet->normal[i] /= area;
+        facet->middle[i] = (vertex[0][i] + vertex[1][i] + vertex[2][i]) / 3;
+    }
+    for (int k = 0; k < 3; k++)
+    {
+        double d[3];
+
+        ellipsoid_difference(vertex[k], facet->middle, d);
+        squared = fmax(squared, ellipsoid_dot(d, d));
+
+        facet->edge[k] = ELLIPSOID_EDGE_CONVEX;
+        memset(facet->edge_inward[k], 0, sizeof facet->edge_inward[k]);
+        memcpy(facet->neighbour_normal[k], facet->normal,
+               sizeof facet->normal);
+    }
+    facet->radius = sqrt(squared);
+    return area > 0;
+}
+
+static int is_point(const double a[3], const double b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+/* Does the facet run along the edge from a to b? */
+static int runs_along(const ellipsoid_facet *facet, const double a[3],
+                      const double b[3])
+{
+    for (int k = 0; k < 3; k++)
+    {
+        if (is_point(facet->vertex[k], a)
+            && is_point(facet->vertex[(k + 1) % 3], b))
+        {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* The turn of the wall [rad] from a facet to one of normal n across an edge of
+   direction t: positive where they face each other. */
+static double turn_to(const ellipsoid_facet *facet, const double t[3],
+                      const double n[3])
+{
+    double inward[3];
+
+    ellipsoid_cross(facet->normal, t, inward);
+
+    const double along = ellipsoid_dot(facet->normal, n);
+    const double facing = ellipsoid_dot(inward, n);
+
+    /* the facet's own back, all the way round */
+    return along < 0 && fabs(facing) < flat ? -4 : atan2(facing, along);
+}
+
+int ellipsoid_facet_join(ellipsoid_facet *facet, int k,
+                         const ellipsoid_facet *other)
+{
+    const double *from = facet->vertex[k], *to = facet->vertex[(k + 1) % 3];
+    double t[3];
+
+    if (!runs_along(other, to, from))
+    {
+        return 0;
+    }
+    ellipsoid_difference(to, from, t);
+
+    const double length = ellipsoid_length(t);
+
+    for (int i = 0; i < 3; i++)
+    {
+        t[i] /= length;
+    }
+
+    const double turn = turn_to(facet, t, other->normal);
+    const double *inward = facet->edge_inward[k];
+
+    if (ellipsoid_dot(inward, inward) > 0
+        && turn <= turn_to(facet, t, facet->neighbour_normal[k]))
+    {
+        return 0;
+    }
+    ellipsoid_cross(t, other->normal, facet->edge_inward[k]);
+    ellipsoid_copy(other->normal, facet->neighbour_normal[k]);
+    facet->edge[k] = fabs(turn) < flat ? ELLIPSOID_EDGE_FLAT
+                     : turn > 0        ? ELLIPSOID_EDGE_CONCAVE
+                                       : ELLIPSOID_EDGE_CONVEX;
+    return 1;
+}

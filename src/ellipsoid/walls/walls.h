@@ -1,0 +1,143 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    walls.h - the room that knows wall facets: where the distance from a point,
+    or from an ellipsoid, to a facet has a local minimum, and which facets are
+    near a cell. It depends on body alone.
+*/
+#ifndef ELLIPSOID_WALLS_H
+#define ELLIPSOID_WALLS_H
+
+#include "body/body.h"
+
+/* Are walls felt at all? */
+static inline int ellipsoid_has_walls(const ellipsoid_model *model,
+                                      const ellipsoid_surroundings *around)
+{
+    return model->options.contact && around->walls != NULL;
+}
+
+/* Where the distance from a point to the wall has a local minimum. */
+typedef struct ellipsoid_nearest
+{
+    enum
+    {
+        ELLIPSOID_ON_FACE,
+        ELLIPSOID_ON_EDGE,
+        ELLIPSOID_ON_VERTEX
+    } feature;
+    double height;    /* [m] distance; negative behind a face */
+    double normal[3]; /* unit, from there to the point; into the fluid */
+    double edge[3];   /* unit, along the edge; only ON_EDGE */
+} ellipsoid_nearest;
+
+/* Fills *nearest and returns 1 if there is one nearer than reach [m] on this
+   facet (facets.c). */
+int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
+                            const double centre[3], double reach,
+                            ellipsoid_nearest *nearest);
+
+/* Could ellipsoid_facet_nearest() find one, were the point moved by up to
+   margin [m]? Errs towards 1. Beside the facet's ball, by more than 1.5 times
+   the margin as seen along its normal, only a convex edge can. */
+int ellipsoid_facet_concerns(const ellipsoid_facet *facet,
+                             const double centre[3], double reach,
+                             double margin);
+
+/* Does it have a convex edge? (facets.c) */
+int ellipsoid_facet_has_rim(const ellipsoid_facet *facet);
+
+/* A vertex is answered for by the facets that have a convex edge there and, for
+   the sake of rounding, by those that the point is right above. */
+int ellipsoid_facet_answers(const ellipsoid_facet *facet, int k);
+
+/* Is the wall at this vertex nowhere nearer to the point? r: vertex to point */
+int ellipsoid_facet_is_apex(const ellipsoid_facet *facet, int k,
+                            const double r[3], double tolerance);
+
+/* facets[index[k]], k < count, in ascending order */
+typedef struct ellipsoid_candidates
+{
+    const ellipsoid_facet *facets;
+    const int *index;
+    int count;
+} ellipsoid_candidates;
+
+/*
+    Sees to it that the cache holds all facets that beads can meet in this pose
+    with gaps of up to horizon [m] (facetCache.c); collects them anew only if
+    the cell has moved too far. *moved [m] is how far beads may have, since.
+    STEP_UNDERFLOW: the walls ask for a shorter step, WALLS_FAILED: they gave
+    up.
+*/
+ellipsoid_status
+ellipsoid_facet_cache_update(ellipsoid_facet_cache *cache,
+                          const ellipsoid_model *model,
+                          const ellipsoid_surroundings *surroundings,
+                          const double x[3], const double q[4], double horizon,
+                          double *moved);
+
+/* The walls near a place, with what their answer means (facetCache.c). */
+ellipsoid_status
+ellipsoid_list_facets(const ellipsoid_surroundings *surroundings,
+                      const double centre[3], double reach,
+                      ellipsoid_facet_list *list);
+
+/* How far beyond a surface gaps are measured [m], to walls and to cells: the
+   guard against tunnelling counts on it. */
+static inline double ellipsoid_gap_horizon(const ellipsoid_model *model)
+{
+    return model->options.bead_radius;
+}
+
+/* ------------------------------------- the ellipsoid against a facet */
+
+/* Variables of derivatives: the centre (lab), and a small rotation (about the
+   lab's axes). */
+#define ELLIPSOID_SURFACE_VARIABLES 6
+
+/* Where the ellipsoid's distance to the wall has a local minimum. */
+typedef struct ellipsoid_surface_contact
+{
+    int feature;      /* as in ellipsoid_nearest */
+    double height;    /* [m] from the wall to the ellipsoid; minus the depth */
+    double normal[3]; /* unit, along which that is measured; into the fluid */
+    double arm[3];    /* [m] from the contact point on the ellipsoid to its
+                         centre */
+    double support;   /* [m] arm.normal */
+    double edge[3];   /* unit, along the edge; only ON_EDGE */
+
+    /* set by ellipsoid_surface_derivatives() */
+    double height_slope[ELLIPSOID_SURFACE_VARIABLES];
+    double normal_slope[3][ELLIPSOID_SURFACE_VARIABLES];
+    double arm_slope[3][ELLIPSOID_SURFACE_VARIABLES];
+} ellipsoid_surface_contact;
+
+/* As ellipsoid_facet_nearest(), for the ellipsoid. Returns 2 for a face that is
+   deeper than the middle of the body above the contact point, as seen from
+   behind. */
+int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
+                            const ellipsoid_surface *body, double reach,
+                            ellipsoid_surface_contact *contact);
+
+void ellipsoid_surface_derivatives(const ellipsoid_surface *body,
+                                 ellipsoid_surface_contact *contact);
+
+/* Can the ellipsoid be nearer than reach [m] to any point of the facet? Errs
+   towards 1. */
+int ellipsoid_surface_may_reach(const ellipsoid_facet *facet,
+                             const ellipsoid_surface *body, double reach);
+
+/* Does it cut the facet? (overlap.c) */
+int ellipsoid_surface_cuts(const ellipsoid_facet *facet,
+                         const ellipsoid_surface *body);
+
+/* As ellipsoid_surface_nearest() for the facet's plane in place of the facet, if
+   that is cut; the centre is in front of it. */
+int ellipsoid_surface_pushed_out(const ellipsoid_facet *facet,
+                               const ellipsoid_surface *body,
+                               ellipsoid_surface_contact *contact);
+
+#endif

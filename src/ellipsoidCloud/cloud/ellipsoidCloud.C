@@ -1,0 +1,325 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "ellipsoidCloud.H"
+#include "masterGate.H"
+#include "inletFlux.H"
+#include "clockTime.H"
+
+#include <algorithm>
+#include <cmath>
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::ellipsoidCloud::makeInjections()
+{
+    const dictionary& dict = properties_.subDict("injection");
+    const cellInjection::setting from
+    {
+        *whole_, *flow_, *walls_, population_, properties_.seed()
+    };
+
+    label nCells = 0;
+
+    for (const entry& e : dict)
+    {
+        injections_.append(cellInjection::New(e.dict(), from, nCells).ptr());
+        {
+            const masterGate once;
+            injections_.last().check();
+        }
+        nCells += injections_.last().size();
+    }
+
+    Info<< "ellipsoidCloud: " << nCells << " cells to enter by "
+        << flatOutput(dict.toc()) << endl;
+}
+
+
+Foam::scalar Foam::ellipsoidCloud::presentTime(const Time& time)
+{
+    const scalar steps = time.value()/time.deltaTValue();
+    const scalar whole = std::round(steps);
+
+    return mag(steps - whole) < 1e-6 ? whole*time.deltaTValue() : time.value();
+}
+
+
+void Foam::ellipsoidCloud::addNew(const scalar start, const scalar end)
+{
+    DynamicList<cellInjection::newCell> newCells;
+
+    for (const cellInjection& injection : injections_)
+    {
+        injection.append(start, end, newCells);
+    }
+
+    for (const cellInjection::newCell& cell : newCells)
+    {
+        const cellSize size(population_.drawn(cell.id));
+        population_.take(cell.id, size);
+        cells_.append(cell.state(*flow_, size));
+    }
+
+    if (newCells.size())
+    {
+        sortCells();
+    }
+}
+
+
+void Foam::ellipsoidCloud::sortCells()
+{
+    std::sort
+    (
+        cells_.begin(),
+        cells_.end(),
+        [](const cellState& a, const cellState& b) { return a.id < b.id; }
+    );
+}
+
+
+void Foam::ellipsoidCloud::reportLost(const cellSweep& cell)
+{
+    const scalar* x = cell.state.body.x;
+
+    Info<< "ellipsoidCloud: cell " << cell.state.id << " is lost at t = "
+        << cell.state.time << " s, " << point(x[0], x[1], x[2]) << " m: "
+        << ellipsoid_status_text(ellipsoid_status(cell.status));
+
+    if (cell.refused == frozenFlow::pBeyondCoupled)
+    {
+        Info<< " at a cyclic or symmetry patch, which it must not reach";
+    }
+    Info<< endl;
+}
+
+
+void Foam::ellipsoidCloud::updateParticles()
+{
+    Map<label> mine;
+
+    const auto cellOf =
+        [&](const cellState& cell)
+        {
+            return flow_->cell(frozenFlow::probe{cell.tet, -1});
+        };
+
+    forAll(cells_, i)
+    {
+        if (cellRank_[cellOf(cells_[i])] == Pstream::myProcNo())
+        {
+            mine.insert(cells_[i].id, i);
+        }
+    }
+
+    for (ellipsoidParcel& parcel : *this)
+    {
+        const auto found = mine.cfind(parcel.state().id);
+
+        if (found.found())
+        {
+            const cellState& cell = cells_[*found];
+            parcel.state() = cell;
+            parcel.settle(cellLocal_[cellOf(cell)]);
+            mine.erase(cell.id);
+        }
+        else
+        {
+            deleteParticle(parcel);
+        }
+    }
+
+    for (const label id : mine.sortedToc())
+    {
+        const cellState& cell = cells_[mine[id]];
+
+        addParticle
+        (
+            new ellipsoidParcel(mesh_, cellLocal_[cellOf(cell)], cell)
+        );
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
+:
+    ellipsoidCloud
+    (
+        mesh, autoPtr<ellipsoidProperties>(new ellipsoidProperties(mesh))
+    )
+{}
+
+
+Foam::ellipsoidCloud::ellipsoidCloud
+(
+    const fvMesh& mesh,
+    autoPtr<ellipsoidProperties>&& properties
+)
+:
+    // Empty: what was written is looked at before it is read
+    Cloud<ellipsoidParcel>
+    (
+        mesh,
+        "ellipsoidCloud",
+        IDLList<ellipsoidParcel>()
+    ),
+    mesh_(mesh),
+    read_(std::move(properties)),
+    properties_(*read_),
+    earlier_(mesh.time()),
+    whole_(new undecomposedFlow(mesh)),
+    field_(new electricField(properties_.section("forces"), mesh)),
+    population_(properties_),
+    flow_(),
+    walls_(),
+    cellRank_(whole_->cellRank()),
+    cellLocal_(whole_->cellLocal()),
+    injections_(),
+    cells_(),
+    statistics_(),
+    tracks_(),
+    interval_(),
+    meshNotes_(),
+    time_(presentTime(mesh.time())),
+    firstTime_(mesh.time().timeName()),
+    trackingTime_(0),
+    reportTime_(0)
+{
+    {
+        const masterGate once;
+
+        if (Pstream::master())
+        {
+            meshNotes_ = checkpoint::notesOf(whole_->mesh());
+            earlier_.checkMesh(whole_->mesh());
+        }
+    }
+
+    makeTables();
+    if (earlier_.found())
+    {
+        readCells();
+        checkCells();
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::ellipsoidCloud::setFlow
+(
+    const volVectorField& U,
+    const volScalarField& p,
+    const surfaceScalarField& phi
+)
+{
+    whole_->gather(U, p, phi);
+
+    flow_.reset
+    (
+        new frozenFlow
+        (
+            *whole_,
+            fluidDensity(),
+            properties_.scheme(),
+            field_->onWhole(*whole_)
+        )
+    );
+    walls_.reset
+    (
+        new wallFacets
+        (
+            Pstream::master() ? &whole_->mesh() : nullptr,
+            longestSemiAxis(properties_.options())
+        )
+    );
+
+    statistics_->setInletSpeed(inletFlux::speedOf(*whole_));
+
+    checkPlaces();
+    makeInjections();
+    field_.clear();
+    whole_.clear();
+
+    interval_.reset
+    (
+        new groupScheduler
+        (
+            population_, *flow_, *walls_, *tracks_, properties_
+        )
+    );
+
+    // Nothing on the disk is touched before all is known to be sound
+    statistics_->open();
+    tracks_->open();
+
+    Info<< "ellipsoidCloud: " << flow_->nTets() << " tetrahedra, "
+        << walls_->size() << " wall facets; slow is below "
+        << statistics_->slowSpeed() << " m/s" << endl;
+}
+
+
+void Foam::ellipsoidCloud::evolve()
+{
+    const clockTime timer;
+    const scalar end = presentTime(mesh_.time());
+
+    addNew(time_, end);
+
+    List<cellSweep> moves(cells_.size());
+    forAll(cells_, i)
+    {
+        cellState& cell = cells_[i];
+
+        // One that had no room tries again
+        if (cell.fate == cellState::waiting)
+        {
+            cell.time = max(cell.time, time_);
+        }
+        moves[i] = cellSweep();
+        moves[i].state = cell;
+    }
+
+    DynamicList<cellTracks::row> rows;
+    interval_->advance(moves, time_, end, rows);
+    tracks_->take(rows);
+
+    statistics_->judge(cells_, moves, end);
+    statistics_->writeEvents();
+
+    label nStay = 0;
+    for (const cellSweep& cell : moves)
+    {
+        if (!cell.gone())
+        {
+            cells_[nStay++] = cell.state;
+        }
+        else
+        {
+            population_.forget(cell.state.id);
+            if (cell.state.fate == cellState::lost)
+            {
+                reportLost(cell);
+            }
+        }
+    }
+    cells_.setSize(nStay);
+
+    updateParticles();
+    time_ = end;
+
+    trackingTime_ += timer.elapsedTime();
+    report();
+}
+
+
+// ************************************************************************* //

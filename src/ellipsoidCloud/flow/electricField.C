@@ -1,0 +1,185 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "electricField.H"
+#include "ellipsoidProperties.H"
+#include "fvcGrad.H"
+#include "masterGate.H"
+#include "StringStream.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- The entry of the section forces
+    static const word keyword("electricField");
+
+    //- What may stand in it
+    static const wordList entries({"field", "potential"});
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+template<class FieldType>
+Foam::autoPtr<FieldType> Foam::electricField::read
+(
+    const dictionary& dict,
+    const word& entry,
+    const dimensionSet& dimensions,
+    const fvMesh& mesh
+)
+{
+    const word name(dict.get<word>(entry));
+
+    IOobject io
+    (
+        name,
+        mesh.time().findInstance
+        (
+            mesh.dbDir(), name, IOobject::READ_IF_PRESENT
+        ),
+        mesh,
+        IOobject::MUST_READ,
+        IOobject::NO_WRITE
+    );
+
+    const bool there =
+        returnReduce(io.typeHeaderOk<FieldType>(false), andOp<bool>());
+    const bool fits = returnReduce
+    (
+        there && io.headerClassName() == FieldType::typeName,
+        andOp<bool>()
+    );
+
+    autoPtr<FieldType> field;
+    if (fits)
+    {
+        field.reset(new FieldType(io, mesh));
+    }
+
+    OStringStream fault;
+    if (!there)
+    {
+        fault
+            << "there is no such field in " << mesh.time().timeName()
+            << " or before";
+    }
+    else if (!fits)
+    {
+        fault
+            << (io.instance()/name).c_str() << " is a " << io.headerClassName()
+            << ", not a " << FieldType::typeName;
+    }
+    else if (field->dimensions() != dimensions)
+    {
+        fault
+            << (io.instance()/name).c_str() << " has the dimensions "
+            << field->dimensions() << ", not " << dimensions;
+    }
+
+    const masterGate once;
+
+    if (fault.str().size())
+    {
+        FatalIOErrorInFunction
+        (
+            dict.lookupEntry(entry, keyType::LITERAL).stream()
+        )
+            << keyword << '/' << entry << ' ' << name << ": "
+            << fault.str().c_str() << exit(FatalIOError);
+    }
+
+    return field;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::electricField::electricField
+(
+    const dictionary& forces,
+    const fvMesh& mesh
+)
+:
+    field_(),
+    potential_()
+{
+    if (!isNamed(forces))
+    {
+        return;
+    }
+
+    const dictionary& dict = forces.subDict(keyword);
+    const dimensionSet volt(1, 2, -3, 0, 0, -1, 0);
+
+    if (dict.found("field"))
+    {
+        field_ = read<volVectorField>(dict, "field", volt/dimLength, mesh);
+    }
+    else
+    {
+        potential_ = read<volScalarField>(dict, "potential", volt, mesh);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::electricField::isNamed(const dictionary& forces)
+{
+    return forces.isDict(keyword);
+}
+
+
+void Foam::electricField::checkEntries(const dictionary& forces)
+{
+    const dictionary& dict = forces.subDict(keyword);
+
+    ellipsoidProperties::checkKeywords(dict, entries);
+
+    if (dict.size() != 1)
+    {
+        FatalIOErrorInFunction(dict)
+            << "exactly one of field, potential must be given"
+            << exit(FatalIOError);
+    }
+
+    dict.get<word>(dict.first()->keyword());
+}
+
+
+Foam::autoPtr<Foam::volVectorField> Foam::electricField::onWhole
+(
+    const undecomposedFlow& whole
+) const
+{
+    if (field_.valid())
+    {
+        return whole.gather(*field_);
+    }
+
+    autoPtr<volVectorField> E;
+
+    if (potential_.valid())
+    {
+        const autoPtr<volScalarField> V(whole.gather(*potential_));
+
+        if (Pstream::master())
+        {
+            const undecomposedFlow::serialScope serial;
+            E.reset(new volVectorField(-fvc::grad(*V)));
+        }
+    }
+
+    return E;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,71 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "readViscosity.H"
+#include "ellipsoidProperties.H"
+#include "masterGate.H"
+#include "IOdictionary.H"
+#include "Time.H"
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
+{
+    const IOdictionary dict
+    (
+        IOobject
+        (
+            "transportProperties",
+            mesh.time().constant(),
+            mesh,
+            IOobject::MUST_READ,
+            IOobject::NO_WRITE,
+            false
+        )
+    );
+
+    const masterGate once;
+
+    const word model(dict.getOrDefault<word>("transportModel", "Newtonian"));
+
+    if (model != "Newtonian")
+    {
+        FatalIOErrorInFunction(dict)
+            << "transportModel " << model << " is not available: the fluid is"
+            << " Newtonian" << exit(FatalIOError);
+    }
+
+    const ITstream& nuEntry = dict.lookup("nu");
+    const bool isNumber = nuEntry.size() && nuEntry.last().isNumber();
+
+    if (!isNumber || !(nuEntry.last().number() > 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "nu " << nuEntry.toString() << " does not end in a positive"
+            << " number [m2/s]" << exit(FatalIOError);
+    }
+
+    const dimensionedScalar nu("nu", dimViscosity, dict);
+
+    // The core knows what the cells can live with
+    ellipsoid_options options(ellipsoid_options_default());
+    options.kinematic_viscosity = nu.value();
+
+    const char* range = nullptr;
+
+    if (ellipsoid_options_check(&options, nullptr, &range) != ELLIPSOID_OK)
+    {
+        ellipsoidProperties::refuse(dict, "nu", "nu", range);
+    }
+
+    return nu;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,241 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "cellPopulation.H"
+#include "ellipsoidParcel.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::cellPopulation::distributionType>
+Foam::cellPopulation::distributionNames
+({
+    { distributionType::dtLogNormal, "logNormal" },
+    { distributionType::dtTable, "table" }
+});
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::cellPopulation::setting::setting
+(
+    const dictionary& cell,
+    const ellipsoid_options& options
+)
+:
+    type(dtNone),
+    lengthDeviation(0),
+    widthDeviation(0),
+    truncation(0),
+    values()
+{
+    if (!cell.found("sizes"))
+    {
+        return;
+    }
+
+    const dictionary& dict = cell.subDict("sizes");
+    const word name(dict.get<word>("type"));
+
+    if (!distributionNames.found(name))
+    {
+        FatalIOErrorInFunction
+        (
+            dict.lookupEntry("type", keyType::LITERAL).stream()
+        )   << "unknown type " << name << " of sizes" << nl
+            << "    allowed: " << flatOutput(distributionNames.names())
+            << exit(FatalIOError);
+    }
+    type = distributionNames[name];
+
+    if (type == dtLogNormal)
+    {
+        ellipsoidProperties::checkKeywords
+        (
+            dict, {"type", "lengthDeviation", "widthDeviation", "truncation"}
+        );
+        lengthDeviation = ellipsoidProperties::getWithinOrDefault
+        (
+            dict, "lengthDeviation", 0, 1, 0
+        );
+        widthDeviation = ellipsoidProperties::getWithinOrDefault
+        (
+            dict, "widthDeviation", 0, 1, 0
+        );
+        truncation = ellipsoidProperties::getWithinOrDefault
+        (
+            dict, "truncation", 1, 5, 3
+        );
+    }
+    else
+    {
+        ellipsoidProperties::checkKeywords(dict, {"type", "values"});
+        values = dict.get<List<Pair<scalar>>>("values");
+
+        if (values.empty())
+        {
+            FatalIOErrorInFunction(dict)
+                << "values of sizes hold no pair (length width)"
+                << exit(FatalIOError);
+        }
+    }
+
+    for (const cellSize& size : extremes(options))
+    {
+        const string complaint
+        (
+            ellipsoidProperties::complaint
+            (
+                ellipsoid_options_resized(&options, size.length, size.width)
+            )
+        );
+
+        if (!complaint.empty())
+        {
+            FatalIOErrorInFunction(dict)
+                << "sizes make a cell of length " << Foam::name(size.length)
+                << " m and width " << Foam::name(size.width)
+                << " m, for which " << complaint.c_str() << exit(FatalIOError);
+        }
+    }
+}
+
+
+Foam::cellPopulation::cellPopulation(const ellipsoidProperties& properties)
+:
+    setting_(properties.section("cell"), properties.options()),
+    seed_(properties.seed()),
+    median_(properties.model()),
+    models_()
+{}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
+(
+    const ellipsoid_options& options
+) const
+{
+    DynamicList<cellSize> sizes;
+
+    for (const Pair<scalar>& row : values)
+    {
+        sizes.append(cellSize{row.first(), row.second()});
+    }
+
+    // The ranges of the core that a size can leave are monotonic in both
+    const cellSize middle(medianSize(options));
+    for (const scalar l : {-truncation, truncation})
+    {
+        for (const scalar w : {-truncation, truncation})
+        {
+            if (type == dtLogNormal)
+            {
+                sizes.append
+                (
+                    cellSize
+                    {
+                        middle.length*exp(l*lengthDeviation),
+                        middle.width*exp(w*widthDeviation)
+                    }
+                );
+            }
+        }
+    }
+
+    return List<cellSize>(std::move(sizes));
+}
+
+
+Foam::cellSize Foam::cellPopulation::medianSize
+(
+    const ellipsoid_options& options
+)
+{
+    return cellSize{2*options.semi_axes[1], 2*options.semi_axes[0]};
+}
+
+
+Foam::cellSize Foam::cellPopulation::drawn(const label id) const
+{
+    cellSize size(medianSize());
+
+    if (setting_.type == dtTable)
+    {
+        scalar uniform;
+        ellipsoid_random_uniform(seed_, id, rsSize, 0, 1, &uniform);
+
+        const Pair<scalar>& row =
+            setting_.values[label(uniform*setting_.values.size())];
+        size = cellSize{row.first(), row.second()};
+    }
+    else if (setting_.type == dtLogNormal)
+    {
+        scalar normal[2];
+        label attempt = 0;
+        do
+        {
+            ellipsoid_random_normals(seed_, id, rsSize, attempt++, 2, normal);
+        }
+        while (max(mag(normal[0]), mag(normal[1])) > setting_.truncation);
+
+        size.length *= exp(setting_.lengthDeviation*normal[0]);
+        size.width *= exp(setting_.widthDeviation*normal[1]);
+    }
+
+    return size;
+}
+
+
+ellipsoid_model Foam::cellPopulation::made(const cellSize& size) const
+{
+    ellipsoid_model model;
+    const ellipsoid_options options
+    (
+        ellipsoid_options_resized(&median_.options, size.length, size.width)
+    );
+
+    if (ellipsoid_model_init(&model, &options) != ELLIPSOID_OK)
+    {
+        FatalErrorInFunction
+            << "a cell of length " << size.length << " m and width "
+            << size.width << " m is none that was checked"
+            << abort(FatalError);
+    }
+
+    return model;
+}
+
+
+void Foam::cellPopulation::take(const label id, const cellSize& size)
+{
+    const cellSize middle(medianSize());
+
+    if (size.length != middle.length || size.width != middle.width)
+    {
+        models_.set(id, new ellipsoid_model(made(size)));
+    }
+}
+
+
+Foam::scalar Foam::cellPopulation::longest(const label id) const
+{
+    return longestSemiAxis(model(id).options);
+}
+
+
+Foam::scalar Foam::cellPopulation::beadRadius(const scalar width) const
+{
+    return
+        median_.options.bead_radius
+       *(width/medianSize().width);
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,454 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    test_ellipsoidContact.c - the walls' force on the ellipsoid itself: against the force
+    on a bead where it is a sphere, against geometry, and against brute force.
+*/
+#include "roomTest.h"
+#include "contact/contact.h"
+#include "beadContactTest.h"
+
+static ellipsoid_surroundings inside(wall_mesh *mesh)
+{
+    const ellipsoid_surroundings surroundings = {.walls = wall_mesh_list,
+                                                 .walls_context = mesh};
+
+    return surroundings;
+}
+
+static ellipsoid_options exact_options(double a, double b, double c)
+{
+    ellipsoid_options options = ellipsoid_options_default();
+
+    options.contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;
+    ellipsoid_set(options.semi_axes, a, b, c);
+    return options;
+}
+
+static double stiffness_of(const ellipsoid_options *o)
+{
+    return 4.0 / 3 * o->contact_modulus * sqrt(o->bead_radius);
+}
+
+/* Contacts of every kind and how many poses have several, by all facets. */
+typedef struct kinds
+{
+    int face, edge, vertex, several;
+} kinds;
+
+static void count_kinds(const ellipsoid_model *model, const wall_mesh *mesh,
+                        const double x[3], const double q[4], kinds *found)
+{
+    ellipsoid_surface body;
+    int contacts = 0;
+
+    ellipsoid_surface_set(model->options.semi_axes, x, q, &body);
+    for (int f = 0; f < mesh->count; f++)
+    {
+        ellipsoid_surface_contact c;
+
+        if (ellipsoid_surface_nearest(&mesh->facets[f], &body, 0, &c))
+        {
+            found->face += c.feature == ELLIPSOID_ON_FACE;
+            found->edge += c.feature == ELLIPSOID_ON_EDGE;
+            found->vertex += c.feature == ELLIPSOID_ON_VERTEX;
+            contacts++;
+        }
+    }
+    found->several += contacts > 1;
+}
+
+/* A sphere is a bead: on random ground and in a room, all kinds of edges and
+   corners, force and derivatives alike. */
+static void test_sphere_is_a_bead(void **unused)
+{
+    uint64_t seed = 5;
+    kinds found = {0, 0, 0, 0};
+    int touching = 0;
+
+    (void)unused;
+    for (int ground = 0; ground < 3; ground++)
+    {
+        wall_mesh wall = ground == 0 ? terrain_of(0.05, &seed)
+                       : ground == 1 ? terrain_of(0.5, &seed)
+                                     : box_of(1.5, 1, 0);
+        const ellipsoid_surroundings surroundings = inside(&wall);
+        ellipsoid_options options = exact_options(r, r, r);
+        static ellipsoid_facet_cache cache;
+
+        options.bead_radius = 0.9;
+        options.contact_modulus = 0.75 / sqrt(0.9);
+
+        const ellipsoid_model model = test_model(&options);
+
+        ellipsoid_facet_cache_clear(&cache);
+        for (int n = 0; n < 3000; n++)
+        {
+            double x[3], q[4], force[3], force_x[3][3];
+            ellipsoid_contact contact;
+            ellipsoid_contact_jacobian jacobian;
+
+            for (int i = 0; i < 3; i++)
+            {
+                x[i] = ground == 2 ? 1.7 * test_signed(&seed)
+                       : i == 2    ? 0.6 + 0.9 * test_uniform(&seed)
+                                   : 12 + 16 * test_uniform(&seed);
+            }
+            test_orientation(&seed, q);
+            assert_ok(evaluate_pose(&model, &surroundings, x, q,
+                                                 &cache, &contact, &jacobian));
+            ellipsoid_bead_force(x, r, 1, wall.facets, wall.index, wall.count,
+                                 force, force_x);
+            count_kinds(&model, &wall, x, q, &found);
+            touching += contact.touching_beads;
+            for (int i = 0; i < 3; i++)
+            {
+                /* rounding of depth, by the stiffness of at most 1.5 */
+                assert_near(contact.force[i], force[i], 1e-13);
+                assert_near(contact.torque[i], 0, 1e-14);
+                for (int j = 0; j < 3; j++)
+                {
+                    /* and of d^0.5 where that is small */
+                    assert_near(jacobian.force_x[i][j], force_x[i][j], 1e-10);
+                    assert_near(jacobian.torque_x[i][j], 0, 1e-10);
+                }
+                for (int k = 0; k < 4; k++)
+                {
+                    assert_near(jacobian.force_q[i][k], 0, 1e-10);
+                    assert_near(jacobian.torque_q[i][k], 0, 1e-10);
+                }
+            }
+        }
+        wall_mesh_free(&wall);
+    }
+    assert_true(touching > 4000 && found.several > 1000);
+    assert_true(found.face > 1000 && found.edge > 1000 && found.vertex > 200);
+}
+
+/*
+    On a plane the depth is h - z with the support h = sqrt(sum (a_i n^_i)^2) of
+    the body in the plane's normal, and the contact point a_i^2 n^_i/h.
+*/
+static void test_lying_standing_tilted(void **unused)
+{
+    const ellipsoid_options options =
+        exact_options(0.5 * um, 2 * um, 0.8 * um);
+    const ellipsoid_model model = test_model(&options);
+    wall_mesh mesh = room_of(0);
+    const ellipsoid_surroundings surroundings = inside(&mesh);
+    static ellipsoid_facet_cache cache;
+    const double a = 0.5 * um, b = 2 * um, c = 0.8 * um, depth = 3e-9;
+    const double pi = test_pi;
+
+    (void)unused;
+    ellipsoid_facet_cache_clear(&cache);
+    for (int n = 0; n < 42; n++)
+    {
+        /* the long axis from lying to standing, x^1 or x^3 down */
+        const double tilt = pi / 2 * (n % 21) / 20;
+        const double axis[3] = {cos(tilt), 0, sin(tilt)};
+        const double spin = n > 20 ? pi / 2 : 0;
+        double q[4], rotation[3][3];
+        ellipsoid_contact contact;
+
+        ellipsoid_quaternion_from_axis(axis, spin, q);
+        ellipsoid_rotation(q, rotation);
+
+        const double *up = rotation[2]; /* z in the body frame */
+        const double h = sqrt(pow(a * up[0], 2) + pow(b * up[1], 2)
+                              + pow(c * up[2], 2));
+        const double x[3] = {-2 * um, 1 * um, h - depth};
+        const double f = stiffness_of(&options) * pow(depth, 1.5);
+        const double arm[3] = {-a * a * up[0] / h, -b * b * up[1] / h,
+                               -c * c * up[2] / h};
+        const double force[3] = {f * up[0], f * up[1], f * up[2]};
+        double torque[3];
+
+        ellipsoid_cross(arm, force, torque);
+        assert_ok(evaluate_pose(&model, &surroundings, x, q,
+                                             &cache, &contact, NULL));
+        assert_int_equal(contact.touching_beads, 1);
+        assert_int_equal(contact.touched_count, 1);
+        assert_int_equal(contact.touched[0], 1);
+        /* the depth is 1e-3 of the size: 13 digits, times 1.5 */
+        assert_relative(contact.deepest, depth, 1e-12);
+        assert_relative(contact.force[2], f, 2e-12);
+        for (int i = 0; i < 3; i++)
+        {
+            assert_near(contact.torque[i], torque[i], 1e-11 * f * um);
+        }
+        if (n == 0 || n == 20 || n == 21 || n == 41)
+        {
+            /* one of its axes is upright */
+            assert_near(h, n == 0 ? c : n == 21 ? a : b, 1e-20);
+        }
+    }
+    wall_mesh_free(&mesh);
+}
+
+/* n.d - h(n) for n along v, which becomes of length one */
+static double tried_direction(const ellipsoid_surface *body,
+                              const double d[3], double v[3])
+{
+    const double length = sqrt(ellipsoid_dot(v, v));
+    double squared = 0;
+
+    for (int i = 0; i < 3; i++)
+    {
+        v[i] /= length;
+    }
+    for (int k = 0; k < 3; k++)
+    {
+        double along = 0;
+
+        for (int l = 0; l < 3; l++)
+        {
+            along += body->rotation[l][k] * v[l];
+        }
+        squared += pow(body->axes[k] * along, 2);
+    }
+    return ellipsoid_dot(v, d) - sqrt(squared);
+}
+
+/* Signed distance of a point from the ellipsoid by trial: the best direction of
+   a coarse lattice, then ever smaller changes of it. */
+static double tried_distance(const ellipsoid_surface *body,
+                             const double w[3], double n[3])
+{
+    double d[3], best = -HUGE_VAL, size = 0.3;
+
+    ellipsoid_difference(body->centre, w, d);
+    for (int lattice = 1; size > 1e-9; lattice = 0)
+    {
+        const double before = best;
+        const int side = lattice ? 5 : 1;
+        double middle[3] = {0, 0, 0};
+
+        if (!lattice)
+        {
+            ellipsoid_copy(n, middle);
+        }
+        for (int i = -side; i <= side; i++)
+        {
+            for (int j = -side; j <= side; j++)
+            {
+                for (int k = -side; k <= side; k++)
+                {
+                    double v[3] = {middle[0] + size * i, middle[1] + size * j,
+                                   middle[2] + size * k};
+
+                    if (i == 0 && j == 0 && k == 0)
+                    {
+                        continue;
+                    }
+
+                    const double value = tried_direction(body, d, v);
+
+                    if (value > best)
+                    {
+                        best = value;
+                        ellipsoid_copy(v, n);
+                    }
+                }
+            }
+        }
+        size *= best > before && !lattice ? 1 : 0.5;
+    }
+    return best;
+}
+
+/* The lowest tried distance of a stretch of an edge: it is convex. */
+static double tried_edge(const ellipsoid_surface *body, const double from[3],
+                         const double to[3], double n[3])
+{
+    double low = 0, high = 1, d = 0;
+
+    while (high - low > 1e-7)
+    {
+        double tried[2];
+
+        for (int side = 0; side < 2; side++)
+        {
+            const double t = low + (high - low) * (side ? 0.618 : 0.382);
+            double w[3];
+
+            for (int i = 0; i < 3; i++)
+            {
+                w[i] = from[i] + t * (to[i] - from[i]);
+            }
+            tried[side] = d = tried_distance(body, w, n);
+        }
+        *(tried[0] < tried[1] ? &high : &low) =
+            low + (high - low) * (tried[0] < tried[1] ? 0.618 : 0.382);
+    }
+    return d;
+}
+
+/* Of a block in the middle of the fluid, an edge and a corner. */
+static void test_edge_and_corner_by_trial(void **unused)
+{
+    const double low[3] = {-9, -9, -9}, zero[3] = {0, 0, 0};
+    const double down[3] = {0, 0, -9};
+    uint64_t seed = 6;
+    int edges = 0, corners = 0;
+    wall_mesh block;
+
+    (void)unused;
+    wall_mesh_init(&block);
+    wall_mesh_box(&block, low, zero, 0, 0, 7);
+    wall_mesh_finish(&block);
+    for (int n = 0; n < 4000 && (edges < 40 || corners < 40); n++)
+    {
+        ellipsoid_options options =
+            exact_options(0.2 + 0.5 * test_uniform(&seed), 1,
+                          0.2 + 0.8 * test_uniform(&seed));
+        double x[3], q[4], tried[3], d;
+        ellipsoid_contact contact;
+        ellipsoid_surface body;
+        ellipsoid_surface_contact c;
+        static ellipsoid_facet_cache cache;
+        const ellipsoid_surroundings surroundings = inside(&block);
+        double depth = 0;
+        int kind = -1, alone = 1;
+
+        options.bead_radius = 0.1;
+        options.contact_modulus = 0.75 / sqrt(0.1);
+        for (int i = 0; i < 3; i++)
+        {
+            x[i] = i == 2 && n % 2 ? -3 : 0.7 * test_uniform(&seed);
+        }
+        test_orientation(&seed, q);
+        ellipsoid_surface_set(options.semi_axes, x, q, &body);
+        for (int f = 0; f < block.count; f++)
+        {
+            if (ellipsoid_surface_nearest(&block.facets[f], &body, 0.1, &c))
+            {
+                alone = kind < 0 || (kind == c.feature && depth == c.height);
+                kind = c.feature;
+                depth = c.height;
+            }
+        }
+        /* deeper than its radii of curvature there is more than one nearest */
+        const double least = fmin(options.semi_axes[0], options.semi_axes[2]);
+
+        if (!alone || fabs(depth) > 0.5 * least * least)
+        {
+            continue;
+        }
+        if (kind == ELLIPSOID_ON_EDGE && edges < 40 && n % 2)
+        {
+            d = tried_edge(&body, zero, down, tried);
+            edges++;
+        }
+        else if (kind == ELLIPSOID_ON_VERTEX && corners < 40)
+        {
+            d = tried_distance(&body, zero, tried);
+            corners++;
+        }
+        else
+        {
+            continue;
+        }
+
+        const ellipsoid_model model = test_model(&options);
+        const double f = d < 0 ? pow(-d, 1.5) : 0;
+
+        ellipsoid_facet_cache_clear(&cache);
+        assert_ok(evaluate_pose(&model, &surroundings, x, q,
+                                             &cache, &contact, NULL));
+        assert_near(contact.gap, d, 1e-9);
+        for (int i = 0; i < 3; i++)
+        {
+            assert_near(contact.force[i], f * tried[i], 1e-4 * f + 1e-12);
+        }
+    }
+    assert_int_equal(edges, 40);
+    assert_int_equal(corners, 40);
+    wall_mesh_free(&block);
+}
+
+/* The gap is negative where the ellipsoid cuts a facet: overlap.c knows by
+   another way. */
+static void test_gap_agrees_with_overlap(void **unused)
+{
+    const ellipsoid_options options =
+        exact_options(0.5 * um, 2 * um, 0.8 * um);
+    const ellipsoid_model model = test_model(&options);
+    wall_mesh mesh = room_of(1);
+    const ellipsoid_surroundings surroundings = inside(&mesh);
+    static ellipsoid_facet_cache cache;
+    uint64_t seed = 7;
+    int cut = 0;
+
+    (void)unused;
+    ellipsoid_facet_cache_clear(&cache);
+    for (int n = 0; n < 20000; n++)
+    {
+        double x[3], q[4];
+        ellipsoid_contact contact;
+        int overlaps;
+
+        random_pose(&seed, x, q);
+        if (fabs(x[0] - 1 * um) < 0.5 * um && fabs(x[1]) < 4 * um
+            && x[2] < 2 * um)
+        {
+            continue; /* within the ridge */
+        }
+        assert_ok(evaluate_pose(&model, &surroundings, x, q,
+                                             &cache, &contact, NULL));
+        assert_ok(ellipsoid_overlaps_walls(&model, &surroundings, x, q,
+                                           &overlaps));
+        assert_int_equal(contact.gap < 0, overlaps);
+        cut += overlaps;
+    }
+    assert_true(cut > 5000 && cut < 15000);
+    wall_mesh_free(&mesh);
+}
+
+/* All kinds of contacts, alone and mixed. */
+static void test_exact_jacobian(void **unused)
+{
+    const ellipsoid_options options =
+        exact_options(0.5 * um, 2 * um, 0.8 * um);
+    const ellipsoid_model model = test_model(&options);
+    wall_mesh mesh = room_of(0);
+    const ellipsoid_surroundings surroundings = inside(&mesh);
+    static ellipsoid_facet_cache cache;
+    uint64_t seed = 3;
+    kinds found = {0, 0, 0, 0};
+
+    (void)unused;
+    ellipsoid_facet_cache_clear(&cache);
+    for (int n = 0; n < 20000; n++)
+    {
+        double y[7];
+
+        random_pose(&seed, y, y + 3);
+        for (int i = 3; i < 7; i++)
+        {
+            y[i] *= 1.01;
+        }
+        if (assert_jacobian(&model, &surroundings, &cache, y, 1e-6))
+        {
+            count_kinds(&model, &mesh, y, y + 3, &found);
+        }
+    }
+    assert_true(found.face > 300 && found.edge > 300 && found.vertex > 100
+                && found.several > 300);
+    wall_mesh_free(&mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sphere_is_a_bead),
+        cmocka_unit_test(test_lying_standing_tilted),
+        cmocka_unit_test(test_edge_and_corner_by_trial),
+        cmocka_unit_test(test_gap_agrees_with_overlap),
+        cmocka_unit_test(test_exact_jacobian),
+    };
+
+    return cmocka_run_group_tests_name("exact", tests, NULL, NULL);
+}

@@ -1,0 +1,373 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    test_faxen.c - the flow over the body: quadrature and Faxen's laws.
+*/
+#include "coreTest.h"
+
+static const struct
+{
+    int points, degree;
+} rules[] = {{6, 3}, {14, 5}, {26, 7}, {50, 11}};
+
+static ellipsoid_model body(double a1, double a2, double a3, int points)
+{
+    ellipsoid_options o = test_free_cell();
+
+    o.flow_at = ELLIPSOID_FLOW_BODY;
+    o.flow_points = points;
+    o.pressure_gradient = ELLIPSOID_PRESSURE_NONE;
+    o.motion = ELLIPSOID_MOTION_INERTIALESS;
+    ellipsoid_set(o.semi_axes, a1, a2, a3);
+    return test_model(&o);
+}
+
+/* The motion of a free body, from a flow. */
+static void free_motion(const ellipsoid_model *model,
+                        ellipsoid_flow_function flow, void *context,
+                        const double x[3], const double q[4], double u[3],
+                        double omega[3])
+{
+    const ellipsoid_surroundings around = {.flow = flow,
+                                           .flow_context = context};
+    ellipsoid_state s = {.q = {q[0], q[1], q[2], q[3]}};
+
+    ellipsoid_copy(x, s.x);
+    assert_ok(ellipsoid_balance(model, &around, &s, NULL));
+    ellipsoid_copy(s.u, u);
+    ellipsoid_copy(s.omega, omega);
+}
+
+/* Mean of n1^a n2^b n3^c over the unit sphere: 0 if one is odd, else
+   (a-1)!! (b-1)!! (c-1)!! / (a+b+c+1)!! (Folland, Am. Math. Mon. 108, 446,
+   2001). */
+static double mean_of_monomial(int a, int b, int c)
+{
+    const int power[3] = {a, b, c};
+    double mean = 1;
+    int total = 1;
+
+    for (int i = 0; i < 3; i++)
+    {
+        if (power[i] % 2)
+        {
+            return 0;
+        }
+        for (int n = 1; n < power[i]; n += 2)
+        {
+            mean *= n;
+        }
+        total += power[i];
+    }
+    for (int n = 1; n <= total; n += 2)
+    {
+        mean /= n;
+    }
+    return mean;
+}
+
+static double worst_of_degree(const ellipsoid_model *m, int degree)
+{
+    double worst = 0;
+
+    for (int a = 0; a <= degree; a++)
+    {
+        for (int b = 0; a + b <= degree; b++)
+        {
+            const int c = degree - a - b;
+            double sum = 0;
+
+            for (int p = 0; p < m->flow_points; p++)
+            {
+                const double *n = m->flow_point[p];
+
+                sum += m->flow_weight[p] * pow(n[0], a) * pow(n[1], b)
+                     * pow(n[2], c);
+            }
+            worst = fmax(worst, fabs(sum - mean_of_monomial(a, b, c)));
+        }
+    }
+    return worst;
+}
+
+/* Exact to rounding up to the degree, and not beyond it. */
+static void test_quadrature(void **unused)
+{
+    (void)unused;
+    for (int r = 0; r < 4; r++)
+    {
+        const ellipsoid_model m = body(1, 1, 1, rules[r].points);
+
+        assert_int_equal(m.flow_points, rules[r].points);
+        for (int degree = 0; degree <= rules[r].degree; degree++)
+        {
+            assert_true(worst_of_degree(&m, degree) < 1e-15);
+        }
+        assert_true(worst_of_degree(&m, rules[r].degree + 1) > 1e-6);
+    }
+}
+
+static test_quadratic random_flow(uint64_t *seed, double curvature)
+{
+    test_quadratic f = {.answer = 0};
+
+    for (int i = 0; i < 3; i++)
+    {
+        f.u[i] = test_signed(seed);
+        for (int j = 0; j < 3; j++)
+        {
+            f.g[i][j] = test_signed(seed);
+            for (int k = 0; k <= j; k++)
+            {
+                f.h[i][j][k] = f.h[i][k][j] = curvature * test_signed(seed);
+            }
+        }
+    }
+    return f;
+}
+
+/* Brenner (1964): a linear flow does what Jeffery (1922) says. Rounding. */
+static void test_linear_flow(void **unused)
+{
+    uint64_t seed = 5;
+
+    (void)unused;
+    for (int n = 0; n < 80; n++)
+    {
+        ellipsoid_model m = body(0.3, 1.7, 0.9, rules[n % 4].points);
+        test_quadratic flow = random_flow(&seed, 0);
+        double x[3], q[4], u[2][3], omega[2][3];
+
+        test_orientation(&seed, q);
+        ellipsoid_set(x, test_signed(&seed), test_signed(&seed), 0.3);
+        free_motion(&m, test_quadratic_flow, &flow, x, q, u[0], omega[0]);
+        m.options.flow_at = ELLIPSOID_FLOW_CENTRE;
+        m = test_model(&m.options);
+        assert_int_equal(m.flow_points, 0);
+        free_motion(&m, test_quadratic_flow, &flow, x, q, u[1], omega[1]);
+        for (int i = 0; i < 3; i++)
+        {
+            assert_near(u[0][i], u[1][i], 1e-14);
+            assert_near(omega[0][i], omega[1][i], 1e-14);
+        }
+    }
+}
+
+/*
+    A flow of second degree: <u> = u + 1/6 sum_j a_j^2 d^2u/dx^_j^2 (Brenner
+    1964), for a sphere Faxen's (1 + a^2/6 laplacian) u; the torque is that of
+    the centre. Rounding.
+*/
+static void test_quadratic_flow_moves(void **unused)
+{
+    uint64_t seed = 6;
+
+    (void)unused;
+    for (int n = 0; n < 80; n++)
+    {
+        const int sphere = n % 8 < 4;
+        ellipsoid_model m = sphere ? body(0.8, 0.8, 0.8, rules[n % 4].points)
+                                   : body(0.3, 1.7, 0.9, rules[n % 4].points);
+        const double *a = m.options.semi_axes;
+        test_quadratic flow = random_flow(&seed, 1);
+        double x[3], q[4], u[3], omega[3], u_c[3], omega_c[3], r[3][3];
+
+        test_orientation(&seed, q);
+        ellipsoid_set(x, test_signed(&seed), test_signed(&seed), 0.3);
+        ellipsoid_rotation(q, r);
+        free_motion(&m, test_quadratic_flow, &flow, x, q, u, omega);
+        m.options.flow_at = ELLIPSOID_FLOW_CENTRE;
+        m = test_model(&m.options);
+        free_motion(&m, test_quadratic_flow, &flow, x, q, u_c, omega_c);
+        for (int i = 0; i < 3; i++)
+        {
+            double mean = u_c[i];
+
+            for (int j = 0; j < 3; j++)
+            {
+                for (int k = 0; k < 3; k++)
+                {
+                    for (int b = 0; b < 3; b++)
+                    {
+                        mean += a[b] * a[b] * r[j][b] * r[k][b]
+                              * flow.h[i][j][k] / 6;
+                    }
+                }
+            }
+            if (sphere)
+            {
+                assert_near(u[i],
+                            u_c[i]
+                                + a[0] * a[0] / 6
+                                      * (flow.h[i][0][0] + flow.h[i][1][1]
+                                         + flow.h[i][2][2]),
+                            1e-14);
+            }
+            assert_near(u[i], mean, 1e-14);
+            assert_near(omega[i], omega_c[i], 1e-14);
+        }
+    }
+}
+
+/* u_i = (k_i . x)^degree: polynomials of any degree. */
+typedef struct powers
+{
+    double k[3][3];
+    int degree;
+} powers;
+
+static int power_flow(void *context, const double x[3], int derivatives,
+                      ellipsoid_flow_sample *f)
+{
+    const powers *p = context;
+
+    (void)derivatives;
+    memset(f, 0, sizeof(*f));
+    for (int i = 0; i < 3; i++)
+    {
+        f->velocity[i] = pow(ellipsoid_dot(p->k[i], x), p->degree);
+    }
+    return 0;
+}
+
+/*
+    A rule of degree d gives the force of flows up to degree d and the torque
+    of those up to d - 1 as the finest rule does, which is exact for them by
+    test_quadrature; and not of the next.
+*/
+static void test_degree_of_flow(void **unused)
+{
+    const double q[4] = {0.1, 0.2, 0.3, 0.9}, x[3] = {0, 0, 0};
+    uint64_t seed = 7;
+
+    (void)unused;
+    for (int r = 0; r < 3; r++)
+    {
+        const ellipsoid_model m = body(0.5, 1, 0.7, rules[r].points);
+        const ellipsoid_model fine = body(0.5, 1, 0.7, 50);
+        powers flow;
+
+        for (int i = 0; i < 9; i++)
+        {
+            flow.k[i / 3][i % 3] = test_signed(&seed);
+        }
+        for (flow.degree = 0; flow.degree <= rules[r].degree + 1; flow.degree++)
+        {
+            double u[2][3], omega[2][3], d[2][3], force, torque;
+
+            free_motion(&m, power_flow, &flow, x, q, u[0], omega[0]);
+            free_motion(&fine, power_flow, &flow, x, q, u[1], omega[1]);
+            ellipsoid_difference(u[0], u[1], d[0]);
+            ellipsoid_difference(omega[0], omega[1], d[1]);
+            force = ellipsoid_length(d[0]);
+            torque = ellipsoid_length(d[1]);
+            assert_true(flow.degree > rules[r].degree ? force > 1e-5
+                                                      : force < 1e-14);
+            if (flow.degree != rules[r].degree + 1)
+            {
+                assert_true(flow.degree == rules[r].degree ? torque > 1e-5
+                                                           : torque < 1e-14);
+            }
+        }
+    }
+}
+
+/* A shear above the wall x3 = 0, where the flow is told to end. */
+static int shear_above(void *context, const double x[3], int derivatives,
+                       ellipsoid_flow_sample *f)
+{
+    (void)context;
+    (void)derivatives;
+    memset(f, 0, sizeof(*f));
+    f->velocity[0] = x[2];
+    f->gradient[0][2] = 1;
+    return x[2] < 0;
+}
+
+static int calls;
+
+static int velocities_above(void *context, const double centre[3], int count,
+                            double (*points)[3], double (*velocity)[3],
+                            double (*jacobian)[3][3])
+{
+    (void)context;
+    (void)jacobian;
+    assert_true(centre[2] == 0.2);
+    calls++;
+    for (int p = 0; p < count; p++)
+    {
+        ellipsoid_set(velocity[p], fmax(points[p][2], 0), 0, 0);
+    }
+    return 0;
+}
+
+/* Points beyond the wall see its velocity, zero; by either callback. */
+static void test_beyond_a_wall(void **unused)
+{
+    const ellipsoid_model m = body(1, 1, 1, 50);
+    ellipsoid_surroundings around = {.flow = shear_above};
+    ellipsoid_state s[2] = {{.x = {0, 0, 0.2}, .q = {0, 0, 0, 1}},
+                            {.x = {0, 0, 0.2}, .q = {0, 0, 0, 1}}};
+    double mean = 0;
+
+    (void)unused;
+    for (int p = 0; p < 50; p++)
+    {
+        mean += m.flow_weight[p] * fmax(0, 0.2 + m.flow_point[p][2]);
+    }
+    assert_ok(ellipsoid_balance(&m, &around, &s[0], NULL));
+    around.velocities = velocities_above;
+    assert_ok(ellipsoid_balance(&m, &around, &s[1], NULL));
+    assert_int_equal(calls, 1);
+    assert_near(s[0].u[0], mean, 1e-15);
+    for (int i = 0; i < 3; i++)
+    {
+        assert_near(s[0].u[i], s[1].u[i], 1e-15);
+        assert_near(s[0].omega[i], s[1].omega[i], 1e-15);
+    }
+}
+
+/*
+    How far the two models differ, in a slit of 10 um at 4 mm/s on average: the
+    cell lies along the stream or stands across it. Across the gap <u> - u is
+    a_j^2 u''/6 = -4 mm/s 12/(10 um)^2 a_j^2/6 exactly, a_j the semi-axis there.
+*/
+static void test_paper_cell_in_a_slit(void **unused)
+{
+    const double quarter = sqrt(0.5), height = 10e-6, mean = 4e-3;
+    const double pose[2][4] = {{0, 0, 0, 1}, {quarter, 0, 0, quarter}};
+    const ellipsoid_model m = body(0.5e-6, 2e-6, 0.5e-6, 26);
+    const double reach[2] = {m.options.semi_axes[2], m.options.semi_axes[1]};
+    test_quadratic flow = {.u = {0, 1.5 * mean, 0}};
+
+    (void)unused;
+    flow.h[1][2][2] = -12 * mean / (height * height);
+    for (int n = 0; n < 2; n++)
+    {
+        const double x[3] = {0, 0, 0};
+        double u[3], omega[3];
+
+        free_motion(&m, test_quadratic_flow, &flow, x, pose[n], u, omega);
+        print_message(
+            "# %s the gap: %.2f %% slower than the flow at its centre\n",
+            n ? "across" : "along", 100 * (1 - u[1] / flow.u[1]));
+        assert_relative(flow.u[1] - u[1],
+                        -flow.h[1][2][2] * reach[n] * reach[n] / 6, 1e-12);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_quadrature),
+        cmocka_unit_test(test_linear_flow),
+        cmocka_unit_test(test_quadratic_flow_moves),
+        cmocka_unit_test(test_degree_of_flow),
+        cmocka_unit_test(test_beyond_a_wall),
+        cmocka_unit_test(test_paper_cell_in_a_slit),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
