@@ -40,7 +40,6 @@ SourceFiles
 #include "columnFvMesh.H"
 #include "ellipsoidCloud.H"
 #include "steadyFlow.H"
-#include "atomicWrite.H"
 #include "checkpoint.H"
 
 using namespace Foam;
@@ -100,15 +99,7 @@ int main(int argc, char *argv[])
 
             if (runTime.writeTime())
             {
-                checkpoint::begin(runTime);
-
-                if (!runTime.write())
-                {
-                    cannotWrite
-                    (
-                        runTime.path()/runTime.timeName()/"uniform"/"time"
-                    );
-                }
+                cells->write();
             }
         }
 

@@ -13,7 +13,6 @@ License
 #include "clockTime.H"
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
-#include "ellipsoidParcel.H"
 #include "ellipsoidProperties.H"
 #include "findRefCell.H"
 #include "fvcDiv.H"
@@ -32,6 +31,7 @@ License
 #include "StringStream.H"
 #include "surfaceInterpolate.H"
 #include "atomicWrite.H"
+#include "fullPrecision.H"
 #include "checkpoint.H"
 
 #include <cmath>

@@ -101,80 +101,12 @@ void Foam::ellipsoidCloud::reportLost(const cellSweep& cell)
 }
 
 
-void Foam::ellipsoidCloud::updateParticles()
-{
-    Map<label> mine;
-
-    const auto cellOf =
-        [&](const cellState& cell)
-        {
-            return flow_->cell(frozenFlow::probe{cell.tet, -1});
-        };
-
-    forAll(cells_, i)
-    {
-        if (cellRank_[cellOf(cells_[i])] == Pstream::myProcNo())
-        {
-            mine.insert(cells_[i].id, i);
-        }
-    }
-
-    for (ellipsoidParcel& parcel : *this)
-    {
-        const auto found = mine.cfind(parcel.state().id);
-
-        if (found.found())
-        {
-            const cellState& cell = cells_[*found];
-            parcel.state() = cell;
-            parcel.settle(cellLocal_[cellOf(cell)]);
-            mine.erase(cell.id);
-        }
-        else
-        {
-            deleteParticle(parcel);
-        }
-    }
-
-    for (const label id : mine.sortedToc())
-    {
-        const cellState& cell = cells_[mine[id]];
-
-        addParticle
-        (
-            new ellipsoidParcel(mesh_, cellLocal_[cellOf(cell)], cell)
-        );
-    }
-}
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
 :
-    ellipsoidCloud
-    (
-        mesh, autoPtr<ellipsoidProperties>(new ellipsoidProperties(mesh))
-    )
-{}
-
-
-Foam::ellipsoidCloud::ellipsoidCloud
-(
-    const fvMesh& mesh,
-    autoPtr<ellipsoidProperties>&& properties
-)
-:
-    // Empty: what was written is looked at before it is read
-    Cloud<ellipsoidParcel>
-    (
-        mesh,
-        "ellipsoidCloud",
-        IDLList<ellipsoidParcel>()
-    ),
     mesh_(mesh),
-    read_(std::move(properties)),
-    properties_(*read_),
+    properties_(mesh),
     earlier_(mesh.time()),
     whole_(new undecomposedFlow(mesh)),
     field_(new electricField(properties_.section("forces"), mesh)),
@@ -314,7 +246,6 @@ void Foam::ellipsoidCloud::evolve()
     }
     cells_.setSize(nStay);
 
-    updateParticles();
     time_ = end;
 
     trackingTime_ += timer.elapsedTime();

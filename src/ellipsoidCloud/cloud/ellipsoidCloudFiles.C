@@ -13,10 +13,10 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "ellipsoidCloud.H"
+#include "ellipsoidParcel.H"
 #include "masterGate.H"
 #include "plainLists.H"
 #include "HashSet.H"
-#include "IOPosition.H"
 #include "StringStream.H"
 #include "atomicWrite.H"
 
@@ -73,28 +73,7 @@ void Foam::ellipsoidCloud::makeTables()
 
 void Foam::ellipsoidCloud::readCells()
 {
-    IOPosition<Cloud<ellipsoidParcel>> positions
-    (
-        *this, cloud::geometryType::COORDINATES
-    );
-    const bool there = positions.headerOk();
-    Istream& is = positions.readStream("", there);
-
-    if (there)
-    {
-        positions.readData(is, *this);
-        positions.close();
-    }
-
-    ellipsoidParcel::readFields(*this);
-
-    DynamicList<cellState> mine(size());
-    for (const ellipsoidParcel& parcel : *this)
-    {
-        mine.append(parcel.state());
-    }
-
-    for (const List<cellState>& some : fromAllRanks(mine))
+    for (const List<cellState>& some : fromAllRanks(ellipsoidParcel::read(mesh_)))
     {
         cells_.append(some);
     }
@@ -115,7 +94,7 @@ void Foam::ellipsoidCloud::readCells()
         );
         if (!complaint.empty())
         {
-            checkedCells
+            refuseCells
             (
                 "cell " + Foam::name(cell.id) + " has a size for which "
               + complaint
@@ -126,29 +105,23 @@ void Foam::ellipsoidCloud::readCells()
 }
 
 
-void Foam::ellipsoidCloud::checkedCells(const string& complaint) const
+void Foam::ellipsoidCloud::refuseCells(const string& complaint) const
 {
-    if (!complaint.empty())
-    {
-        FatalErrorInFunction
-            << "time " << mesh_.time().timeName() << ": " << complaint.c_str()
-            << nl << "    Its folder lagrangian/" << name()
-            << " is incomplete or of another run: go on from another time"
-            << exit(FatalError);
-    }
+    FatalErrorInFunction
+        << "time " << mesh_.time().timeName() << ": " << complaint.c_str()
+        << nl << "    Its folder lagrangian/" << ellipsoidParcel::cloudName
+        << " is incomplete or of another run: go on from another time"
+        << exit(FatalError);
 }
 
 
 void Foam::ellipsoidCloud::checkPlaces() const
 {
-    // What is wrong on any rank, said once
-    List<string> complaints(Pstream::nProcs());
+    const masterGate once;
 
-    for (const ellipsoidParcel& parcel : *this)
+    for (const cellState& cell : cells_)
     {
-        const cellState& cell = parcel.state();
-        const point x(cell.body.x[0], cell.body.x[1], cell.body.x[2]);
-
+        const point x(cell.centre());
         frozenFlow::probe at{cell.tet, -1};
 
         if
@@ -162,18 +135,7 @@ void Foam::ellipsoidCloud::checkPlaces() const
             OStringStream os;
             os.precision(6);
             os << "cell " << cell.id << " at " << x << " is outside the mesh";
-            complaints[Pstream::myProcNo()] = os.str();
-        }
-    }
-
-    Pstream::gatherList(complaints);
-    const masterGate once;
-
-    if (Pstream::master())
-    {
-        for (const string& complaint : complaints)
-        {
-            checkedCells(complaint);
+            refuseCells(os.str());
         }
     }
 }
@@ -181,17 +143,6 @@ void Foam::ellipsoidCloud::checkPlaces() const
 
 void Foam::ellipsoidCloud::checkCells() const
 {
-    List<labelList> ids(Pstream::nProcs());
-    DynamicList<label> mine(size());
-
-    for (const ellipsoidParcel& parcel : *this)
-    {
-        mine.append(parcel.state().id);
-    }
-
-    ids[Pstream::myProcNo()].transfer(mine);
-    Pstream::gatherList(ids);
-
     const masterGate once;
 
     if (!Pstream::master())
@@ -199,48 +150,60 @@ void Foam::ellipsoidCloud::checkCells() const
         return;
     }
 
-    string complaint;
-    const auto complain =
-        [&](const string& text)
-        {
-            if (complaint.empty())
-            {
-                complaint = text;
-            }
-        };
-
     labelHashSet read;
-    for (const labelList& some : ids)
+    for (const cellState& cell : cells_)
     {
-        for (const label id : some)
+        const string its("cell " + Foam::name(cell.id));
+
+        if (!read.insert(cell.id))
         {
-            if (!read.insert(id))
-            {
-                complain("cell " + Foam::name(id) + " is there twice");
-            }
-            else if (!statistics_->inside(id))
-            {
-                complain
-                (
-                    "cell " + Foam::name(id)
-                  + " is there, but by the log of events not in the device"
-                );
-            }
+            refuseCells(its + " is there twice");
+        }
+        if (!statistics_->inside(cell.id))
+        {
+            refuseCells
+            (
+                its + " is there, but by the log of events not in the device"
+            );
         }
     }
     for (const label id : statistics_->cellsInside())
     {
         if (!read.found(id))
         {
-            complain
+            refuseCells
             (
                 "cell " + Foam::name(id)
               + " is missing, but by the log of events in the device"
             );
         }
     }
+}
 
-    checkedCells(complaint);
+
+void Foam::ellipsoidCloud::writeParcels() const
+{
+    Cloud<ellipsoidParcel> parcels
+    (
+        mesh_, ellipsoidParcel::cloudName, IDLList<ellipsoidParcel>()
+    );
+
+    for (const cellState& cell : cells_)
+    {
+        const label celli = flow_->cell(frozenFlow::probe{cell.tet, -1});
+
+        if (cellRank_[celli] == Pstream::myProcNo())
+        {
+            parcels.addParticle
+            (
+                new ellipsoidParcel(mesh_, cellLocal_[celli], cell)
+            );
+        }
+    }
+
+    // OpenFOAM's number of particles so far
+    ellipsoidParcel::particleCount_ = statistics_->size();
+    parcels.write();
 }
 
 
@@ -319,14 +282,21 @@ void Foam::ellipsoidCloud::reportLoad() const
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::ellipsoidCloud::writeFields() const
+void Foam::ellipsoidCloud::write()
 {
+    const Time& time = mesh_.time();
+
+    checkpoint::begin(time);
+
+    if (!time.write())
+    {
+        cannotWrite(time.path()/time.timeName()/"uniform"/"time");
+    }
+
     tracks_->flush();
 
-    const fileName failed
-    (
-        failedFile([&]() { ellipsoidParcel::writeFields(*this); })
-    );
+    const fileName failed(failedFile([&]() { writeParcels(); }));
+
     if (!failed.empty())
     {
         cannotWrite(failed, errno);
@@ -342,7 +312,7 @@ void Foam::ellipsoidCloud::writeFields() const
     notes.add("mesh", meshNotes_);
     notes.add("tables", tables);
 
-    checkpoint::end(mesh_.time(), notes);
+    checkpoint::end(time, notes);
 }
 
 

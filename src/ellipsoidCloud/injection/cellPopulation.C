@@ -8,7 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "cellPopulation.H"
-#include "ellipsoidParcel.H"
+#include "cellState.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
