@@ -228,6 +228,12 @@ typedef struct ellipsoid_facet_cache
     int near_facet[ELLIPSOID_MAX_NEAR]; /* ascending */
 } ellipsoid_facet_cache;
 
+/*
+    Empties a cache. It must be called before the cache is used for the first
+    time, and again whenever anything but the cell's pose has changed: its model,
+    the walls callback or its context, or a facet. A cell that is put elsewhere
+    needs no call.
+*/
 void ellipsoid_facet_cache_clear(ellipsoid_facet_cache *cache);
 
 /* The action of the walls, and of the other cells of its group, on a cell. */

@@ -264,6 +264,8 @@ static void test_steps_are_continuous(void **unused)
 */
 static void test_random_ground(void **unused)
 {
+    const ellipsoid_wall_laws laws = {.count = 1,
+                                      .law = {ellipsoid_hertz_law(1)}};
     uint64_t seed = 4;
 
     (void)unused;
@@ -293,7 +295,7 @@ static void test_random_ground(void **unused)
                     .centre = {start[0] + way * cos(angle),
                                start[1] + way * sin(angle), z},
                     .radius = r,
-                    .stiffness = 1};
+                    .laws = &laws};
                 const ellipsoid_candidates from = {wall.facets, index,
                                                    list.count};
                 ellipsoid_point_force push = {.force = {0, 0, 0}}, pull;

@@ -62,6 +62,29 @@ static inline void ellipsoid_to_body(double r[3][3], const double v[3],
     ellipsoid_combination(r, v[0], v[1], v[2], body);
 }
 
+/* R^T v and R v of an ellipsoid that is not to be changed: C11 takes no const
+   matrix for the parameter above. */
+static inline void ellipsoid_surface_to_body(const ellipsoid_surface *body,
+                                             const double v[3],
+                                             double result[3])
+{
+    const double(*r)[3] = body->rotation;
+
+    ellipsoid_set(result, v[0] * r[0][0] + v[1] * r[1][0] + v[2] * r[2][0],
+                  v[0] * r[0][1] + v[1] * r[1][1] + v[2] * r[2][1],
+                  v[0] * r[0][2] + v[1] * r[1][2] + v[2] * r[2][2]);
+}
+
+static inline void ellipsoid_surface_to_lab(const ellipsoid_surface *body,
+                                            const double v[3],
+                                            double result[3])
+{
+    const double(*r)[3] = body->rotation;
+
+    ellipsoid_set(result, ellipsoid_dot(r[0], v), ellipsoid_dot(r[1], v),
+                  ellipsoid_dot(r[2], v));
+}
+
 /* Adds a force [N, lab] at the point `arm` [m, body] and its torque. */
 static inline void ellipsoid_add_force_at(const double arm[3], double r[3][3],
                                           const double force[3],

@@ -28,7 +28,7 @@ static void find_contacts(const ellipsoid_bead *bead,
                           const ellipsoid_candidates *from, contacts *all,
                           double *gap, ellipsoid_contact *report)
 {
-    const double r = bead->radius, felt = r + bead->adhesion_range;
+    const double r = bead->radius, felt = r + bead->laws->range;
     contact found, behind = {.height = -r};
     double clear = r;
     int surface = 0, inside = 0;
@@ -145,36 +145,32 @@ static void add_mixed(const contacts *all, const mix *m, double sign,
 static void combine(const ellipsoid_bead *bead, contacts *all, int derivatives,
                     ellipsoid_point_force *push, ellipsoid_point_force *pull)
 {
-    const int adheres = bead->adhesion > 0;
     mix m; /* large: set where it is read */
 
-    m.count = adheres ? overlapping_first(all, bead->radius) : all->count;
-    for (int i = 0; i < all->count; i++)
+    for (int n = 0; n < bead->laws->count; n++)
     {
-        set_turning(&all->at[i], m.turn[i]);
-    }
-    for (int law = 0; law <= adheres; law++)
-    {
+        const ellipsoid_contact_law *law = &bead->laws->law[n];
+        const double sign = law->attractive ? -1 : 1;
+
+        m.count = nearest_first(all, bead->radius + law->range);
         for (int i = 0; i < m.count; i++)
         {
-            const double gap = all->at[i].height - bead->radius;
-            double slope;
+            const contact *c = &all->at[i];
+            const ellipsoid_normal_force f =
+                ellipsoid_contact_normal_force(law, c->height - bead->radius);
 
-            m.force[i].value =
-                law == 0 ? push_at(bead->stiffness, gap, &slope)
-                         : pull_at(bead->adhesion, bead->adhesion_range, gap,
-                                   &slope);
+            set_turning(c, m.turn[i]);
+            m.force[i].value = sign * f.force;
             for (int k = 0; k < 3; k++)
             {
-                m.force[i].gradient[k] = slope * all->at[i].normal[k];
+                m.force[i].gradient[k] = sign * f.slope * c->normal[k];
             }
         }
         if (m.count > 0)
         {
-            add_mixed(all, &m, law == 0 ? 1 : -1, derivatives,
-                      law == 0 ? push : pull);
+            add_mixed(all, &m, sign, derivatives,
+                      law->attractive ? pull : push);
         }
-        m.count = all->count;
     }
 }
 
@@ -201,7 +197,9 @@ int ellipsoid_bead_force(const double centre[3], double radius,
                          double force_x[3][3])
 {
     const ellipsoid_candidates from = {facets, index, count};
-    ellipsoid_bead bead = {.radius = radius, .stiffness = stiffness};
+    const ellipsoid_wall_laws laws = {
+        .count = 1, .law = {ellipsoid_hertz_law(stiffness)}};
+    ellipsoid_bead bead = {.radius = radius, .laws = &laws};
     ellipsoid_point_force push = {.force = {0, 0, 0}}, pull;
     double gap = 0;
     int contacts;

@@ -10,13 +10,8 @@
 #ifndef ELLIPSOID_CONTACT_H
 #define ELLIPSOID_CONTACT_H
 
+#include "contact/contactLaw.h"
 #include "walls/walls.h"
-
-/* How far beyond its surface a cell feels the walls [m]. */
-static inline double ellipsoid_adhesion_reach(const ellipsoid_options *o)
-{
-    return o->adhesion > 0 ? o->adhesion_range : 0;
-}
 
 /* Does a cell touch anything there? */
 static inline int ellipsoid_in_contact(const ellipsoid_contact *contact)
@@ -31,9 +26,7 @@ typedef struct ellipsoid_bead
 {
     double centre[3]; /* [m] */
     double radius;    /* [m] */
-    double stiffness; /* [N/m^1.5] 4/3 E* sqrt(r_b) */
-    double adhesion;  /* [N] pull-off force, 0: none */
-    double adhesion_range; /* [m] beyond the surface, 0 without adhesion */
+    const ellipsoid_wall_laws *laws;
 } ellipsoid_bead;
 
 /* A force on a bead [N], and its derivative by the bead's centre [N/m]. */
@@ -283,7 +276,7 @@ typedef struct ellipsoid_pair_contact
     const ellipsoid_body *a, *b;
     const ellipsoid_state *state_a, *state_b; /* read where they rub, and for
                                                  derivatives of exact contact */
-    double stiffness;                         /* [N/m^1.5] 4/3 E* sqrt(R) */
+    ellipsoid_contact_law normal_law;
     ellipsoid_friction_law law;
     int rubs;
     double gap;   /* [m] the smallest found */
@@ -291,10 +284,6 @@ typedef struct ellipsoid_pair_contact
     int derivatives;
     ellipsoid_pair_wrench *of_a, *of_b;
 } ellipsoid_pair_contact;
-
-/* 4/3 E* sqrt(R) of two bodies [N/m^1.5]. */
-double ellipsoid_pair_stiffness(const ellipsoid_options *a,
-                                const ellipsoid_options *b);
 
 /* Gap and, where they are in contact, the wrenches and their derivatives, of
    the beads that are listed (pairContact.c). */

@@ -325,27 +325,8 @@ static void mix_forces(const contacts *all, const mix *m,
     }
 }
 
-/* Hertz's law at a gap < 0, and its slope by the gap. */
-static double push_at(double stiffness, double gap, double *slope)
-{
-    const double root = stiffness * sqrt(-gap);
-
-    *slope = -1.5 * root;
-    return root * -gap;
-}
-
-/* The pull of adhesion at a gap below its range: whole where there is overlap,
-   from there to the range a cubic without kinks. */
-static double pull_at(double adhesion, double range, double gap, double *slope)
-{
-    const double t = fmax(0, gap / range), left = 1 - t;
-
-    *slope = -6 * adhesion / range * t * left;
-    return adhesion * left * left * (1 + 2 * t);
-}
-
-/* Puts the contacts lower than `touching` first; returns how many. */
-static int overlapping_first(contacts *all, double touching)
+/* Puts the contacts lower than `height` first; returns how many. */
+static int nearest_first(contacts *all, double height)
 {
     int count = 0;
 
@@ -353,7 +334,7 @@ static int overlapping_first(contacts *all, double touching)
     {
         const contact found = all->at[i];
 
-        if (found.height < touching)
+        if (found.height < height)
         {
             memmove(&all->at[count + 1], &all->at[count],
                     (size_t)(i - count) * sizeof found);

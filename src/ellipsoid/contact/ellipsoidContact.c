@@ -286,49 +286,47 @@ static void add_mixed(const contacts *all, const mix *m, double sign,
 }
 
 /* Friction and damping go with the push: adhesion pulls as it does. */
-static void combine(const ellipsoid_model *model, contacts *all,
+static void combine(const ellipsoid_model *model,
+                    const ellipsoid_wall_laws *laws, contacts *all,
                     int derivatives, ellipsoid_surface_push *push,
                     ellipsoid_wrench *sum)
 {
-    const ellipsoid_options *o = &model->options;
     const ellipsoid_surface *body = push->body[0];
     const ellipsoid_friction_law rough = ellipsoid_friction_law_of(model);
-    const int adheres = o->adhesion > 0;
-    const double stiffness =
-        4.0 / 3 * o->contact_modulus * sqrt(o->bead_radius);
     mix m; /* large: set where it is read */
 
     m.width = body->smallest;
-    m.apart = o->bead_radius;
-    m.count = adheres ? overlapping_first(all, 0) : all->count;
+    m.apart = model->options.bead_radius;
     for (int i = 0; i < all->count && (derivatives || all->count > 1); i++)
     {
         ellipsoid_surface_derivatives(body, &all->at[i]);
-        memcpy(m.turn[i], all->at[i].normal_slope, sizeof m.turn[i]);
     }
-    for (int law = 0; law <= adheres; law++)
+    for (int n = 0; n < laws->count; n++)
     {
+        const ellipsoid_contact_law *law = &laws->law[n];
+        const double sign = law->attractive ? -1 : 1;
+
+        m.count = nearest_first(all, law->range);
         for (int i = 0; i < m.count; i++)
         {
             const contact *c = &all->at[i];
-            double slope;
+            const ellipsoid_normal_force f =
+                ellipsoid_contact_normal_force(law, c->height);
 
-            m.force[i].value = law == 0
-                ? push_at(stiffness, c->height, &slope)
-                : pull_at(o->adhesion, o->adhesion_range, c->height, &slope);
+            memcpy(m.turn[i], c->normal_slope, sizeof m.turn[i]);
+            m.force[i].value = sign * f.force;
             for (int k = 0; k < VARIABLES; k++)
             {
                 m.force[i].gradient[k] =
-                    derivatives ? slope * c->height_slope[k] : 0;
+                    derivatives ? sign * f.slope * c->height_slope[k] : 0;
             }
         }
         if (m.count > 0)
         {
-            add_mixed(all, &m, law == 0 ? 1 : -1,
-                      law == 0 && model->dissipative ? &rough : NULL,
+            add_mixed(all, &m, sign,
+                      !law->attractive && model->dissipative ? &rough : NULL,
                       derivatives, push, sum);
         }
-        m.count = all->count;
     }
 }
 
@@ -343,9 +341,11 @@ ellipsoid_surface_contact_add(const ellipsoid_model *model,
     const ellipsoid_options *o = &model->options;
     ellipsoid_contact_jacobian *const by[2] = {jacobian, NULL};
     ellipsoid_surface body;
+    ellipsoid_wall_laws laws;
     contacts all;
     double moved;
 
+    ellipsoid_wall_laws_set(&laws, o);
     ellipsoid_surface_set(o->semi_axes, state->x, state->q, &body);
 
     const ellipsoid_status status = ellipsoid_facet_cache_update(
@@ -356,8 +356,7 @@ ellipsoid_surface_contact_add(const ellipsoid_model *model,
         const ellipsoid_candidates from = {cache->facets, cache->facet,
                                            cache->first[1]};
 
-        find_contacts(&body, &from, ellipsoid_adhesion_reach(o),
-                      &all, contact);
+        find_contacts(&body, &from, laws.range, &all, contact);
         contact->deepest = fmax(0, -contact->gap);
         contact->touching_beads = all.count > 0;
         if (all.count > 0)
@@ -366,7 +365,7 @@ ellipsoid_surface_contact_add(const ellipsoid_model *model,
                 .bodies = 1, .body = {&body}, .state = {state}};
             ellipsoid_wrench sum = {.force = {0, 0, 0}};
 
-            combine(model, &all, jacobian != NULL, &push, &sum);
+            combine(model, &laws, &all, jacobian != NULL, &push, &sum);
             ellipsoid_wrench_report(&push, &sum, 0, contact->force,
                                    contact->torque, jacobian ? by : NULL);
         }

@@ -34,7 +34,7 @@ typedef struct support
 static void set_support(const ellipsoid_surface *body, const double n[3],
                         support *s)
 {
-    const double(*shape)[3] = (const double(*)[3])body->shape;
+    const double(*shape)[3] = body->shape;
     double stretched[3];
 
     for (int i = 0; i < 3; i++)

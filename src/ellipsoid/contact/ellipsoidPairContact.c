@@ -32,10 +32,12 @@ double ellipsoid_surface_gap(const ellipsoid_body *a, const ellipsoid_body *b)
 }
 
 /* Both are held in the middle between the points on their surfaces. */
-static void set_push(const ellipsoid_surface_pair *pair, double stiffness,
-                     int derivatives, ellipsoid_surface_push *p)
+static void set_push(const ellipsoid_surface_pair *pair,
+                     const ellipsoid_contact_law *law, int derivatives,
+                     ellipsoid_surface_push *p)
 {
-    const double root = stiffness * sqrt(pair->depth);
+    const ellipsoid_normal_force f =
+        ellipsoid_contact_normal_force(law, -pair->depth);
     double line[3]; /* from b's centre to a's */
 
     ellipsoid_difference(p->body[0]->centre, p->body[1]->centre, line);
@@ -43,7 +45,7 @@ static void set_push(const ellipsoid_surface_pair *pair, double stiffness,
     {
         const double sum = pair->point_a[i] + pair->point_b[i];
 
-        p->push[i] = root * pair->depth * pair->normal[i];
+        p->push[i] = f.force * pair->normal[i];
         p->point[0][i] = 0.5 * (sum - line[i]);
         p->point[1][i] = 0.5 * (sum + line[i]);
         for (int k = 0; derivatives && k < ELLIPSOID_PAIR_VARIABLES; k++)
@@ -52,8 +54,9 @@ static void set_push(const ellipsoid_surface_pair *pair, double stiffness,
                 pair->point_a_slope[i][k] + pair->point_b_slope[i][k];
 
             p->push_slope[k][i] =
-                root * (1.5 * pair->depth_slope[k] * pair->normal[i]
-                        + pair->depth * pair->normal_slope[i][k]);
+                f.secant
+                * (f.exponent * pair->depth_slope[k] * pair->normal[i]
+                   + pair->depth * pair->normal_slope[i][k]);
             p->point_slope[0][k][i] = 0.5 * (change - (k == i));
             p->point_slope[1][k][i] = 0.5 * (change + (k == i));
         }
@@ -81,7 +84,7 @@ void ellipsoid_surface_pair_contact(ellipsoid_pair_contact *m)
     ellipsoid_wrench sum = {.force = {0, 0, 0}};
 
     m->touching = 1;
-    set_push(&pair, m->stiffness, m->derivatives, &push);
+    set_push(&pair, &m->normal_law, m->derivatives, &push);
     ellipsoid_wrench_add(&push, m->rubs ? &m->law : NULL, m->derivatives,
                              &sum);
     for (int k = 0; k < 2; k++)

@@ -16,37 +16,26 @@
 
 /* ------------------------------------------------------- beads that touch */
 
-double ellipsoid_pair_stiffness(const ellipsoid_options *a,
-                                const ellipsoid_options *b)
-{
-    const double radius =
-        a->bead_radius * b->bead_radius / (a->bead_radius + b->bead_radius);
-    const double modulus = a->contact_modulus * b->contact_modulus
-                         / (a->contact_modulus + b->contact_modulus);
-
-    return 4.0 / 3 * modulus * sqrt(radius);
-}
-
 /* The force on a's bead, `line` from b's bead and `distance` long, and its
    derivative by the bead's centre; by that of b's it is the negative. */
-static void push_apart(const ellipsoid_pair_contact *m, const double line[3],
-                       double distance, double depth, double force[3],
-                       double force_x[3][3])
+static void set_normal_force(const ellipsoid_contact_law *law,
+                             const double line[3], double distance, double gap,
+                             double force[3], double force_x[3][3])
 {
-    const double root = m->stiffness * sqrt(depth), size = root * depth;
+    const ellipsoid_normal_force f = ellipsoid_contact_normal_force(law, gap);
     double n[3];
 
     for (int i = 0; i < 3; i++)
     {
         n[i] = line[i] / distance;
-        force[i] = size * n[i];
+        force[i] = f.force * n[i];
     }
     for (int i = 0; i < 3; i++)
     {
         for (int j = 0; j < 3; j++)
         {
-            force_x[i][j] = size / distance * ((i == j) - n[i] * n[j])
-                          - 1.5 * root * n[i] * n[j];
+            force_x[i][j] = f.force / distance * ((i == j) - n[i] * n[j])
+                          + f.slope * n[i] * n[j];
         }
     }
 }
@@ -152,7 +141,8 @@ static inline void meet(ellipsoid_pair_contact *m, const double line[3], int bea
     {
         double force[3], force_x[3][3];
 
-        push_apart(m, between, distance, both - distance, force, force_x);
+        set_normal_force(&m->normal_law, between, distance, distance - both,
+                         force, force_x);
         if (m->touching++ == 0)
         {
             begin_side(m, m->of_a);
@@ -207,6 +197,7 @@ double ellipsoid_cell_gap(const ellipsoid_model *a, const double x_a[3],
     ellipsoid_pair_wrench felt_by_a, felt_by_b;
     ellipsoid_pair_contact m = {.a = &of_a,
                            .b = &of_b,
+                           .normal_law = ellipsoid_pair_law(&a->options, &b->options),
                            .gap = horizon,
                            .of_a = &felt_by_a,
                            .of_b = &felt_by_b};

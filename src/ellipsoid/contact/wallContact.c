@@ -47,14 +47,10 @@ static void add_bead(const ellipsoid_model *model, const ellipsoid_state *state,
 
 /* A bead in the pose (x, R) */
 static ellipsoid_bead placed(const ellipsoid_model *model, int b,
-                             const double x[3], double r[3][3])
+                             const double x[3], double r[3][3],
+                             const ellipsoid_wall_laws *laws)
 {
-    const double radius = model->options.bead_radius;
-    ellipsoid_bead bead = {
-        .radius = radius,
-        .stiffness = 4.0 / 3 * model->options.contact_modulus * sqrt(radius),
-        .adhesion = model->options.adhesion,
-        .adhesion_range = ellipsoid_adhesion_reach(&model->options)};
+    ellipsoid_bead bead = {.radius = model->options.bead_radius, .laws = laws};
 
     for (int i = 0; i < 3; i++)
     {
@@ -76,10 +72,11 @@ static void sum_beads(const ellipsoid_model *model,
 {
     /* the bounds are rounded too */
     const double away = moved + 1e-9 * model->options.bead_radius;
-    const double felt = ellipsoid_adhesion_reach(&model->options);
+    ellipsoid_wall_laws laws;
     ellipsoid_point_force push, pull;
     double r[3][3];
 
+    ellipsoid_wall_laws_set(&laws, &model->options);
     ellipsoid_rotation_inline(state->q, r);
     for (int round = 0; round < 2 && contact->gap > 0; round++)
     {
@@ -91,13 +88,13 @@ static void sum_beads(const ellipsoid_model *model,
                 cache->facets, cache->facet + cache->first[b],
                 cache->first[b + 1] - cache->first[b]};
 
-            if (round == 0 ? clear > felt
-                           : clear <= felt || clear >= contact->gap)
+            if (round == 0 ? clear > laws.range
+                           : clear <= laws.range || clear >= contact->gap)
             {
                 continue;
             }
 
-            const ellipsoid_bead bead = placed(model, b, state->x, r);
+            const ellipsoid_bead bead = placed(model, b, state->x, r, &laws);
 
             if (ellipsoid_bead_contact(&bead, &from, &contact->gap,
                                      jacobian != NULL, &push, &pull, contact)

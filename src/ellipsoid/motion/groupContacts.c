@@ -122,7 +122,7 @@ static ellipsoid_status add_pair(ellipsoid_group *g, ellipsoid_evaluation *point
         .b = ellipsoid_placed_body(g, points, b),
         .state_a = &points[a].state,
         .state_b = &points[b].state,
-        .stiffness = ellipsoid_pair_stiffness(of_a, of_b),
+        .normal_law = ellipsoid_pair_law(of_a, of_b),
         .law = law,
         .rubs = law.friction > 0 || law.damping > 0,
         .gap = ellipsoid_pair_horizon(g->cell[a].model, g->cell[b].model),

@@ -38,17 +38,16 @@ static const double tiny = 1e-18, least = 1e-9;
 static double support_at(const ellipsoid_surface *body, const double n[3],
                          double p[3])
 {
-    double (*r)[3] = (double (*)[3])body->rotation;
     double along[3], far[3], h;
 
-    ellipsoid_combination(r, n[0], n[1], n[2], along);
+    ellipsoid_surface_to_body(body, n, along);
     for (int i = 0; i < 3; i++)
     {
         along[i] *= body->axes[i];
         far[i] = along[i] * body->axes[i];
     }
     h = ellipsoid_length(along);
-    ellipsoid_product(r, far, p);
+    ellipsoid_surface_to_lab(body, far, p);
     for (int i = 0; i < 3; i++)
     {
         p[i] /= h;
@@ -133,12 +132,11 @@ static void meet_plane(const ellipsoid_surface *body, const double n[3],
 static void meet_point(const ellipsoid_surface *body, const double d[3],
                        ellipsoid_surface_contact *c)
 {
-    double (*r)[3] = (double (*)[3])body->rotation;
     double along[3], v[3];
 
-    ellipsoid_combination(r, d[0], d[1], d[2], along);
+    ellipsoid_surface_to_body(body, d, along);
     nearest_normal(3, body->axes, along, v);
-    ellipsoid_product(r, v, c->normal);
+    ellipsoid_surface_to_lab(body, v, c->normal);
     c->feature = ELLIPSOID_ON_VERTEX;
     complete(body, d, c);
 }
@@ -148,14 +146,13 @@ static void meet_point(const ellipsoid_surface *body, const double d[3],
 static void meet_line(const ellipsoid_surface *body, const double d[3],
                       const double across[3], ellipsoid_surface_contact *c)
 {
-    double (*r)[3] = (double (*)[3])body->rotation;
     double t[2][3], l[2][3], area[3], axes[2], in_axes[2], v[2];
 
     ellipsoid_copy(across, t[0]);
     ellipsoid_cross(c->edge, across, t[1]);
     for (int n = 0; n < 2; n++)
     {
-        ellipsoid_combination(r, t[n][0], t[n][1], t[n][2], l[n]);
+        ellipsoid_surface_to_body(body, t[n], l[n]);
         for (int i = 0; i < 3; i++)
         {
             l[n][i] *= body->axes[i];
@@ -231,10 +228,9 @@ static int nearest_vertex(const ellipsoid_facet *facet,
 static int side_of_face(const ellipsoid_surface *body,
                         const ellipsoid_surface_contact *c)
 {
-    double (*r)[3] = (double (*)[3])body->rotation;
     double along[3], inverse = 0;
 
-    ellipsoid_combination(r, c->normal[0], c->normal[1], c->normal[2], along);
+    ellipsoid_surface_to_body(body, c->normal, along);
     for (int i = 0; i < 3; i++)
     {
         along[i] /= body->axes[i];

@@ -73,7 +73,6 @@ static double distance_squared(double p[3][3])
 int ellipsoid_surface_cuts(const ellipsoid_facet *facet,
                          const ellipsoid_surface *body)
 {
-    double (*r)[3] = (double (*)[3])body->rotation;
     double p[3][3];
 
     /* Where the ellipsoid is the unit sphere, distances tell */
@@ -82,7 +81,7 @@ int ellipsoid_surface_cuts(const ellipsoid_facet *facet,
         double d[3];
 
         ellipsoid_difference(facet->vertex[k], body->centre, d);
-        ellipsoid_combination(r, d[0], d[1], d[2], p[k]);
+        ellipsoid_surface_to_body(body, d, p[k]);
         for (int i = 0; i < 3; ++i)
         {
             p[k][i] /= body->axes[i];
