@@ -66,7 +66,8 @@ static void test_hertz(void **unused)
 static void test_adhesion(void **unused)
 {
     const double pull = 0.7, range = 0.5;
-    const ellipsoid_contact_law law = ellipsoid_adhesion_law(pull, range);
+    const ellipsoid_options o = {.adhesion = pull, .adhesion_range = range};
+    const ellipsoid_contact_law law = ellipsoid_adhesion_at_wall(&o);
 
     (void)unused;
     assert_true(law.range == range && law.attractive);

@@ -145,21 +145,26 @@ static void add_mixed(const contacts *all, const mix *m, double sign,
 static void combine(const ellipsoid_bead *bead, contacts *all, int derivatives,
                     ellipsoid_point_force *push, ellipsoid_point_force *pull)
 {
+    int count[ELLIPSOID_LAW_COUNT];
     mix m; /* large: set where it is read */
 
+    order_by_range(all, bead->laws, bead->radius, count);
+    for (int i = 0; i < all->count; i++)
+    {
+        set_turning(&all->at[i], m.turn[i]);
+    }
     for (int n = 0; n < bead->laws->count; n++)
     {
         const ellipsoid_contact_law *law = &bead->laws->law[n];
         const double sign = law->attractive ? -1 : 1;
 
-        m.count = nearest_first(all, bead->radius + law->range);
+        m.count = count[n];
         for (int i = 0; i < m.count; i++)
         {
             const contact *c = &all->at[i];
             const ellipsoid_normal_force f =
                 ellipsoid_contact_normal_force(law, c->height - bead->radius);
 
-            set_turning(c, m.turn[i]);
             m.force[i].value = sign * f.force;
             for (int k = 0; k < 3; k++)
             {

@@ -325,23 +325,39 @@ static void mix_forces(const contacts *all, const mix *m,
     }
 }
 
-/* Puts the contacts lower than `height` first; returns how many. */
+/* Moves the contacts below a height to the front; returns how many. */
 static int nearest_first(contacts *all, double height)
 {
     int count = 0;
 
     for (int i = 0; i < all->count; i++)
     {
-        const contact found = all->at[i];
-
-        if (found.height < height)
+        if (!(all->at[i].height < height))
         {
+            continue;
+        }
+        if (i > count)
+        {
+            const contact found = all->at[i];
+
             memmove(&all->at[count + 1], &all->at[count],
                     (size_t)(i - count) * sizeof found);
-            all->at[count++] = found;
+            all->at[count] = found;
         }
+        count++;
     }
     return count;
+}
+
+/* Puts the contacts in range of each law before the others; count[n] are in
+   that of the n-th. A body's surface is at a height of `radius`. */
+static void order_by_range(contacts *all, const ellipsoid_wall_laws *laws,
+                           double radius, int count[ELLIPSOID_LAW_COUNT])
+{
+    for (int n = 0; n < laws->count; n++)
+    {
+        count[n] = nearest_first(all, radius + laws->law[n].range);
+    }
 }
 
 #endif

@@ -293,27 +293,29 @@ static void combine(const ellipsoid_model *model,
 {
     const ellipsoid_surface *body = push->body[0];
     const ellipsoid_friction_law rough = ellipsoid_friction_law_of(model);
+    int count[ELLIPSOID_LAW_COUNT];
     mix m; /* large: set where it is read */
 
+    order_by_range(all, laws, 0, count);
     m.width = body->smallest;
     m.apart = model->options.bead_radius;
     for (int i = 0; i < all->count && (derivatives || all->count > 1); i++)
     {
         ellipsoid_surface_derivatives(body, &all->at[i]);
+        memcpy(m.turn[i], all->at[i].normal_slope, sizeof m.turn[i]);
     }
     for (int n = 0; n < laws->count; n++)
     {
         const ellipsoid_contact_law *law = &laws->law[n];
         const double sign = law->attractive ? -1 : 1;
 
-        m.count = nearest_first(all, law->range);
+        m.count = count[n];
         for (int i = 0; i < m.count; i++)
         {
             const contact *c = &all->at[i];
             const ellipsoid_normal_force f =
                 ellipsoid_contact_normal_force(law, c->height);
 
-            memcpy(m.turn[i], c->normal_slope, sizeof m.turn[i]);
             m.force[i].value = sign * f.force;
             for (int k = 0; k < VARIABLES; k++)
             {
