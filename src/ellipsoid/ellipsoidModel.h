@@ -9,9 +9,18 @@
 #ifndef ELLIPSOID_MODEL_H
 #define ELLIPSOID_MODEL_H
 
+#include <stddef.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* A minor version adds, a major one may change what is declared here and in
+   ellipsoid.h (semver.org; below 1.0 any may). */
+#define ELLIPSOID_VERSION_MAJOR 0
+#define ELLIPSOID_VERSION_MINOR 1
+#define ELLIPSOID_VERSION_PATCH 0
+#define ELLIPSOID_VERSION "0.1.0"
 
 /* -------------------------------------------------------------- status */
 
@@ -41,130 +50,73 @@ const char *ellipsoid_status_text(ellipsoid_status status);
 
 /* ------------------------------------------------------------- options */
 
-/* What meets the walls. */
-typedef enum ellipsoid_contact_shape
-{
-    ELLIPSOID_CONTACT_BEADS,    /* beads on the surface, as in the paper */
-    ELLIPSOID_CONTACT_ELLIPSOID /* the ellipsoid itself */
-} ellipsoid_contact_shape;
-
-/* How the surface beads are laid out (docs/theory.md, "Contact"). */
-typedef enum ellipsoid_bead_layout
-{
-    ELLIPSOID_BEADS_STAGGERED, /* centres on the ellipsoid shrunk by r_b */
-    ELLIPSOID_BEADS_PAPER,     /* the paper's, literally, without duplicates */
-    ELLIPSOID_BEADS_SURFACE    /* staggered, centres on the ellipsoid */
-} ellipsoid_bead_layout;
-
-/* The undisturbed flow's force on the fluid the body displaces. */
-typedef enum ellipsoid_pressure_gradient
-{
-    ELLIPSOID_PRESSURE_NONE,
-    ELLIPSOID_PRESSURE_DUDT, /* m_f (u_f . grad) u_f */
-    ELLIPSOID_PRESSURE_GRADP /* -V grad p, for comparison only */
-} ellipsoid_pressure_gradient;
-
-/* Which equations are solved. */
-typedef enum ellipsoid_motion
-{
-    ELLIPSOID_MOTION_INERTIAL,   /* thirteen: paper eqs. (1)-(4) */
-    ELLIPSOID_MOTION_INERTIALESS /* seven: u and omega balance the forces */
-} ellipsoid_motion;
-
-/* Where the body meets the undisturbed flow. */
-typedef enum ellipsoid_flow_at
-{
-    ELLIPSOID_FLOW_CENTRE, /* velocity and gradient there, as in the paper */
-    ELLIPSOID_FLOW_BODY    /* velocity over the surface: Brenner (1964) */
-} ellipsoid_flow_at;
-
-/* What the resistance knows of walls (docs/theory.md, "Near walls"). */
-typedef enum ellipsoid_wall_resistance
-{
-    ELLIPSOID_WALL_RESISTANCE_NONE, /* that of the free body, as in the paper */
-    ELLIPSOID_WALL_RESISTANCE_PLANE /* planes at the walls' nearest places */
-} ellipsoid_wall_resistance;
+/*
+    The enumerations among the options: ellipsoid_motion, ellipsoid_flow_at,
+    ellipsoid_wall_resistance, ellipsoid_pressure_gradient,
+    ellipsoid_contact_shape, ellipsoid_bead_layout. options.def says what each
+    enumerator means.
+*/
+#define ELLIPSOID_WORDS(member, words)                                         \
+    typedef enum ellipsoid_##member { words } ellipsoid_##member;
+#define ELLIPSOID_WORD(enumerator, word, meaning) enumerator,
+#include "options.def"
 
 #define ELLIPSOID_MAX_FLOW_POINTS 50
 #define ELLIPSOID_MAX_BEADS 256
 
 /*
     Everything that says what body moves in what fluid under which forces.
-    Copyable; start from ellipsoid_options_default().
+    Copyable; start from ellipsoid_options_default(). options.def has the
+    members, each with its unit, default, range, meaning and frame.
 */
 typedef struct ellipsoid_options
 {
-    /* body */
-    double semi_axes[3]; /* [m] along x^1, x^2, x^3; (0.5, 2, 0.5)e-6 */
-    double density;      /* [kg/m3] 1040 */
-
-    /* fluid */
-    double fluid_density;       /* [kg/m3] 997.5 */
-    double kinematic_viscosity; /* [m2/s] 1e-6 */
-
-    /* equations */
-    ellipsoid_motion motion; /* INERTIAL; INERTIALESS needs drag */
-
-    /* forces */
-    int drag;         /* hydrodynamic force and torque, 1 */
-    ellipsoid_flow_at flow_at; /* CENTRE */
-    int flow_points;  /* of FLOW_BODY, 26; 6, 14, 26 or 50: exact for flows
-                         that are polynomials of degree 3, 5, 7 or 11 (force),
-                         one less (torque) */
-    ellipsoid_wall_resistance wall_resistance; /* NONE; PLANE needs drag, and
-                                                  no Brownian motion */
-    double lubrication_gap; /* [m] smallest gap of lubrication, 20e-9; 1e-15 to
-                               1e3 */
-    double wall_range; /* [m] beyond which walls do not resist, fully within
-                          half of it; 10e-6; from the largest semi-axis to
-                          1e6 */
-    int buoyancy;     /* (m_p - m_f) g, 1 */
-    ellipsoid_pressure_gradient pressure_gradient; /* DUDT */
-    double gravity[3];         /* [m/s2] lab, (0, 0, -9.81) */
-    double external_force[3];  /* [N] lab, 0 */
-    double external_torque[3]; /* [N m] body, 0 */
-    double charge;             /* [C] effective charge: F_E = charge E, 0 */
-    double dipole[3];          /* [C m] body: T_E = dipole x E, 0 */
-    double electric_field[3];  /* [V/m] lab, uniform E, 0; added to that of the
-                                  surroundings */
-
-    /* Brownian motion; needs drag */
-    int brownian;          /* random force and torque, 0 */
-    double temperature;    /* [K] 298.15; 0 to 1e5 */
-    double noise_interval; /* [s] over which they are constant in the body
-                              frame; 1e-3; 1e-15 to 1e6 */
-
-    /* contact */
-    int contact;              /* with wall facets, 1 */
-    ellipsoid_contact_shape contact_shape; /* BEADS */
-    ellipsoid_bead_layout bead_layout; /* STAGGERED */
-    int bead_count;           /* 32; 1 to ELLIPSOID_MAX_BEADS */
-    double bead_radius;       /* [m] 0.285e-6; below the smallest semi-axis */
-    double contact_modulus;   /* [Pa] effective modulus E*, 1e6 */
-    double friction;          /* [-] Coulomb's coefficient, 0 to 100; 0 */
-    double slip_speed;        /* [m/s] below which friction yields, 1e-5 */
-    double contact_damping;   /* [s/m] Hunt and Crossley's factor, 0:
-                                 restitution is 1 less this times the speed of
-                                 impact */
-    double adhesion;          /* [N] pull-off force of a contact, 0: none */
-    double adhesion_range;    /* [m] beyond which it does not pull, 20e-9; up
-                                 to bead_radius */
-
-    /* integrator */
-    double tolerance;    /* [-] local error: x against the largest semi-axis,
-                            q against 1; 1e-6; 1e-14 to 1e-1 */
-    double initial_step; /* [s] first step of a fresh controller; 0, which is
-                            the default: it is chosen */
-    double minimum_step; /* [s] 1e-18 */
-    double maximum_step; /* [s] 1 */
-    long maximum_steps;  /* per call of ellipsoid_advance, 10000000 */
+#define ELLIPSOID_REAL(member, ...) double member;
+#define ELLIPSOID_VECTOR(member, ...) double member[3];
+#define ELLIPSOID_WHOLE(member, ...) int member;
+#define ELLIPSOID_SWITCH(member, ...) int member;
+#define ELLIPSOID_CHOICE(member, ...) ellipsoid_##member member;
+#include "options.def"
 } ellipsoid_options;
 
 ellipsoid_options ellipsoid_options_default(void);
 
+/* What kind of member an option is. */
+typedef enum ellipsoid_option_type
+{
+    ELLIPSOID_OPTION_REAL,   /* double */
+    ELLIPSOID_OPTION_VECTOR, /* double[3] */
+    ELLIPSOID_OPTION_WHOLE,  /* int */
+    ELLIPSOID_OPTION_SWITCH, /* int, 0 or 1 */
+    ELLIPSOID_OPTION_CHOICE  /* enumeration, 0 to the number of words less 1 */
+} ellipsoid_option_type;
+
+/* What options.def says of one option. */
+typedef struct ellipsoid_option
+{
+    ellipsoid_option_type type;
+    size_t offset;            /* [bytes] of the member in ellipsoid_options */
+    const char *member;       /* its name */
+    const char *section;      /* of the dictionary; "" at its top */
+    const char *entry;        /* keyword in that section */
+    const char *unit;         /* "" for none */
+    const char *default_text; /* as options.def writes it */
+    const char *range;        /* text of what is allowed */
+    const char *meaning;
+    const char *const *words; /* of a CHOICE, ends with NULL; else NULL */
+    double low, high;         /* ends of the range, of each component */
+    int above;                /* 1: low itself is not allowed */
+    int related;              /* 1: other options narrow the range */
+    int needs; /* the range matters unless this option of the list is 0; or -1 */
+} ellipsoid_option;
+
+/* All options in the order of options.def. */
+const ellipsoid_option *ellipsoid_option_list(int *count);
+
 /*
     OK or BAD_OPTION. On BAD_OPTION, *field names the member at fault and
-    *range its allowed range (static strings; both pointers may be NULL).
+    *range what is allowed, in the words of the dictionary (static strings;
+    both pointers may be NULL).
 */
 ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
                                          const char **field,

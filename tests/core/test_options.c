@@ -90,6 +90,95 @@ static void test_faults_are_named(void **unused)
     assert_refused(maximum_steps, 0, "maximum_steps");
 }
 
+/* Where a member of the options is, for its type. */
+static void set_member(const ellipsoid_option *option, int component,
+                       double value, ellipsoid_options *options)
+{
+    char *member = (char *)options + option->offset;
+    const int whole = (int)value;
+
+    if (option->type == ELLIPSOID_OPTION_REAL
+        || option->type == ELLIPSOID_OPTION_VECTOR)
+    {
+        memcpy(member + (size_t)component * sizeof value, &value, sizeof value);
+    }
+    else
+    {
+        memcpy(member, &whole, sizeof whole);
+    }
+}
+
+static int is_whole(const ellipsoid_option *option)
+{
+    return option->type != ELLIPSOID_OPTION_REAL
+        && option->type != ELLIPSOID_OPTION_VECTOR;
+}
+
+/* One option at a value, where its range matters: accepted, or refused by its
+   own name. */
+static void check_value(const ellipsoid_option *list,
+                        const ellipsoid_option *option, double value,
+                        int accepted)
+{
+    const int count = option->type == ELLIPSOID_OPTION_VECTOR ? 3 : 1;
+
+    for (int i = 0; i < count; i++)
+    {
+        ellipsoid_options options = ellipsoid_options_default();
+        const char *field = "none", *range = "none";
+        ellipsoid_status status;
+
+        /* a cell of any size that has no beads */
+        options.contact = strcmp(option->member, "semi_axes") != 0;
+        for (int n = option->needs; n >= 0; n = list[n].needs)
+        {
+            set_member(&list[n], 0, 1, &options);
+        }
+        set_member(option, i, value, &options);
+        status = ellipsoid_options_check(&options, &field, &range);
+        assert_string_equal(field, accepted ? "none" : option->member);
+        assert_string_equal(range, accepted ? "none" : option->range);
+        assert_int_equal(status,
+                         accepted ? ELLIPSOID_OK : ELLIPSOID_BAD_OPTION);
+    }
+}
+
+/* The ends of the ranges of options.def, and what is just beyond them. Where
+   another option narrows a range, only what is beyond. */
+static void test_ends_of_ranges(void **unused)
+{
+    int count = 0;
+    const ellipsoid_option *list = ellipsoid_option_list(&count);
+
+    (void)unused;
+    assert_true(count > 30);
+    for (const ellipsoid_option *o = list; o < list + count; o++)
+    {
+        const int whole = is_whole(o);
+
+        check_value(list, o,
+                     whole ? o->low - 1 : nextafter(o->low, -HUGE_VAL), 0);
+        if (!o->related)
+        {
+            check_value(list, o, o->low, !o->above);
+        }
+        if (o->high < 1e300)
+        {
+            check_value(list, o,
+                         whole ? o->high + 1 : nextafter(o->high, HUGE_VAL), 0);
+        }
+        if (o->high < 1e300 && !o->related)
+        {
+            check_value(list, o, o->high, 1);
+        }
+        if (!whole)
+        {
+            check_value(list, o, NAN, 0);
+            check_value(list, o, HUGE_VAL, 0);
+        }
+    }
+}
+
 /* The range of adhesion matters where there is adhesion. */
 static void test_adhesion_range(void **unused)
 {
@@ -138,12 +227,12 @@ static void test_near_walls(void **unused)
                      ELLIPSOID_BAD_OPTION);
     assert_string_equal(field, "wall_resistance");
     assert_string_equal(
-        range, "NONE with Brownian motion: the drift kT div M is not there");
+        range, "none with Brownian motion: the drift kT div M is not there");
     options.brownian = options.drag = 0;
     assert_int_equal(ellipsoid_options_check(&options, &field, &range),
                      ELLIPSOID_BAD_OPTION);
     assert_string_equal(field, "wall_resistance");
-    assert_string_equal(range, "NONE without drag");
+    assert_string_equal(range, "none without drag");
 }
 
 /* Contact members do not matter where there is no contact. */
@@ -235,6 +324,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_default_is_accepted),
         cmocka_unit_test(test_faults_are_named),
+        cmocka_unit_test(test_ends_of_ranges),
         cmocka_unit_test(test_adhesion_range),
         cmocka_unit_test(test_near_walls),
         cmocka_unit_test(test_contact_off),

@@ -211,67 +211,57 @@ ellipsoid_options fuzz_options(fuzz_input *in)
     return o;
 }
 
-void fuzz_wild_options(fuzz_input *in, ellipsoid_options *o)
+/* At an end of the range of options.def or just beyond, in it, or any number */
+static double wild_value(fuzz_input *in, const ellipsoid_option *option)
 {
-    double *const numbers[] = {
-        &o->semi_axes[0],       &o->semi_axes[1],
-        &o->semi_axes[2],       &o->density,
-        &o->fluid_density,      &o->kinematic_viscosity,
-        &o->gravity[0],         &o->gravity[2],
-        &o->external_force[1],  &o->external_torque[2],
-        &o->charge,             &o->dipole[0],
-        &o->electric_field[1],  &o->temperature,
-        &o->noise_interval,     &o->bead_radius,
-        &o->contact_modulus,    &o->tolerance,
-        &o->initial_step,       &o->minimum_step,
-        &o->maximum_step,       &o->friction,
-        &o->slip_speed,         &o->contact_damping,
-        &o->adhesion,           &o->adhesion_range};
-    int *const integers[] = {&o->drag,     &o->flow_points, &o->buoyancy,
-                             &o->brownian, &o->contact,     &o->bead_count};
-    static const int known[] = {0,   1,   2,   32,      50,      51,     256,
-                                257, -1,  -2,  INT_MAX, INT_MIN, 1 << 30};
+    const double low = option->low, high = option->high;
+    const int is_whole = option->type != ELLIPSOID_OPTION_REAL
+                      && option->type != ELLIPSOID_OPTION_VECTOR;
+
+    switch (fuzz_choice(in, 8))
+    {
+        case 0: return low;
+        case 1: return high;
+        case 2: return is_whole ? low - 1 : nextafter(low, -HUGE_VAL);
+        case 3: return is_whole ? high + 1 : nextafter(high, HUGE_VAL);
+        case 4: return fuzz_wild(in);
+        default: return low > 0 ? fuzz_scaled(in, low, high)
+                                : fuzz_between(in, low, high);
+    }
+}
+
+static int to_int(double value)
+{
+    return value >= INT_MAX ? INT_MAX : value > INT_MIN ? (int)value : INT_MIN;
+}
+
+void fuzz_wild_options(fuzz_input *in, ellipsoid_options *options)
+{
+    int count = 0;
+    const ellipsoid_option *list = ellipsoid_option_list(&count);
     const int changes = 1 + fuzz_choice(in, 4);
 
     for (int n = 0; n < changes; n++)
     {
-        const int which = fuzz_choice(in, 39);
+        const ellipsoid_option *option = &list[fuzz_choice(in, count)];
+        const double value = wild_value(in, option);
+        const int whole = to_int(value);
+        char *member = (char *)options + option->offset;
 
-        if (which < 26)
+        switch (option->type)
         {
-            /* within the ranges' ends, or anything */
-            *numbers[which] = fuzz_choice(in, 2) ? fuzz_wild(in)
-                                                 : fuzz_scaled(in, 1e-20, 1e20);
-        }
-        else if (which < 32)
-        {
-            *integers[which - 26] = known[fuzz_choice(in, 13)];
-        }
-        else if (which == 32)
-        {
-            o->maximum_steps = (long)fuzz_bits(in, 8) % 24;
-        }
-        else
-        {
-            /* what C lets an enumeration hold */
-            const int value = known[fuzz_choice(in, 13)];
-
-            switch (which % 6)
-            {
-                case 0: o->motion = (ellipsoid_motion)value; break;
-                case 1: o->flow_at = (ellipsoid_flow_at)value; break;
-                case 2: o->bead_layout = (ellipsoid_bead_layout)value; break;
-                case 3:
-                    o->contact_shape = (ellipsoid_contact_shape)value;
-                    break;
-                case 4:
-                    o->wall_resistance = (ellipsoid_wall_resistance)value;
-                    break;
-                default:
-                    o->pressure_gradient = (ellipsoid_pressure_gradient)value;
-            }
+            case ELLIPSOID_OPTION_VECTOR:
+                member += (size_t)fuzz_choice(in, 3) * sizeof value;
+                memcpy(member, &value, sizeof value);
+                break;
+            case ELLIPSOID_OPTION_REAL:
+                memcpy(member, &value, sizeof value);
+                break;
+            default: memcpy(member, &whole, sizeof whole);
         }
     }
+    /* bounds the time that one input takes */
+    options->maximum_steps %= 24;
 }
 
 void fuzz_state(fuzz_input *in, double length, double speed,

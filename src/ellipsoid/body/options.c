@@ -3,57 +3,105 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    options.c - defaults (here and nowhere else) and their checker.
+    options.c - what options.def says as defaults, list and check; relations
+    between options; options of a cell of another size.
 */
 #include "ellipsoid.h"
 
+#include <float.h>
 #include <math.h>
+
+/* ------------------------------------------------------------ defaults */
+
+#define BRACES(...) {__VA_ARGS__}
 
 ellipsoid_options ellipsoid_options_default(void)
 {
     const ellipsoid_options options = {
-        .semi_axes = {0.5e-6, 2e-6, 0.5e-6},
-        .density = 1040,
-        .fluid_density = 997.5,
-        .kinematic_viscosity = 1e-6,
-        .motion = ELLIPSOID_MOTION_INERTIAL,
-        .drag = 1,
-        .flow_at = ELLIPSOID_FLOW_CENTRE,
-        .flow_points = 26,
-        .wall_resistance = ELLIPSOID_WALL_RESISTANCE_NONE,
-        .lubrication_gap = 20e-9,
-        .wall_range = 10e-6,
-        .buoyancy = 1,
-        .pressure_gradient = ELLIPSOID_PRESSURE_DUDT,
-        .gravity = {0, 0, -9.81},
-        .external_force = {0, 0, 0},
-        .external_torque = {0, 0, 0},
-        .charge = 0,
-        .dipole = {0, 0, 0},
-        .electric_field = {0, 0, 0},
-        .brownian = 0,
-        .temperature = 298.15,
-        .noise_interval = 1e-3,
-        .contact = 1,
-        .contact_shape = ELLIPSOID_CONTACT_BEADS,
-        .bead_layout = ELLIPSOID_BEADS_STAGGERED,
-        .bead_count = 32,
-        .bead_radius = 0.285e-6,
-        .contact_modulus = 1e6,
-        .friction = 0,
-        .slip_speed = 1e-5,
-        .contact_damping = 0,
-        .adhesion = 0,
-        .adhesion_range = 20e-9,
-        .tolerance = 1e-6,
-        .initial_step = 0,
-        .minimum_step = 1e-18,
-        .maximum_step = 1,
-        .maximum_steps = 10000000,
+#define ELLIPSOID_REAL(member, section, entry, deflt, ...)               \
+    .member = deflt,
+#define ELLIPSOID_VECTOR(member, section, entry, deflt, ...)             \
+    .member = BRACES deflt,
+#define ELLIPSOID_WHOLE(member, section, entry, deflt, ...)              \
+    .member = deflt,
+#define ELLIPSOID_SWITCH(member, section, entry, deflt, ...) .member = deflt,
+#define ELLIPSOID_CHOICE(member, section, entry, deflt, ...) .member = deflt,
+#include "options.def"
     };
 
     return options;
 }
+
+/* ---------------------------------------------------------------- list */
+
+/* INDEX_friction, ...: places in the list */
+enum
+{
+#define ELLIPSOID_REAL(member, ...) INDEX_##member,
+#define ELLIPSOID_VECTOR(member, ...) INDEX_##member,
+#define ELLIPSOID_WHOLE(member, ...) INDEX_##member,
+#define ELLIPSOID_SWITCH(member, ...) INDEX_##member,
+#define ELLIPSOID_CHOICE(member, ...) INDEX_##member,
+#include "options.def"
+    OPTION_COUNT
+};
+
+/* words_motion[], ...: the words of the enumerators; allowed_motion[]: all of
+   them, each after a comma and a blank */
+#define ELLIPSOID_WORDS(member, words)                                         \
+    static const char *const words_##member[] = {words NULL};
+#define ELLIPSOID_WORD(enumerator, word, meaning) word,
+#include "options.def"
+#define ELLIPSOID_WORDS(member, words)                                         \
+    static const char allowed_##member[] = words;
+#define ELLIPSOID_WORD(enumerator, word, meaning) ", " word
+#include "options.def"
+
+#define ALWAYS -1
+#define WITH(other) INDEX_##other
+
+#define WITHIN(from, to, si)                                                   \
+    .low = from, .high = to, .unit = si, .range = TEXT(#from " to " #to, si)
+#define ABOVE(from, si)                                                        \
+    .low = from, .high = DBL_MAX, .above = 1, .unit = si,                      \
+    .range = TEXT("above " #from, si)
+#define FROM(from, si)                                                         \
+    .low = from, .high = DBL_MAX, .unit = si, .range = TEXT(#from " or more", si)
+#define RELATED(from, to, si, text)                                            \
+    .low = from, .high = to, .related = 1, .unit = si, .range = text
+#define TEXT(text, si) sizeof si > 1 ? text " " si : text
+
+#define OPTION(kind, name, in, keyword, deflt, about)                          \
+    .type = ELLIPSOID_OPTION_##kind,                                           \
+    .offset = offsetof(ellipsoid_options, name), .member = #name,              \
+    .section = in, .entry = keyword, .default_text = deflt, .meaning = about
+
+_Static_assert(ELLIPSOID_MAX_BEADS == 256, "the range of bead_count says 256");
+
+static const ellipsoid_option list[OPTION_COUNT] = {
+#define ELLIPSOID_REAL(name, in, keyword, deflt, limits, with, about)          \
+    {OPTION(REAL, name, in, keyword, #deflt, about), .needs = with, limits},
+#define ELLIPSOID_VECTOR(name, in, keyword, deflt, limits, with, about)        \
+    {OPTION(VECTOR, name, in, keyword, #deflt, about), .needs = with, limits},
+#define ELLIPSOID_WHOLE(name, in, keyword, deflt, limits, with, about)         \
+    {OPTION(WHOLE, name, in, keyword, #deflt, about), .needs = with, limits},
+#define ELLIPSOID_SWITCH(name, in, keyword, deflt, about)                      \
+    {OPTION(SWITCH, name, in, keyword, #deflt, about), .needs = ALWAYS,        \
+     WITHIN(0, 1, "")},
+#define ELLIPSOID_CHOICE(name, in, keyword, deflt, about)                      \
+    {OPTION(CHOICE, name, in, keyword, #deflt, about), .needs = ALWAYS,        \
+     .words = words_##name, .unit = "", .range = &allowed_##name[2],           \
+     .high = sizeof words_##name / sizeof *words_##name - 2},
+#include "options.def"
+};
+
+const ellipsoid_option *ellipsoid_option_list(int *count)
+{
+    *count = OPTION_COUNT;
+    return list;
+}
+
+/* --------------------------------------------------------------- check */
 
 /* Where a member was found at fault, if any yet. */
 typedef struct verdict
@@ -62,163 +110,110 @@ typedef struct verdict
 } verdict;
 
 /* NaN fails every comparison, hence the form: require what must be true. */
-static void require(verdict *v, int holds, const char *field, const char *range)
+static void require(verdict *v, int holds, int index, const char *range)
 {
     if (!holds && !v->field)
     {
-        v->field = field;
-        v->range = range;
+        v->field = list[index].member;
+        v->range = range ? range : list[index].range;
     }
 }
 
-static int within(double value, double low, double high)
+/* A component of a member, as a number */
+static double number(const ellipsoid_options *o, int index, int component)
 {
-    return value >= low && value <= high;
-}
+    const char *member = (const char *)o + list[index].offset;
 
-static int all_within(const double value[3], double low, double high)
-{
-    return within(value[0], low, high) && within(value[1], low, high)
-        && within(value[2], low, high);
-}
-
-static int is_switch(int value) { return value == 0 || value == 1; }
-
-/* The ranges keep every derived quantity a normal, finite number. */
-static void check_body_and_fluid(verdict *v, const ellipsoid_options *o)
-{
-    require(v, all_within(o->semi_axes, 1e-12, 1e3), "semi_axes",
-            "1e-12 to 1e3 m");
-    require(v, within(o->density, 1e-12, 1e12), "density",
-            "1e-12 to 1e12 kg/m3");
-    require(v, within(o->fluid_density, 1e-12, 1e12), "fluid_density",
-            "1e-12 to 1e12 kg/m3");
-    require(v, within(o->kinematic_viscosity, 1e-15, 1e12),
-            "kinematic_viscosity", "1e-15 to 1e12 m2/s");
-}
-
-static void check_equations(verdict *v, const ellipsoid_options *o)
-{
-    const int points = o->flow_points;
-
-    require(v,
-            o->motion == ELLIPSOID_MOTION_INERTIAL
-                || o->motion == ELLIPSOID_MOTION_INERTIALESS,
-            "motion", "INERTIAL or INERTIALESS");
-    require(v, is_switch(o->drag), "drag", "0 or 1");
-    require(v, o->drag || o->motion != ELLIPSOID_MOTION_INERTIALESS, "drag",
-            "1 with motion INERTIALESS");
-    require(v,
-            o->flow_at == ELLIPSOID_FLOW_CENTRE
-                || o->flow_at == ELLIPSOID_FLOW_BODY,
-            "flow_at", "CENTRE or BODY");
-    require(v, points == 6 || points == 14 || points == 26 || points == 50,
-            "flow_points", "6, 14, 26 or 50");
-    require(v, is_switch(o->buoyancy), "buoyancy", "0 or 1");
-    require(v,
-            o->pressure_gradient == ELLIPSOID_PRESSURE_NONE
-                || o->pressure_gradient == ELLIPSOID_PRESSURE_DUDT
-                || o->pressure_gradient == ELLIPSOID_PRESSURE_GRADP,
-            "pressure_gradient", "NONE, DUDT or GRADP");
-    require(v, all_within(o->gravity, -1e30, 1e30), "gravity", "-1e30 to 1e30");
-    require(v, all_within(o->external_force, -1e30, 1e30), "external_force",
-            "-1e30 to 1e30");
-    require(v, all_within(o->external_torque, -1e30, 1e30), "external_torque",
-            "-1e30 to 1e30");
-    require(v, within(o->charge, -1e30, 1e30), "charge", "-1e30 to 1e30");
-    require(v, all_within(o->dipole, -1e30, 1e30), "dipole", "-1e30 to 1e30");
-    require(v, all_within(o->electric_field, -1e30, 1e30), "electric_field",
-            "-1e30 to 1e30");
-}
-
-static void check_brownian(verdict *v, const ellipsoid_options *o)
-{
-    require(v, is_switch(o->brownian), "brownian", "0 or 1");
-    require(v, o->drag || !o->brownian, "brownian", "0 without drag");
-    require(v, within(o->temperature, 0, 1e5), "temperature", "0 to 1e5 K");
-    require(v, within(o->noise_interval, 1e-15, 1e6), "noise_interval",
-            "1e-15 to 1e6 s");
-}
-
-static void check_near_walls(verdict *v, const ellipsoid_options *o)
-{
-    const double *a = o->semi_axes;
-    const double largest = fmax(a[0], fmax(a[1], a[2]));
-
-    require(v,
-            o->wall_resistance == ELLIPSOID_WALL_RESISTANCE_NONE
-                || o->wall_resistance == ELLIPSOID_WALL_RESISTANCE_PLANE,
-            "wall_resistance", "NONE or PLANE");
-    if (o->wall_resistance == ELLIPSOID_WALL_RESISTANCE_NONE)
+    switch (list[index].type)
     {
-        return;
+        case ELLIPSOID_OPTION_REAL:
+        case ELLIPSOID_OPTION_VECTOR:
+            return ((const double *)(const void *)member)[component];
+        default:
+            return *(const int *)(const void *)member;
     }
-    require(v, o->drag, "wall_resistance", "NONE without drag");
-    require(v, !o->brownian, "wall_resistance",
-            "NONE with Brownian motion: the drift kT div M is not there");
-    require(v, within(o->lubrication_gap, 1e-15, 1e3), "lubrication_gap",
-            "1e-15 to 1e3 m");
-    require(v, within(o->wall_range, largest, 1e6), "wall_range",
-            "the largest semi-axis to 1e6 m");
 }
 
-static void check_contact(verdict *v, const ellipsoid_options *o)
+/* Does what the option belongs to act at all? */
+static int matters(const ellipsoid_options *o, int index)
+{
+    while ((index = list[index].needs) != ALWAYS)
+    {
+        if (number(o, index, 0) == 0)
+        {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* The ranges of the list; they keep every derived quantity a normal, finite
+   number. */
+static void check_ranges(verdict *v, const ellipsoid_options *o)
+{
+    for (int index = 0; index < OPTION_COUNT; index++)
+    {
+        const ellipsoid_option *option = &list[index];
+        const int count = option->type == ELLIPSOID_OPTION_VECTOR ? 3 : 1;
+
+        for (int i = 0; matters(o, index) && i < count; i++)
+        {
+            const double value = number(o, index, i);
+
+            require(v,
+                    value >= option->low && value <= option->high
+                        && !(option->above && value == option->low),
+                    index, NULL);
+        }
+    }
+}
+
+/* What holds between several options. */
+static void check_drag(verdict *v, const ellipsoid_options *o)
+{
+    const int is_plane = o->wall_resistance != ELLIPSOID_WALL_RESISTANCE_NONE;
+
+    require(v, o->drag || o->motion != ELLIPSOID_MOTION_INERTIALESS, INDEX_drag,
+            "yes with motion inertialess");
+    require(v, o->drag || !o->brownian, INDEX_brownian, "no without drag");
+    require(v, o->drag || !is_plane, INDEX_wall_resistance,
+            "none without drag");
+    require(v, !o->brownian || !is_plane, INDEX_wall_resistance,
+            "none with Brownian motion: the drift kT div M is not there");
+}
+
+static void check_relations(verdict *v, const ellipsoid_options *o)
 {
     const double *a = o->semi_axes;
     const double smallest = fmin(a[0], fmin(a[1], a[2]));
+    const double largest = fmax(a[0], fmax(a[1], a[2]));
+    const int points = o->flow_points;
+    double bead[ELLIPSOID_MAX_BEADS][3];
 
-    require(v, is_switch(o->contact), "contact", "0 or 1");
-    if (!o->contact)
-    {
-        return;
-    }
+    check_drag(v, o);
+    require(v, points == 6 || points == 14 || points == 26 || points == 50,
+            INDEX_flow_points, NULL);
+    require(v, !matters(o, INDEX_wall_range) || o->wall_range >= largest,
+            INDEX_wall_range, NULL);
     require(v,
-            o->contact_shape == ELLIPSOID_CONTACT_BEADS
-                || o->contact_shape == ELLIPSOID_CONTACT_ELLIPSOID,
-            "contact_shape", "BEADS or ELLIPSOID");
+            !matters(o, INDEX_bead_radius)
+                || (o->bead_radius > 0 && o->bead_radius < smallest),
+            INDEX_bead_radius, NULL);
     require(v,
-            o->bead_layout == ELLIPSOID_BEADS_STAGGERED
-                || o->bead_layout == ELLIPSOID_BEADS_PAPER
-                || o->bead_layout == ELLIPSOID_BEADS_SURFACE,
-            "bead_layout", "STAGGERED, PAPER or SURFACE");
-    require(v, o->bead_count >= 1 && o->bead_count <= ELLIPSOID_MAX_BEADS,
-            "bead_count", "1 to 256");
-    require(v, o->bead_radius > 0 && o->bead_radius < smallest, "bead_radius",
-            "above 0, below the smallest semi-axis");
-    require(v, within(o->contact_modulus, 1e-12, 1e15), "contact_modulus",
-            "1e-12 to 1e15 Pa");
-    require(v, within(o->friction, 0, 100), "friction", "0 to 100");
-    require(v, within(o->slip_speed, 1e-15, 1e3), "slip_speed",
-            "1e-15 to 1e3 m/s");
-    require(v, within(o->contact_damping, 0, 1e12), "contact_damping",
-            "0 to 1e12 s/m");
-    require(v, within(o->adhesion, 0, 1e30), "adhesion", "0 to 1e30 N");
-    require(v,
-            o->adhesion == 0
-                || within(o->adhesion_range, 1e-6 * o->bead_radius,
-                          o->bead_radius),
-            "adhesion_range", "1e-6 to 1 times the bead radius");
-    if (!v->field)
-    {
-        double bead[ELLIPSOID_MAX_BEADS][3];
-
-        require(v, ellipsoid_beads(o, bead) > 0, "bead_count",
-                "one the layout allows: 2 + 3 n, or 1; 32 for PAPER");
-    }
-}
-
-static void check_integrator(verdict *v, const ellipsoid_options *o)
-{
-    require(v, within(o->tolerance, 1e-14, 1e-1), "tolerance", "1e-14 to 1e-1");
-    require(v, o->minimum_step > 0 && isfinite(o->minimum_step), "minimum_step",
-            "above 0 s");
-    require(v, o->maximum_step >= o->minimum_step && isfinite(o->maximum_step),
-            "maximum_step", "minimum_step or more, finite");
+            !matters(o, INDEX_adhesion_range)
+                || (o->adhesion_range >= 1e-6 * o->bead_radius
+                    && o->adhesion_range <= o->bead_radius),
+            INDEX_adhesion_range, NULL);
+    require(v, o->maximum_step >= o->minimum_step, INDEX_maximum_step, NULL);
     require(v,
             o->initial_step == 0
-                || within(o->initial_step, o->minimum_step, o->maximum_step),
-            "initial_step", "minimum_step to maximum_step, or 0");
-    require(v, o->maximum_steps >= 1, "maximum_steps", "1 or more");
+                || (o->initial_step >= o->minimum_step
+                    && o->initial_step <= o->maximum_step),
+            INDEX_initial_step, NULL);
+    if (!v->field && matters(o, INDEX_bead_count))
+    {
+        require(v, ellipsoid_beads(o, bead) > 0, INDEX_bead_count, NULL);
+    }
 }
 
 ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
@@ -226,12 +221,8 @@ ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
 {
     verdict v = {NULL, NULL};
 
-    check_body_and_fluid(&v, options);
-    check_equations(&v, options);
-    check_brownian(&v, options);
-    check_near_walls(&v, options);
-    check_contact(&v, options);
-    check_integrator(&v, options);
+    check_ranges(&v, options);
+    check_relations(&v, options);
 
     if (!v.field)
     {
@@ -247,6 +238,8 @@ ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
     }
     return ELLIPSOID_BAD_OPTION;
 }
+
+/* ------------------------------------------------------------- resized */
 
 /* Half the line of the beads' centres, in their radii. */
 static double line_in_radii(const ellipsoid_options *o)

@@ -9,83 +9,157 @@ License
 \*---------------------------------------------------------------------------*/
 #include "ellipsoidProperties.H"
 #include "electricField.H"
-#include "readViscosity.H"
 #include "Switch.H"
 
 #include <algorithm>
-
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
-
-const Foam::Enum<ellipsoid_contact_shape>
-Foam::ellipsoidProperties::shapeNames_
-({
-    { ELLIPSOID_CONTACT_BEADS, "beads" },
-    { ELLIPSOID_CONTACT_ELLIPSOID, "ellipsoid" }
-});
-
-
-const Foam::Enum<ellipsoid_bead_layout>
-Foam::ellipsoidProperties::layoutNames_
-({
-    { ELLIPSOID_BEADS_STAGGERED, "staggered" },
-    { ELLIPSOID_BEADS_PAPER, "paper" },
-    { ELLIPSOID_BEADS_SURFACE, "surface" }
-});
-
-
-const Foam::Enum<ellipsoid_motion>
-Foam::ellipsoidProperties::motionNames_
-({
-    { ELLIPSOID_MOTION_INERTIAL, "inertial" },
-    { ELLIPSOID_MOTION_INERTIALESS, "inertialess" }
-});
-
-
-const Foam::Enum<ellipsoid_flow_at>
-Foam::ellipsoidProperties::flowAtNames_
-({
-    { ELLIPSOID_FLOW_CENTRE, "centre" },
-    { ELLIPSOID_FLOW_BODY, "body" }
-});
-
-
-const Foam::Enum<ellipsoid_wall_resistance>
-Foam::ellipsoidProperties::wallResistanceNames_
-({
-    { ELLIPSOID_WALL_RESISTANCE_NONE, "none" },
-    { ELLIPSOID_WALL_RESISTANCE_PLANE, "plane" }
-});
-
-
-const Foam::Enum<ellipsoid_pressure_gradient>
-Foam::ellipsoidProperties::pressureGradientNames_
-({
-    { ELLIPSOID_PRESSURE_NONE, "none" },
-    { ELLIPSOID_PRESSURE_DUDT, "DuDt" },
-    { ELLIPSOID_PRESSURE_GRADP, "gradp" }
-});
-
+#include <cstring>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
-    //- Read a vector over its default
-    static void readVector
+    //- The core's list of options
+    struct coreOptions
+    {
+        int size;
+        const ellipsoid_option* first;
+
+        coreOptions()
+        :
+            size(0),
+            first(ellipsoid_option_list(&size))
+        {}
+
+        const ellipsoid_option* begin() const
+        {
+            return first;
+        }
+
+        const ellipsoid_option* end() const
+        {
+            return first + size;
+        }
+    };
+
+    //- What options.def says of a member
+    static const ellipsoid_option& optionOf(const char* member)
+    {
+        const coreOptions all;
+
+        return *std::find_if
+        (
+            all.begin(),
+            all.end(),
+            [=](const ellipsoid_option& option)
+            {
+                return std::strcmp(option.member, member) == 0;
+            }
+        );
+    }
+
+    //- An option as the user knows it
+    static string nameOf(const ellipsoid_option& option)
+    {
+        const string section(option.section);
+
+        return section.empty() ? option.entry : section + '/' + option.entry;
+    }
+
+    //- The keywords of a section, or with an empty name those of the top
+    static wordList keywordsOf(const word& section)
+    {
+        // What the layer reads beside the options of the core
+        static const HashTable<wordList> others
+        ({
+            {
+                "",
+                {
+                    "interpolation", "seed", "injection", "capture", "tracks",
+                    "unreached"
+                }
+            },
+            {"cell", {"sizes"}},
+            {"contact", {"cells"}}
+        });
+
+        wordList allowed(others.lookup(section, wordList()));
+
+        for (const ellipsoid_option& option : coreOptions())
+        {
+            const word in(option.section);
+
+            if (in == section)
+            {
+                allowed.append(option.entry);
+            }
+            else if
+            (
+                section.empty()
+             && in != "transportProperties"
+             && !allowed.found(in)
+            )
+            {
+                allowed.append(in);
+            }
+        }
+
+        return allowed;
+    }
+
+    //- Read an entry into a member of the options
+    static void readMember
     (
         const dictionary& dict,
-        const word& keyword,
-        double value[3]
+        const ellipsoid_option& option,
+        void* member
     )
     {
-        const vector v
-        (
-            dict.getOrDefault
-            (
-                keyword, vector(value[0], value[1], value[2])
-            )
-        );
-        std::copy_n(v.v_, 3, value);
+        const word keyword(option.entry);
+        int value = 0;
+
+        switch (option.type)
+        {
+            case ELLIPSOID_OPTION_REAL:
+                *static_cast<double*>(member) = dict.get<scalar>(keyword);
+                return;
+
+            case ELLIPSOID_OPTION_VECTOR:
+                std::copy_n
+                (
+                    dict.get<vector>(keyword).v_,
+                    3,
+                    static_cast<double*>(member)
+                );
+                return;
+
+            case ELLIPSOID_OPTION_WHOLE:
+                value = dict.get<int>(keyword);
+                break;
+
+            case ELLIPSOID_OPTION_SWITCH:
+                value = dict.get<Switch>(keyword);
+                break;
+
+            case ELLIPSOID_OPTION_CHOICE:
+                while
+                (
+                    option.words[value]
+                 && dict.get<word>(keyword) != option.words[value]
+                )
+                {
+                    ++value;
+                }
+                if (!option.words[value])
+                {
+                    ellipsoidProperties::refuse
+                    (
+                        dict, keyword, nameOf(option), option.range
+                    );
+                }
+                break;
+        }
+
+        std::memcpy(member, &value, sizeof(value));
     }
 }
 
@@ -94,132 +168,104 @@ namespace Foam
 
 void Foam::ellipsoidProperties::readOptions()
 {
-    options_.motion =
-        motionNames_.getOrDefault("motion", *this, options_.motion);
+    const wordList keywords(keywordsOf(word::null));
+    checkKeywords(*this, keywords);
 
-    const dictionary& cell = section("cell");
-    checkKeywords(cell, {"semiAxes", "density", "sizes"});
-    readVector(cell, "semiAxes", options_.semi_axes);
-    options_.density = cell.getOrDefault("density", options_.density);
-
-    const dictionary& fluid = section("fluid");
-    checkKeywords(fluid, {"density"});
-    options_.fluid_density =
-        fluid.getOrDefault("density", options_.fluid_density);
-
-    const dictionary& forces = section("forces");
-    checkKeywords
-    (
-        forces,
-        {
-            "drag", "flow", "flowPoints", "wallResistance", "lubricationGap",
-            "wallRange", "buoyancy", "pressureGradient", "gravity",
-            "externalForce", "externalTorque", "charge", "dipole",
-            "electricField"
-        }
-    );
-    options_.drag = forces.getOrDefault("drag", Switch(options_.drag));
-    options_.flow_at =
-        flowAtNames_.getOrDefault("flow", forces, options_.flow_at);
-    options_.flow_points =
-        forces.getOrDefault("flowPoints", options_.flow_points);
-    options_.wall_resistance =
-        wallResistanceNames_.getOrDefault
-        (
-            "wallResistance", forces, options_.wall_resistance
-        );
-    options_.lubrication_gap =
-        forces.getOrDefault("lubricationGap", options_.lubrication_gap);
-    options_.wall_range =
-        forces.getOrDefault("wallRange", options_.wall_range);
-    options_.buoyancy =
-        forces.getOrDefault("buoyancy", Switch(options_.buoyancy));
-    options_.pressure_gradient =
-        pressureGradientNames_.getOrDefault
-        (
-            "pressureGradient", forces, options_.pressure_gradient
-        );
-    readVector(forces, "gravity", options_.gravity);
-    readVector(forces, "externalForce", options_.external_force);
-    readVector(forces, "externalTorque", options_.external_torque);
-    options_.charge = forces.getOrDefault("charge", options_.charge);
-    readVector(forces, "dipole", options_.dipole);
-    if (electricField::isNamed(forces))
+    for (const word& keyword : keywords)
     {
-        electricField::checkEntries(forces);
+        const wordList allowed(keywordsOf(keyword));
 
-        const double* d = options_.dipole;
-        if (options_.charge == 0 && d[0] == 0 && d[1] == 0 && d[2] == 0)
+        if (allowed.size())
         {
-            IOWarningInFunction(forces)
-                << "a field is named in electricField, but charge and dipole"
-                << " are 0: no cell will feel it" << endl;
+            checkKeywords(section(keyword), allowed);
         }
     }
-    else
+
+    for (const ellipsoid_option& option : coreOptions())
     {
-        readVector(forces, "electricField", options_.electric_field);
+        const dictionary& dict = section(option.section);
+
+        // The case may name a field in place of a uniform one
+        const bool isField =
+            word("electric_field") == option.member
+         && electricField::isNamed(dict);
+
+        if (isField)
+        {
+            electricField::checkEntries(dict);
+        }
+        else if (dict.found(option.entry))
+        {
+            readMember
+            (
+                dict,
+                option,
+                reinterpret_cast<char*>(&options_) + option.offset
+            );
+        }
     }
 
-    const dictionary& brownian = section("brownian");
-    checkKeywords(brownian, {"active", "temperature", "interval"});
-    options_.brownian =
-        brownian.getOrDefault("active", Switch(options_.brownian));
-    options_.temperature =
-        brownian.getOrDefault("temperature", options_.temperature);
-    options_.noise_interval =
-        brownian.getOrDefault("interval", options_.noise_interval);
+    const double* d = options_.dipole;
 
-    const dictionary& contact = section("contact");
-    checkKeywords
+    if
     (
-        contact,
-        {
-            "active", "cells", "shape", "beadLayout", "beads", "beadRadius",
-            "modulus", "friction", "slipSpeed", "damping", "adhesion",
-            "adhesionRange"
-        }
-    );
-    options_.contact = contact.getOrDefault("active", Switch(options_.contact));
+        electricField::isNamed(section("forces"))
+     && options_.charge == 0 && d[0] == 0 && d[1] == 0 && d[2] == 0
+    )
+    {
+        IOWarningInFunction(section("forces"))
+            << "a field is named in electricField, but charge and dipole"
+            << " are 0: it acts on no cell" << endl;
+    }
+
     pushing_ =
-        contact.getOrDefault("cells", Switch(true)) && options_.contact;
-    options_.contact_shape =
-        shapeNames_.getOrDefault("shape", contact, options_.contact_shape);
-    options_.bead_layout =
-        layoutNames_.getOrDefault("beadLayout", contact, options_.bead_layout);
-    options_.bead_count = contact.getOrDefault("beads", options_.bead_count);
-    options_.bead_radius =
-        contact.getOrDefault("beadRadius", options_.bead_radius);
-    options_.contact_modulus =
-        contact.getOrDefault("modulus", options_.contact_modulus);
-    options_.friction = contact.getOrDefault("friction", options_.friction);
-    options_.slip_speed =
-        contact.getOrDefault("slipSpeed", options_.slip_speed);
-    options_.contact_damping =
-        contact.getOrDefault("damping", options_.contact_damping);
-    options_.adhesion = contact.getOrDefault("adhesion", options_.adhesion);
-    options_.adhesion_range =
-        contact.getOrDefault("adhesionRange", options_.adhesion_range);
+        section("contact").getOrDefault("cells", Switch(true))
+     && options_.contact;
+}
 
-    const dictionary& integration = section("integration");
-    checkKeywords
-    (
-        integration,
-        {
-            "tolerance", "initialStep", "minimumStep", "maximumStep",
-            "maximumSteps"
-        }
-    );
-    options_.tolerance =
-        integration.getOrDefault("tolerance", options_.tolerance);
-    options_.initial_step =
-        integration.getOrDefault("initialStep", options_.initial_step);
-    options_.minimum_step =
-        integration.getOrDefault("minimumStep", options_.minimum_step);
-    options_.maximum_step =
-        integration.getOrDefault("maximumStep", options_.maximum_step);
-    options_.maximum_steps =
-        integration.getOrDefault("maximumSteps", label(options_.maximum_steps));
+
+void Foam::ellipsoidProperties::checkOptions() const
+{
+    const char* member = nullptr;
+    const char* range = nullptr;
+
+    if (ellipsoid_options_check(&options_, &member, &range) == ELLIPSOID_OK)
+    {
+        return;
+    }
+
+    const ellipsoid_option& option = optionOf(member);
+    const dictionary& dict = section(option.section);
+
+    if (dict.found(option.entry))
+    {
+        refuse(dict, option.entry, nameOf(option), range);
+    }
+
+    FatalIOErrorInFunction(*this)
+        << nameOf(option).c_str() << ' ' << option.default_text
+        << ", the default, is out of range" << nl
+        << "    allowed: " << range << exit(FatalIOError);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::string Foam::ellipsoidProperties::complaint
+(
+    const ellipsoid_options& options
+)
+{
+    const char* member = nullptr;
+    const char* range = nullptr;
+
+    if (ellipsoid_options_check(&options, &member, &range) == ELLIPSOID_OK)
+    {
+        return string();
+    }
+
+    return
+        nameOf(optionOf(member)) + " is out of range\n    allowed: " + range;
 }
 
 

@@ -30,101 +30,6 @@ License
 
 namespace Foam
 {
-    //- An option of the core and where it stands in the dictionary
-    struct optionEntry
-    {
-        const char* field;
-        const char* section;
-        const char* entry;
-
-        //- Where a default can be at fault beside other entries
-        double ellipsoid_options::* value;
-    };
-
-    static const optionEntry optionEntries[] =
-    {
-        { "semi_axes", "cell", "semiAxes", nullptr },
-        { "density", "cell", "density", nullptr },
-        { "fluid_density", "fluid", "density", nullptr },
-        { "drag", "forces", "drag", nullptr },
-        { "flow_points", "forces", "flowPoints", nullptr },
-        { "wall_resistance", "forces", "wallResistance", nullptr },
-        { "lubrication_gap", "forces", "lubricationGap", nullptr },
-        { "wall_range", "forces", "wallRange", &ellipsoid_options::wall_range },
-        { "charge", "forces", "charge", nullptr },
-        { "dipole", "forces", "dipole", nullptr },
-        { "electric_field", "forces", "electricField", nullptr },
-        { "gravity", "forces", "gravity", nullptr },
-        { "external_force", "forces", "externalForce", nullptr },
-        { "external_torque", "forces", "externalTorque", nullptr },
-        { "brownian", "brownian", "active", nullptr },
-        { "temperature", "brownian", "temperature", nullptr },
-        { "noise_interval", "brownian", "interval", nullptr },
-        { "contact_shape", "contact", "shape", nullptr },
-        { "bead_layout", "contact", "beadLayout", nullptr },
-        { "bead_count", "contact", "beads", nullptr },
-        {
-            "bead_radius", "contact", "beadRadius",
-            &ellipsoid_options::bead_radius
-        },
-        { "contact_modulus", "contact", "modulus", nullptr },
-        { "friction", "contact", "friction", nullptr },
-        { "slip_speed", "contact", "slipSpeed", nullptr },
-        { "contact_damping", "contact", "damping", nullptr },
-        { "adhesion", "contact", "adhesion", nullptr },
-        {
-            "adhesion_range", "contact", "adhesionRange",
-            &ellipsoid_options::adhesion_range
-        },
-        { "tolerance", "integration", "tolerance", nullptr },
-        { "initial_step", "integration", "initialStep", nullptr },
-        { "minimum_step", "integration", "minimumStep", nullptr },
-        {
-            "maximum_step", "integration", "maximumStep",
-            &ellipsoid_options::maximum_step
-        },
-        { "maximum_steps", "integration", "maximumSteps", nullptr }
-    };
-
-    //- Where an option of the core stands; null if nowhere
-    static const optionEntry* entryOf(const char* field)
-    {
-        for (const optionEntry& known : optionEntries)
-        {
-            if (word(field) == known.field)
-            {
-                return &known;
-            }
-        }
-
-        return nullptr;
-    }
-
-    //- An option as the user knows it
-    static string nameOf(const optionEntry& known)
-    {
-        return string(known.section) + '/' + known.entry;
-    }
-
-    //- A range of the core in the words of the dictionary
-    static string inWordsOfEntries(string range)
-    {
-        for (const optionEntry& known : optionEntries)
-        {
-            range.replaceAll(known.field, known.entry);
-        }
-
-        // Enumerators, and switches that are 0 or 1 in the core
-        range.replaceAll("PAPER", "paper");
-        range.replaceAll("INERTIALESS", "inertialess");
-        range.replaceAll("ELLIPSOID", "ellipsoid");
-        range.replaceAll("NONE", "none");
-        range.replaceAll("0 without", "no without");
-        range.replaceAll("1 with", "yes with");
-
-        return range;
-    }
-
     //- A value as one would write it
     template<class Type>
     static string textOf(const Type& value)
@@ -138,42 +43,6 @@ namespace Foam
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-void Foam::ellipsoidProperties::checkOptions() const
-{
-    const char* field = nullptr;
-    const char* range = nullptr;
-
-    if (ellipsoid_options_check(&options_, &field, &range) == ELLIPSOID_OK)
-    {
-        return;
-    }
-
-    if (const optionEntry* known = entryOf(field))
-    {
-        const string name(nameOf(*known));
-        const dictionary& dict = section(known->section);
-
-        if (dict.found(known->entry))
-        {
-            refuse(dict, known->entry, name, inWordsOfEntries(range));
-        }
-        if (known->value)
-        {
-            FatalIOErrorInFunction(*this)
-                << name.c_str() << ' '
-                << textOf(options_.*(known->value)).c_str()
-                << ", the default, is out of range" << nl
-                << "    allowed: " << inWordsOfEntries(range).c_str()
-                << exit(FatalIOError);
-        }
-    }
-
-    FatalIOErrorInFunction(*this)
-        << field << " is out of range" << nl << "    allowed: " << range
-        << abort(FatalIOError);
-}
-
 
 void Foam::ellipsoidProperties::checkUnreached
 (
@@ -298,16 +167,6 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
         frozenFlow::schemeNames.getOrDefault("interpolation", *this, scheme_);
     seed_ = getOrDefault<label>("seed", seed_);
 
-    checkKeywords
-    (
-        *this,
-        {
-            "interpolation", "seed", "motion", "cell", "fluid", "forces",
-            "brownian", "contact", "integration", "injection", "capture",
-            "tracks", "unreached"
-        }
-    );
-
     readOptions();
     checkOptions();
     cellPopulation::setting(section("cell"), options_);
@@ -355,27 +214,6 @@ void Foam::ellipsoidProperties::checkKeywords
                 << exit(FatalIOError);
         }
     }
-}
-
-
-Foam::string Foam::ellipsoidProperties::complaint
-(
-    const ellipsoid_options& options
-)
-{
-    const char* field = nullptr;
-    const char* range = nullptr;
-
-    if (ellipsoid_options_check(&options, &field, &range) == ELLIPSOID_OK)
-    {
-        return string();
-    }
-
-    const optionEntry* known = entryOf(field);
-
-    return
-        (known ? nameOf(*known) : string(field))
-      + " is out of range\n    allowed: " + inWordsOfEntries(range);
 }
 
 
