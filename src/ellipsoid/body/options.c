@@ -168,7 +168,7 @@ static void check_ranges(verdict *v, const ellipsoid_options *o)
     }
 }
 
-/* What holds between several options. */
+/* What needs drag, and what it does not go with. */
 static void check_drag(verdict *v, const ellipsoid_options *o)
 {
     const int is_plane = o->wall_resistance != ELLIPSOID_WALL_RESISTANCE_NONE;
@@ -182,13 +182,13 @@ static void check_drag(verdict *v, const ellipsoid_options *o)
             "none with Brownian motion: the drift kT div M is not there");
 }
 
+/* What holds between several options. */
 static void check_relations(verdict *v, const ellipsoid_options *o)
 {
     const double *a = o->semi_axes;
     const double smallest = fmin(a[0], fmin(a[1], a[2]));
     const double largest = fmax(a[0], fmax(a[1], a[2]));
     const int points = o->flow_points;
-    double bead[ELLIPSOID_MAX_BEADS][3];
 
     check_drag(v, o);
     require(v, points == 6 || points == 14 || points == 26 || points == 50,
@@ -212,6 +212,8 @@ static void check_relations(verdict *v, const ellipsoid_options *o)
             INDEX_initial_step, NULL);
     if (!v->field && matters(o, INDEX_bead_count))
     {
+        double bead[ELLIPSOID_MAX_BEADS][3];
+
         require(v, ellipsoid_beads(o, bead) > 0, INDEX_bead_count, NULL);
     }
 }
