@@ -36,6 +36,36 @@ same_flow()     # CASE OTHER
     cp "$tap_folder/$2"/0/{U,p,phi} 0/ || exit
 }
 
+# Takes a copy of a case. MAKER makes it, once for all test files: Alltest says where.
+shared_case()   # CASE MAKER
+(
+    store=${ELLIPSOID_TEST_CASES:-$tap_folder/shared}/$1
+    mkdir -p "$store" && exec 9>> "$store.lock" && flock 9 || exit
+    if [ ! -e "$store/$1/made" ]; then
+        (tap_folder=$store; "$2" "$1" && touch made) || exit
+    fi
+    cp -a "$store"/* "$tap_folder"
+)
+
+# The circular trap on its quick mesh, with few cells, up to the end
+make_trap()     # CASE
+{
+    rm -rf "${tap_folder:?}/$1"
+    new_case "$1" "$tutorials/circularTrap"
+    set_entry constant/ellipsoidCloudProperties number 80
+    set_entry constant/ellipsoidCloudProperties duration 2
+    set_entry system/controlDict endTime 2.2
+    ./Allrun -quick -noPictures
+}
+
+# The channel with one sieve, and its flow
+make_sieve()    # CASE
+{
+    rm -rf "${tap_folder:?}/$1"
+    new_case "$1" "$tutorials/singleSieve"
+    blockMesh > log.blockMesh && solve_flow
+}
+
 # Gives an entry that stands on a line of its own another value
 set_entry()     # FILE ENTRY VALUE
 {
