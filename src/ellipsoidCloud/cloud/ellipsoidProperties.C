@@ -21,10 +21,6 @@ License
 #include "stringListOps.H"
 #include "wedgePolyPatch.H"
 #include "Time.H"
-#include "Switch.H"
-
-#include <algorithm>
-#include <cmath>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
