@@ -38,14 +38,19 @@ same_flow()     # CASE OTHER
 
 # Takes a copy of a case. MAKER makes it, once for all test files: Alltest says where.
 shared_case()   # CASE MAKER
-(
-    store=${ELLIPSOID_TEST_CASES:-$tap_folder/shared}/$1
-    mkdir -p "$store" && exec 9>> "$store.lock" && flock 9 || exit
-    if [ ! -e "$store/$1/made" ]; then
-        (tap_folder=$store; "$2" "$1" && touch made) || exit
-    fi
-    cp -a "$store"/* "$tap_folder"
-)
+{
+    local folder=${ELLIPSOID_TEST_CASES:-$tap_folder/shared}/$1
+    mkdir -p "$folder" && make_once "$folder" "$@" && cp -a "$folder"/* "$tap_folder"
+}
+
+make_once()     # FOLDER CASE MAKER
+{
+    local tap_folder=$1
+    (
+        exec 9>> "$1.lock" && flock 9 || exit
+        if [ ! -e "$1/$2/made" ]; then "$3" "$2" && touch made; fi
+    )
+}
 
 # The circular trap on its quick mesh, with few cells, up to the end
 make_trap()     # CASE
