@@ -31,7 +31,6 @@ License
 #include "StringStream.H"
 #include "surfaceInterpolate.H"
 #include "atomicWrite.H"
-#include "fullPrecision.H"
 #include "checkpoint.H"
 
 #include <cmath>
@@ -478,13 +477,12 @@ void Foam::steadyFlow::solve()
 
 void Foam::steadyFlow::write()
 {
-    const fullPrecision digits;
     const word& instance = mesh_.time().timeName();
 
-    leaveNote(unfinishedFile(instance));
-    writeWhole(phi_);
-    writeWhole(p_);
-    writeWhole(U_);
+    atomicWrite(unfinishedFile(instance), "Not all of the flow is written\n");
+    atomicWrite(phi_);
+    atomicWrite(p_);
+    atomicWrite(U_);
     label all = 1;
     reduce(all, sumOp<label>());
     rm(unfinishedFile(instance));

@@ -12,24 +12,26 @@ License
 #include "atomicWrite.H"
 #include "argList.H"
 #include "cloud.H"
-#include "IFstream.H"
 #include "OSspecific.H"
 #include "polyMesh.H"
 #include "PstreamReduceOps.H"
 #include "SHA1.H"
-#include "SortableList.H"
 #include "StringStream.H"
 #include "Time.H"
+
+#include <set>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
+    //- A time directory: value and name
+    typedef std::pair<scalar, word> namedTime;
+
     //- All ranks have come so far
     static void meet()
     {
-        label all = 1;
-        reduce(all, sumOp<label>());
+        returnReduce(true, andOp<bool>());
     }
 
     //- Do ranks share files?
@@ -42,74 +44,102 @@ namespace Foam
     template<class Type>
     static void addTo(SHA1& digest, const UList<Type>& list)
     {
-        digest.append
-        (
-            reinterpret_cast<const char*>(list.cdata()),
-            list.size()*sizeof(Type)
-        );
+        const void* bytes = list.cdata();
+        digest.append(static_cast<const char*>(bytes), list.byteSize());
     }
 
-    //- Is the run to go on from the latest time there is?
+    //- A dictionary of that text; the name is for messages
+    static dictionary parsed(const string& text, const fileName& name)
+    {
+        IStringStream is(text);
+        is.name() = name;
+        return dictionary(is);
+    }
+
+    //- Is the run to go on from the latest time there is? Collective
     static bool fromLatestTime(const argList& args)
     {
-        bool latest = false;
-
+        // What is wrong with the file the Time will say
+        string text;
         if (Pstream::master())
         {
-            IFstream is
+            text = textOf
             (
                 args.rootPath()/args.globalCaseName()/"system"/"controlDict"
             );
-
-            // What is wrong with it the Time will say
-            latest =
-                is.good()
-             && dictionary(is).getOrDefault<word>("startFrom", "latestTime")
-             == "latestTime";
         }
-        Pstream::scatter(latest);
+        Pstream::scatter(text);
 
-        return latest;
+        return
+            !text.empty()
+         && parsed(text, "controlDict").getOrDefault<word>
+            (
+                "startFrom", "latestTime"
+            ) == "latestTime";
     }
 
-    //- Names of the time directories of all ranks, in ascending order
-    static wordList timeNames(const fileName& path)
+    //- The time directories of all ranks, in ascending order; collective
+    static std::set<namedTime> allTimes(const fileName& path)
     {
-        List<wordList> all(Pstream::nProcs());
+        List<wordList> names(Pstream::nProcs());
 
-        DynamicList<word> mine;
-        for (const fileName& name : readDir(path, fileName::DIRECTORY))
+        for (const instant& time : Time::findTimes(path))
         {
-            scalar value;
-            if (readScalar(name.c_str(), value))
-            {
-                mine.append(name);
-            }
+            names[Pstream::myProcNo()].append(time.name());
         }
-        all[Pstream::myProcNo()].transfer(mine);
+        Pstream::gatherList(names);
+        Pstream::scatterList(names);
 
-        Pstream::gatherList(all);
-        Pstream::scatterList(all);
-
-        DynamicList<word> names;
-        for (const wordList& some : all)
+        std::set<namedTime> times;
+        for (const wordList& some : names)
         {
             for (const word& name : some)
             {
-                if (!names.found(name))
+                scalar value;
+                if (readScalar(name, value))
                 {
-                    names.append(name);
+                    times.insert({value, name});
                 }
             }
         }
 
-        scalarList values(names.size());
-        forAll(names, i)
+        return times;
+    }
+
+    //- Where two dictionaries differ, or nothing
+    static string difference(const dictionary& then, const dictionary& now)
+    {
+        OStringStream os;
+
+        if (then.toc() != now.toc())
         {
-            readScalar(names[i].c_str(), values[i]);
+            os  << ": " << flatOutput(then.toc()) << " then, "
+                << flatOutput(now.toc()) << " now";
+            return os.str();
         }
 
-        return wordList(names, SortableList<scalar>(values).indices());
+        for (const entry& e : then)
+        {
+            const entry& other = *now.findEntry(e.keyword());
+            string text;
+
+            if (e.isDict() && other.isDict())
+            {
+                text = difference(e.dict(), other.dict());
+            }
+            else if (e != other)
+            {
+                os  << ": " << e.stream().first() << " then, "
+                    << other.stream().first() << " now";
+                text = os.str();
+            }
+            if (!text.empty())
+            {
+                return ' ' + e.keyword() + text;
+            }
+        }
+
+        return string();
     }
 }
 
@@ -134,40 +164,30 @@ Foam::fileName Foam::checkpoint::cellFolder(const fileName& path)
 }
 
 
-Foam::dictionary Foam::checkpoint::readMark(const fileName& path)
+Foam::string Foam::checkpoint::readMark(const fileName& path)
 {
-    fileName file(markFile(path));
-
-    if (sharedFiles() && !isFile(file))
+    if (sharedFiles() && !isFile(markFile(path)))
     {
         // Where decomposePar puts a copy
         const word parts("processors" + Foam::name(Pstream::nProcs()));
-        file = markFile(path.path().path()/parts/path.name());
+        return textOf(markFile(path.path().path()/parts/path.name()));
     }
 
-    if (!isFile(file))
-    {
-        return dictionary();
-    }
-
-    IFstream is(file);
-    return dictionary(is);
+    return textOf(markFile(path));
 }
 
 
-bool Foam::checkpoint::isCopy
-(
-    const dictionary& mark,
-    const fileName& path
-)
+bool Foam::checkpoint::copied(const dictionary& mark, const fileName& path)
 {
-    return
+    const bool copy =
         !mark.empty()
      && (
             Foam::type(path/"uniform", false) == fileName::LINK
          || mark.get<label>("rank") != Pstream::myProcNo()
          || mark.get<label>("ranks") != Pstream::nProcs()
         );
+
+    return returnReduce(copy, orOp<bool>());
 }
 
 
@@ -180,26 +200,27 @@ bool Foam::checkpoint::begun(const fileName& path)
 }
 
 
-Foam::string Foam::checkpoint::findDamage() const
+Foam::string Foam::checkpoint::findDamage(const dictionary& mark) const
 {
-    for (const entry& e : mark_.subDict("files"))
+    for (const entry& e : mark.subDict("files"))
     {
         const fileName file(cellFolder(path_)/e.keyword());
-        const fileContent found(file);
-        const scalar bytes = e.dict().get<scalar>("bytes");
 
         if (!isFile(file))
         {
             return file + " is missing";
         }
-        if (found.bytes != bytes)
+
+        const std::string found(textOf(file));
+        const int64_t bytes(e.dict().get<scalar>("bytes"));
+
+        if (int64_t(found.size()) != bytes)
         {
             return
-                file + " is damaged: it holds "
-              + Foam::name(int64_t(found.bytes)) + " bytes where "
-              + Foam::name(int64_t(bytes)) + " were written";
+                file + " is damaged: it holds " + Foam::name(found.size())
+              + " bytes where " + Foam::name(bytes) + " were written";
         }
-        if (found.digest != e.dict().get<string>("digest"))
+        if (SHA1(found).str() != e.dict().get<string>("digest"))
         {
             return file + " is damaged: it is not what was written";
         }
@@ -211,23 +232,20 @@ Foam::string Foam::checkpoint::findDamage() const
 
 Foam::string Foam::checkpoint::findOtherName(const Time& time)
 {
-    for (const word& name : timeNames(time.path()))
+    for (const instant& other : time.times())
     {
-        scalar value;
-        readScalar(name.c_str(), value);
-
         if
         (
-            name != time.timeName()
-         && mag(value - time.value()) < 1e-6*time.deltaTValue()
-         && begun(time.path()/name)
+            other.name() != time.timeName()
+         && mag(other.value() - time.value()) < 1e-6*time.deltaTValue()
+         && begun(time.path()/other.name())
         )
         {
             return
-                "the cells of this time are in the directory " + name
+                "the cells of this time are in the directory " + other.name()
               + ", which by timeFormat and timePrecision of controlDict is now "
-              + time.timeName() + "\n"
-              + "    Put these entries back, or rename the directory";
+              + time.timeName()
+              + "\n    Put these entries back, or rename the directory";
         }
     }
 
@@ -240,55 +258,44 @@ Foam::string Foam::checkpoint::findOtherName(const Time& time)
 Foam::checkpoint::checkpoint(const Time& time)
 :
     path_(time.path()/time.timeName()),
-    mark_(readMark(path_)),
     notes_()
 {
-    // What the first rank has that has any
     List<string> marks(Pstream::nProcs());
-    if (!mark_.empty())
-    {
-        OStringStream os;
-        os.precision(17);
-        mark_.write(os, false);
-        marks[Pstream::myProcNo()] = os.str();
-    }
+    marks[Pstream::myProcNo()] = readMark(path_);
     Pstream::gatherList(marks);
     Pstream::scatterList(marks);
 
+    const fileName name(markFile(path_));
+    const dictionary mark(parsed(marks[Pstream::myProcNo()], name));
     bool all = true;
-    for (const string& mark : marks)
-    {
-        all = all && !mark.empty();
 
-        if (notes_.empty() && !mark.empty())
+    for (const string& text : marks)
+    {
+        all = all && !text.empty();
+        if (notes_.empty())
         {
-            IStringStream is(mark);
-            notes_ = dictionary(is);
+            notes_ = parsed(text, name);
         }
     }
 
-    const bool copies = returnReduce(isCopy(mark_, path_), orOp<bool>());
+    const bool copies = copied(mark, path_);
 
     // Where ranks share a file the folder is another, and asking is collective
     const bool shared = isDir(fileHandler().filePath(cellFolder(path_)));
     const bool some = returnReduce(shared || begun(path_), orOp<bool>());
 
-    // The first complaint of any rank, said once
-    List<string> complaints(Pstream::nProcs());
-    string& complaint = complaints[Pstream::myProcNo()];
-
+    string complaint;
     if (!some)
     {
         complaint = findOtherName(time);
     }
     else if (!all && !copies)
     {
-        complaint =
-            "time " + time.timeName() + " was not written to its end";
+        complaint = "time " + time.timeName() + " was not written to its end";
     }
     else if (found() && !copies)
     {
-        complaint = findDamage();
+        complaint = findDamage(mark);
     }
 
     if (some && !complaint.empty())
@@ -299,6 +306,9 @@ Foam::checkpoint::checkpoint(const Time& time)
           + " to go on from an earlier time";
     }
 
+    // The first of any rank, said once
+    List<string> complaints(Pstream::nProcs());
+    complaints[Pstream::myProcNo()] = complaint;
     Pstream::gatherList(complaints);
     const masterGate once;
 
@@ -350,57 +360,19 @@ Foam::dictionary Foam::checkpoint::notesOf(const polyMesh& mesh)
 }
 
 
-void Foam::checkpoint::checkMesh(const polyMesh& whole) const
+void Foam::checkpoint::checkMesh(const dictionary& notesNow) const
 {
     if (!found())
     {
         return;
     }
 
-    const dictionary& then = notes_.subDict("mesh");
-    const dictionary now(notesOf(whole));
-    const dictionary& patchesThen = then.subDict("patches");
-    const dictionary& patchesNow = now.subDict("patches");
+    const string text(difference(notes_.subDict("mesh"), notesNow));
 
-    OStringStream difference;
-
-    if (then.get<string>("digest") != now.get<string>("digest"))
-    {
-        difference
-            << "it had " << then.get<label>("cells")
-            << " mesh cells, this one has " << whole.nCells();
-    }
-    else if (patchesThen.toc() != patchesNow.toc())
-    {
-        difference
-            << "its patches were " << flatOutput(patchesThen.toc())
-            << ", now they are " << flatOutput(patchesNow.toc());
-    }
-    else
-    {
-        for (const word& name : patchesThen.toc())
-        {
-            const dictionary& was = patchesThen.subDict(name);
-            const dictionary& is = patchesNow.subDict(name);
-
-            if (was != is)
-            {
-                difference
-                    << "patch " << name << " was of type "
-                    << was.get<word>("type") << " with "
-                    << was.get<label>("faces") << " faces, and is now of type "
-                    << is.get<word>("type") << " with "
-                    << is.get<label>("faces");
-                break;
-            }
-        }
-    }
-
-    if (!difference.str().empty())
+    if (!text.empty())
     {
         FatalErrorInFunction
-            << path_ << " holds cells of another mesh: "
-            << difference.str().c_str() << nl
+            << path_ << " holds cells of another mesh:" << text.c_str() << nl
             << "    Put the mesh back, or start again from the first time"
             << exit(FatalError);
     }
@@ -415,25 +387,23 @@ void Foam::checkpoint::setAsideIncomplete(const argList& args)
         return;
     }
 
-    const fileName folder
+    bool tracked = isDir
     (
         args.rootPath()/args.globalCaseName()
        /"postProcessing"/"ellipsoidCloud"
     );
-
-    bool tracked = isDir(folder);
     Pstream::scatter(tracked);
 
-    const wordList names(timeNames(args.path()));
+    const std::set<namedTime> times(allTimes(args.path()));
 
-    for (label i = names.size() - 1; i > 0; --i)
+    for (auto time = times.rbegin(); std::next(time) != times.rend(); ++time)
     {
-        const fileName path(args.path()/names[i]);
-
-        const dictionary mark(readMark(path));
+        const word& name = time->second;
+        const fileName path(args.path()/name);
+        const dictionary mark(parsed(readMark(path), markFile(path)));
         const bool other = isFile(path/"U") || isDir(path/"polyMesh");
 
-        if (returnReduce(isCopy(mark, path), orOp<bool>()))
+        if (copied(mark, path))
         {
             // decomposePar makes no directory where there are no cells, but
             // ranks have to start from the same time
@@ -442,24 +412,23 @@ void Foam::checkpoint::setAsideIncomplete(const argList& args)
             return;
         }
 
-        if (returnReduce(!mark.empty(), andOp<bool>()))
-        {
-            return;
-        }
-
-        // A flow or mesh to start from, or another program's
+        // Complete, or a flow or mesh to start from, or another program's
         if
         (
-            !returnReduce(begun(path), orOp<bool>())
-         && (!tracked || returnReduce(other, orOp<bool>()))
+            returnReduce(!mark.empty(), andOp<bool>())
+         || (
+                !returnReduce(begun(path), orOp<bool>())
+             && (!tracked || returnReduce(other, orOp<bool>()))
+            )
         )
         {
             return;
         }
 
-        Info<< "ellipsoidCloud: time " << names[i]
-            << " was not written to its end: set aside as " << names[i]
-            << ".incomplete, going on from " << names[i - 1] << endl;
+        Info<< "ellipsoidCloud: time " << name
+            << " was not written to its end: set aside as " << name
+            << ".incomplete, going on from " << std::next(time)->second
+            << endl;
 
         if (isDir(path))
         {
@@ -487,7 +456,7 @@ void Foam::checkpoint::begin(const Time& time)
         rm(path/"uniform");
     }
 
-    leaveNote(unfinishedFile(path));
+    atomicWrite(unfinishedFile(path), "Not all of this time is written\n");
     meet();
     rm(markFile(path));
     rmDir(cellFolder(path), true);
@@ -501,16 +470,10 @@ void Foam::checkpoint::end(const Time& time, const dictionary& notes)
 
     for (const fileName& name : readDir(cellFolder(path)))
     {
-        const fileContent written(cellFolder(path)/name);
-
-        if (!written.ended)
-        {
-            cannotWrite(cellFolder(path)/name);
-        }
-
+        const std::string text(textOf(cellFolder(path)/name));
         dictionary file;
-        file.add("bytes", written.bytes);
-        file.add("digest", written.digest);
+        file.add("bytes", scalar(text.size()));
+        file.add("digest", string(SHA1(text).str()));
         files.add(word(name), file);
     }
 
@@ -521,7 +484,7 @@ void Foam::checkpoint::end(const Time& time, const dictionary& notes)
 
     // No mark before all ranks have written
     meet();
-    writeWhole(mark, markFile(path));
+    atomicWrite(markFile(path), mark);
     rm(unfinishedFile(path));
 }
 

@@ -117,6 +117,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
     cellLocal_(whole_->cellLocal()),
     injections_(),
     cells_(),
+    criterion_(properties_.section("capture"), mesh.boundaryMesh()),
     statistics_(),
     tracks_(),
     interval_(),
@@ -132,7 +133,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
         if (Pstream::master())
         {
             meshNotes_ = checkpoint::notesOf(whole_->mesh());
-            earlier_.checkMesh(whole_->mesh());
+            earlier_.checkMesh(meshNotes_);
         }
     }
 
@@ -175,7 +176,7 @@ void Foam::ellipsoidCloud::setFlow
         )
     );
 
-    statistics_->setInletSpeed(inletFlux::speedOf(*whole_));
+    criterion_.setInletSpeed(inletFlux::speedOf(*whole_));
 
     checkPlaces();
     makeInjections();
@@ -196,7 +197,7 @@ void Foam::ellipsoidCloud::setFlow
 
     Info<< "ellipsoidCloud: " << flow_->nTets() << " tetrahedra, "
         << walls_->size() << " wall facets; slow is below "
-        << statistics_->slowSpeed() << " m/s" << endl;
+        << criterion_.slowSpeed() << " m/s" << endl;
 }
 
 
@@ -225,8 +226,9 @@ void Foam::ellipsoidCloud::evolve()
     interval_->advance(moves, time_, end, rows);
     tracks_->take(rows);
 
-    statistics_->judge(cells_, moves, end);
-    statistics_->writeEvents();
+    DynamicList<cellEvent> events;
+    criterion_.judge(cells_, moves, end, events);
+    statistics_->add(std::move(events));
 
     label nStay = 0;
     for (const cellSweep& cell : moves)

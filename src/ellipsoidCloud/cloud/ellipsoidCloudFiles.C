@@ -21,7 +21,6 @@ Description
 #include "atomicWrite.H"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -47,11 +46,8 @@ void Foam::ellipsoidCloud::makeTables()
     (
         new captureStatistics
         (
-            captureStatistics::setting
-            (
-                properties_.section("capture"), mesh_.boundaryMesh()
-            ),
             mesh_.boundaryMesh().names(),
+            criterion_.sieves(),
             population_,
             folder,
             tables.subOrEmptyDict("events")
@@ -73,7 +69,9 @@ void Foam::ellipsoidCloud::makeTables()
 
 void Foam::ellipsoidCloud::readCells()
 {
-    for (const List<cellState>& some : fromAllRanks(ellipsoidParcel::read(mesh_)))
+    const List<cellState> mine(ellipsoidParcel::read(mesh_));
+
+    for (const List<cellState>& some : fromAllRanks(mine))
     {
         cells_.append(some);
     }
@@ -150,16 +148,17 @@ void Foam::ellipsoidCloud::checkCells() const
         return;
     }
 
-    labelHashSet read;
-    for (const cellState& cell : cells_)
-    {
-        const string its("cell " + Foam::name(cell.id));
+    labelHashSet missing(statistics_->cellsInside());
 
-        if (!read.insert(cell.id))
+    forAll(cells_, i)
+    {
+        const string its("cell " + Foam::name(cells_[i].id));
+
+        if (i > 0 && cells_[i].id == cells_[i - 1].id)
         {
             refuseCells(its + " is there twice");
         }
-        if (!statistics_->inside(cell.id))
+        if (!missing.erase(cells_[i].id))
         {
             refuseCells
             (
@@ -167,16 +166,13 @@ void Foam::ellipsoidCloud::checkCells() const
             );
         }
     }
-    for (const label id : statistics_->cellsInside())
+    if (!missing.empty())
     {
-        if (!read.found(id))
-        {
-            refuseCells
-            (
-                "cell " + Foam::name(id)
-              + " is missing, but by the log of events in the device"
-            );
-        }
+        refuseCells
+        (
+            "cell " + Foam::name(missing.sortedToc()[0])
+          + " is missing, but by the log of events in the device"
+        );
     }
 }
 
@@ -294,13 +290,7 @@ void Foam::ellipsoidCloud::write()
     }
 
     tracks_->flush();
-
-    const fileName failed(failedFile([&]() { writeParcels(); }));
-
-    if (!failed.empty())
-    {
-        cannotWrite(failed, errno);
-    }
+    writeParcels();
 
     dictionary tables;
     tables.add("events", statistics_->notes());

@@ -9,8 +9,8 @@ License
 \*---------------------------------------------------------------------------*/
 #include "ellipsoidParcel.H"
 #include "atomicWrite.H"
-#include "fullPrecision.H"
 #include "IOField.H"
+#include "IOPosition.H"
 #include "passiveParticleCloud.H"
 
 #include <cstddef>
@@ -43,41 +43,51 @@ namespace Foam
     //- What a file holds of a cell
     enum fieldType { labels, scalars, vectors };
 
-    //- Files of a member of cellState: one, or one a component
+    //- A file of the cells
     struct cellField
     {
         const char* name;
         std::size_t offset;
         fieldType type;
-        int nFiles;
     };
 
-    //- All members in their order: all reading and writing goes by this list
+    //- All members of cellState in their order: all reading and writing goes by
+    //  this list
     static constexpr cellField cellFields[] =
     {
-        { "U", offsetof(cellState, body.u), vectors, 1 },
-        { "x", offsetof(cellState, body.x), vectors, 1 },
-        { "omega", offsetof(cellState, body.omega), vectors, 1 },
-        { "q", offsetof(cellState, body.q), scalars, 4 },
-        { "step", offsetof(cellState, controller.step), scalars, 1 },
+        { "U", offsetof(cellState, body.u), vectors },
+        { "x", offsetof(cellState, body.x), vectors },
+        { "omega", offsetof(cellState, body.omega), vectors },
+        { "q0", offsetof(cellState, body.q[0]), scalars },
+        { "q1", offsetof(cellState, body.q[1]), scalars },
+        { "q2", offsetof(cellState, body.q[2]), scalars },
+        { "q3", offsetof(cellState, body.q[3]), scalars },
+        { "step", offsetof(cellState, controller.step), scalars },
         {
-            "previousError", offsetof(cellState, controller.previous_error),
-            scalars, 1
+            "previousError",
+            offsetof(cellState, controller.previous_error), scalars
         },
-        { "time", offsetof(cellState, time), scalars, 1 },
-        { "planned", offsetof(cellState, planned), scalars, 1 },
-        { "slowTime", offsetof(cellState, slowTime), scalars, 1 },
-        { "imbalance", offsetof(cellState, imbalance), scalars, 1 },
-        { "nextRow", offsetof(cellState, nextRow), scalars, 1 },
-        { "lastRow", offsetof(cellState, lastRow), scalars, 8 },
-        { "deepest", offsetof(cellState, deepest), scalars, 1 },
-        { "deepestCell", offsetof(cellState, deepestCell), scalars, 1 },
-        { "length", offsetof(cellState, length), scalars, 1 },
-        { "width", offsetof(cellState, width), scalars, 1 },
-        { "id", offsetof(cellState, id), labels, 1 },
-        { "tet", offsetof(cellState, tet), labels, 1 },
-        { "fate", offsetof(cellState, fate), labels, 1 },
-        { "patch", offsetof(cellState, patch), labels, 1 }
+        { "time", offsetof(cellState, time), scalars },
+        { "planned", offsetof(cellState, planned), scalars },
+        { "slowTime", offsetof(cellState, slowTime), scalars },
+        { "imbalance", offsetof(cellState, imbalance), scalars },
+        { "nextRow", offsetof(cellState, nextRow), scalars },
+        { "lastRow0", offsetof(cellState, lastRow[0]), scalars },
+        { "lastRow1", offsetof(cellState, lastRow[1]), scalars },
+        { "lastRow2", offsetof(cellState, lastRow[2]), scalars },
+        { "lastRow3", offsetof(cellState, lastRow[3]), scalars },
+        { "lastRow4", offsetof(cellState, lastRow[4]), scalars },
+        { "lastRow5", offsetof(cellState, lastRow[5]), scalars },
+        { "lastRow6", offsetof(cellState, lastRow[6]), scalars },
+        { "lastRow7", offsetof(cellState, lastRow[7]), scalars },
+        { "deepest", offsetof(cellState, deepest), scalars },
+        { "deepestCell", offsetof(cellState, deepestCell), scalars },
+        { "length", offsetof(cellState, length), scalars },
+        { "width", offsetof(cellState, width), scalars },
+        { "id", offsetof(cellState, id), labels },
+        { "tet", offsetof(cellState, tet), labels },
+        { "fate", offsetof(cellState, fate), labels },
+        { "patch", offsetof(cellState, patch), labels }
     };
 
     //- Size [bytes] of what a file holds of a cell
@@ -96,46 +106,17 @@ namespace Foam
             i == sizeof(cellFields)/sizeof(cellFields[0])
           ? byte == sizeof(cellState)
           : cellFields[i].offset == byte
-         && fills(i + 1, byte + cellFields[i].nFiles*sizeOf(cellFields[i].type));
+         && fills(i + 1, byte + sizeOf(cellFields[i].type));
     }
 
     static_assert(fills(0, 0), "cellFields lacks a member of cellState");
-
-    //- A file of the cells
-    struct cellFile
-    {
-        word name;
-        std::size_t offset;
-        fieldType type;
-    };
-
-    //- All files of the cells, in the order of the members
-    static List<cellFile> cellFiles()
-    {
-        DynamicList<cellFile> files;
-
-        for (const cellField& f : cellFields)
-        {
-            for (int d = 0; d < f.nFiles; ++d)
-            {
-                files.append
-                ({
-                    f.nFiles == 1 ? word(f.name) : word(f.name + name(d)),
-                    f.offset + d*sizeOf(f.type),
-                    f.type
-                });
-            }
-        }
-
-        return List<cellFile>(std::move(files));
-    }
 
     //- Read a file into the states
     template<class Type>
     static void readFile
     (
         const passiveParticleCloud& c,
-        const cellFile& file,
+        const cellField& file,
         List<cellState>& cells
     )
     {
@@ -162,7 +143,7 @@ namespace Foam
     static void writeFile
     (
         const Cloud<ellipsoidParcel>& c,
-        const cellFile& file
+        const cellField& file
     )
     {
         IOField<Type> values
@@ -179,10 +160,7 @@ namespace Foam
             std::memcpy(value, bytes + file.offset, sizeof(Type));
         }
 
-        if (!values.write(c.size() > 0))
-        {
-            cannotWrite(values.objectPath());
-        }
+        atomicWrite(values, c.size() > 0);
     }
 }
 
@@ -204,11 +182,7 @@ Foam::ellipsoidParcel::ellipsoidParcel
         celli
     ),
     state_(state)
-{
-    // OpenFOAM counts from 0 again in each run and on each rank
-    origId() = state.id;
-    origProc() = 0;
-}
+{}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
@@ -218,7 +192,7 @@ Foam::List<Foam::cellState> Foam::ellipsoidParcel::read(const polyMesh& mesh)
     const passiveParticleCloud c(mesh, cloudName, false);
     List<cellState> cells(c.size());
 
-    for (const cellFile& file : cellFiles())
+    for (const cellField& file : cellFields)
     {
         switch (file.type)
         {
@@ -234,11 +208,26 @@ Foam::List<Foam::cellState> Foam::ellipsoidParcel::read(const polyMesh& mesh)
 
 void Foam::ellipsoidParcel::writeFields(const Cloud<ellipsoidParcel>& c)
 {
-    const fullPrecision digits;
+    // What OpenFOAM's own particles have
+    typedef cloud::geometryType geometry;
 
-    particle::writeFields(c);
+    for (const geometry type : {geometry::COORDINATES, geometry::POSITIONS})
+    {
+        IOPosition<Cloud<ellipsoidParcel>> places(c, type);
+        atomicWrite(places, c.size() > 0);
+    }
 
-    for (const cellFile& file : cellFiles())
+    const std::size_t id = offsetof(cellState, id);
+    writeFile<label>(c, {"origId", id, labels});
+
+    IOField<label> zeros
+    (
+        c.fieldIOobject("origProcId", IOobject::NO_READ),
+        labelField(c.size(), 0)
+    );
+    atomicWrite(zeros, c.size() > 0);
+
+    for (const cellField& file : cellFields)
     {
         switch (file.type)
         {

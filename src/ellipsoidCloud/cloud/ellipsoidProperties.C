@@ -12,7 +12,7 @@ License
 #include "masterGate.H"
 #include "readViscosity.H"
 #include "StringStream.H"
-#include "captureStatistics.H"
+#include "captureCriterion.H"
 #include "cellInjection.H"
 #include "cellPopulation.H"
 #include "dimensionedScalar.H"
@@ -128,7 +128,7 @@ void Foam::ellipsoidProperties::checkPatches
         }
     }
 
-    captureStatistics::setting(section("capture"), patches);
+    captureCriterion(section("capture"), patches);
     cellTracks::setting(section("tracks"));
 }
 

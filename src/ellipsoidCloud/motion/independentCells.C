@@ -32,11 +32,7 @@ void Foam::independentCells::followSome
     ending* endings
 ) const
 {
-    // Neither writes unless it is opened
-    captureStatistics statistics
-    (
-        capture_, patchNames_, population_, "", dictionary()
-    );
+    // Writes nothing unless it is opened
     const cellTracks tracks
     (
         cellTracks::setting(properties_.section("tracks")),
@@ -45,8 +41,6 @@ void Foam::independentCells::followSome
         "",
         dictionary()
     );
-    statistics.setInletSpeed(inletSpeed_);
-
     groupScheduler interval(population_, flow_, walls_, tracks, properties_);
 
     List<cellState> cells(starts.size());
@@ -72,7 +66,8 @@ void Foam::independentCells::followSome
         const scalar end = n + 1 < nIntervals ? (n + 1)*deltaT : endTime;
         DynamicList<cellTracks::row> rows;
         interval.advance(moves, n*deltaT, end, rows);
-        statistics.judge(cells, moves, end);
+        DynamicList<cellEvent> events;
+        criterion_.judge(cells, moves, end, events);
 
         label nStay = 0;
         forAll(moves, i)
@@ -90,7 +85,7 @@ void Foam::independentCells::followSome
 
             for (label w = 0; w < cell.nWalls; ++w)
             {
-                if (capture_.sieves.found(cell.walls[w]))
+                if (criterion_.sieves().found(cell.walls[w]))
                 {
                     to.touched = cell.walls[w];
                 }
@@ -120,7 +115,7 @@ Foam::independentCells::independentCells
 :
     properties_(properties),
     patchNames_(mesh.boundaryMesh().names()),
-    capture_(properties.section("capture"), mesh.boundaryMesh()),
+    criterion_(properties.section("capture"), mesh.boundaryMesh()),
     population_(properties),
     flow_
     (
@@ -133,9 +128,10 @@ Foam::independentCells::independentCells
     (
         Pstream::master() ? &whole.mesh() : nullptr,
         longestSemiAxis(properties.options())
-    ),
-    inletSpeed_(inletFlux::speedOf(whole))
-{}
+    )
+{
+    criterion_.setInletSpeed(inletFlux::speedOf(whole));
+}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //

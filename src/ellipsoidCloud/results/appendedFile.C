@@ -13,27 +13,7 @@ License
 #include "OSspecific.H"
 #include "Pstream.H"
 
-#include <cerrno>
 #include <unistd.h>
-#include <vector>
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-void Foam::appendedFile::digest(const scalar size)
-{
-    std::ifstream is(name_, std::ios::binary);
-    is.seekg(std::streamoff(digested_));
-
-    std::vector<char> block(1 << 16);
-
-    while (is && digested_ < size)
-    {
-        is.read(block.data(), min(scalar(block.size()), size - digested_));
-        digest_.append(block.data(), is.gcount());
-        digested_ += is.gcount();
-    }
-}
-
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -47,34 +27,19 @@ Foam::appendedFile::appendedFile
 :
     name_(name),
     header_(header),
-    earlier_(earlier.getOrDefault<scalar>("bytes", 0)),
+    buffer_(),
     file_(),
-    digest_(),
-    digested_(0)
+    size_(Pstream::master() ? earlier.getOrDefault<scalar>("bytes", 0) : 0),
+    digest_()
 {
-    file_.precision(precision);
+    buffer_.precision(precision);
+    digest_.append(text());
 
-    if (!Pstream::master() || earlier_ <= 0)
-    {
-        return;
-    }
-
-    digest(earlier_);
-
-    if (digested_ < earlier_)
-    {
-        FatalErrorInFunction
-            << "cannot go on with " << name_ << ": it should hold "
-            << int64_t(earlier_) << " bytes at least" << nl
-            << "    Put it back, or start again from the first time"
-            << exit(FatalError);
-    }
-
-    if (digest_.str() != earlier.get<string>("digest"))
+    if (size_ > 0 && digest_.str() != earlier.get<string>("digest"))
     {
         FatalErrorInFunction
             << "cannot go on with " << name_ << ": its first "
-            << int64_t(earlier_) << " bytes are not what was written" << nl
+            << int64_t(size_) << " bytes are not what was written" << nl
             << "    Put it back, or start again from the first time"
             << exit(FatalError);
     }
@@ -90,50 +55,45 @@ void Foam::appendedFile::open()
         return;
     }
 
-    if (earlier_ > 0)
+    if (size_ > 0)
     {
-        if (::truncate(name_.c_str(), off_t(earlier_)))
+        if (::truncate(name_.c_str(), off_t(size_)))
         {
-            cannotWrite(name_, errno);
+            cannotWrite(name_);
         }
-
-        // At its end from the beginning: where that is, is noted at the next
-        // write time even if there was nothing to append
-        file_.open(name_, std::ios::app | std::ios::ate);
     }
     else
     {
         mkDir(name_.path());
-        file_.open(name_);
-        file_ << header_ << '\n';
+        buffer_ << header_ << '\n';
     }
 
+    file_.open(name_, size_ > 0 ? std::ios::app : std::ios::out);
     flush();
 }
 
 
 void Foam::appendedFile::flush()
 {
-    file_.flush();
+    const std::string text(buffer_.str());
+    buffer_.str("");
+
+    file_ << text << std::flush;
 
     if (!file_)
     {
-        cannotWrite(name_, errno);
+        cannotWrite(name_);
     }
+
+    size_ += text.size();
+    digest_.append(text);
 }
 
 
 Foam::dictionary Foam::appendedFile::notes()
 {
-    scalar size = 0;
-    string digits;
-
-    if (Pstream::master())
-    {
-        size = scalar(file_.tellp());
-        digest(size);
-        digits = digest_.str();
-    }
+    scalar size = size_;
+    string digits(digest_.str());
     Pstream::scatter(size);
     Pstream::scatter(digits);
 
@@ -141,6 +101,17 @@ Foam::dictionary Foam::appendedFile::notes()
     dict.add("bytes", size);
     dict.add("digest", digits);
     return dict;
+}
+
+
+std::string Foam::appendedFile::text() const
+{
+    std::string text(std::size_t(size_), '\0');
+    std::ifstream is(name_, std::ios::binary);
+    is.read(&text[0], text.size());
+    text.resize(is.gcount());
+
+    return text;
 }
 
 

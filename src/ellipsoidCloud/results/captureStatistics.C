@@ -8,389 +8,143 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "captureStatistics.H"
-#include "polyBoundaryMesh.H"
-#include "wallPolyPatch.H"
-#include "wordRes.H"
+#include "Pstream.H"
 
 #include <algorithm>
-
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
-
-const Foam::Enum<Foam::captureStatistics::eventType>
-Foam::captureStatistics::eventNames
-({
-    { eventType::injected, "injected" },
-    { eventType::caught, "caught" },
-    { eventType::released, "released" },
-    { eventType::stalled, "stalled" },
-    { eventType::escaped, "escaped" },
-    { eventType::lost, "lost" },
-    { eventType::waiting, "waiting" }
-});
-
+#include <sstream>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::cellState::fateType Foam::captureStatistics::fateAfter
-(
-    const packedEvent& event
-)
+void Foam::captureStatistics::count(const cellEvent& event)
 {
-    switch (eventType(label(event[2])))
+    const cellState& now = event.cell;
+
+    if (!cells_.found(now.id))
     {
-        case caught: return cellState::caught;
-        case stalled: return cellState::stalled;
-        case escaped: return cellState::escaped;
-        case lost: return cellState::lost;
-        case waiting: return cellState::waiting;
-        case injected:
-        case released: break;
-    }
-
-    return cellState::inFlight;
-}
-
-
-Foam::word Foam::captureStatistics::patchName(const label patchi) const
-{
-    return patchi < 0 ? word("-") : patchNames_[patchi];
-}
-
-
-void Foam::captureStatistics::count(const packedEvent& event)
-{
-    const label id(event[1]);
-
-    if (!cells_.found(id))
-    {
-        cells_.insert(id, record{event, event, event[0], -1, -1, 0, 0, 0});
+        cells_.insert(now.id, record{now, now, now.time, -1, -1});
     }
     else
     {
-        record& cell = cells_[id];
-        --counts_[fateAfter(cell.last)];
-        cell.last = event;
+        --counts_[cells_[now.id].last.fate];
     }
 
-    record& cell = cells_[id];
-    ++counts_[fateAfter(event)];
-    cell.deepest = event[11];
-    cell.deepestCell = event[12];
+    record& cell = cells_[now.id];
+    cell.last = now;
+    ++counts_[now.fate];
 
-    if (eventType(label(event[2])) == injected)
+    if (event.type == "injected")
     {
-        cell.injection = event;
+        cell.injection = now;
     }
-    if (fateAfter(event) == cellState::caught && cell.firstSieve < 0)
+    if (now.fate == cellState::caught && cell.firstSieve < 0)
     {
-        cell.firstCatch = event[0];
-        cell.firstSieve = label(event[3]);
+        cell.firstCatch = now.time;
+        cell.firstSieve = now.patch;
     }
 }
 
 
-void Foam::captureStatistics::note(const eventType what, const cellState& cell)
+void Foam::captureStatistics::readLog()
 {
-    if (!Pstream::master())
+    const cellSize size(population_.medianSize());
+    std::istringstream log(log_.text());
+    std::string line;
+    std::getline(log, line);
+
+    while (std::getline(log, line))
     {
-        return;
-    }
+        cellEvent event = cellEvent();
+        event.cell.length = size.length;
+        event.cell.width = size.width;
 
-    packedEvent event;
-    event[0] = cell.time;
-    event[1] = cell.id;
-    event[2] = what;
-    event[3] = cell.patch;
-    std::copy_n(cell.body.x, 3, event.begin() + 4);
-    std::copy_n(cell.body.q, 4, event.begin() + 7);
-    event[11] = cell.deepest;
-    event[12] = cell.deepestCell;
-    event[13] = cell.length;
-    event[14] = cell.width;
-
-    pending_.append(event);
-}
-
-
-void Foam::captureStatistics::judgeSpeed
-(
-    cellState& cell,
-    const scalar dt,
-    const scalar meanSpeed
-)
-{
-    if (meanSpeed < slowSpeed_)
-    {
-        cell.slowTime += dt;
-        return;
-    }
-
-    cell.slowTime = 0;
-    cell.imbalance = 0;
-
-    if (cell.fate == cellState::caught || cell.fate == cellState::stalled)
-    {
-        note(released, cell);
-        cell.fate = cellState::inFlight;
-        cell.patch = -1;
-    }
-}
-
-
-void Foam::captureStatistics::judgeHeld(List<cellSweep>& moves)
-{
-    // Held, and not yet caught
-    DynamicList<label> open;
-    Map<label> place;
-
-    forAll(moves, i)
-    {
-        const cellState& cell = moves[i].state;
-        place.insert(cell.id, i);
-
-        if
-        (
-            cell.slowTime >= holdTime_
-         && (
-                cell.fate == cellState::inFlight
-             || cell.fate == cellState::stalled
-            )
-        )
+        if (!event.read(line, patchNames_, population_.varies()))
         {
-            open.append(i);
+            FatalErrorInFunction
+                << log_.name() << ": cannot read the line" << nl << line.c_str()
+                << exit(FatalError);
         }
-    }
 
-    const auto settle =
-        [&](const label i, const cellState::fateType fate, const label patchi)
-        {
-            moves[i].state.fate = fate;
-            moves[i].state.patch = patchi;
-            note(fate == cellState::caught ? caught : stalled, moves[i].state);
-        };
-
-    const auto isCaught =
-        [&](const label i) { return moves[i].state.fate == cellState::caught; };
-
-    for (const label i : open)
-    {
-        for (label w = 0; w < moves[i].nWalls && !isCaught(i); ++w)
-        {
-            if (sieves_.found(moves[i].walls[w]))
-            {
-                settle(i, cellState::caught, moves[i].walls[w]);
-            }
-        }
-    }
-
-    // By a cell that is caught, which another may have to be first
-    for (bool changed = true; changed;)
-    {
-        changed = false;
-
-        for (const label i : open)
-        {
-            for (label c = 0; c < moves[i].nCells && !isCaught(i); ++c)
-            {
-                const auto other = place.cfind(moves[i].cells[c]);
-
-                if (other.found() && isCaught(*other))
-                {
-                    settle(i, cellState::caught, moves[*other].state.patch);
-                    changed = true;
-                }
-            }
-        }
-    }
-
-    for (const label i : open)
-    {
-        if (moves[i].state.fate == cellState::inFlight)
-        {
-            settle
-            (
-                i, cellState::stalled, moves[i].nWalls ? moves[i].walls[0] : -1
-            );
-        }
+        count(event);
     }
 }
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::captureStatistics::setting::setting
-(
-    const dictionary& dict,
-    const polyBoundaryMesh& patches
-)
-:
-    sieves(),
-    speedFraction
-    (
-        ellipsoidProperties::getAboveOrDefault(dict, "speedFraction", 0, 0.01)
-    ),
-    holdTime
-    (
-        ellipsoidProperties::getAboveOrDefault(dict, "holdTime", 0, 0.05)
-    )
-{
-    ellipsoidProperties::checkKeywords
-    (
-        dict, {"sieves", "speedFraction", "holdTime"}
-    );
-
-    const wordRes names(dict.getOrDefault("sieves", wordRes()));
-
-    for (const wordRe& name : names)
-    {
-        DynamicList<label> matched;
-
-        forAll(patches, patchi)
-        {
-            if (name.match(patches[patchi].name()))
-            {
-                if (!isA<wallPolyPatch>(patches[patchi]))
-                {
-                    FatalIOErrorInFunction(dict)
-                        << "sieve " << patches[patchi].name()
-                        << " is not a wall"
-                        << exit(FatalIOError);
-                }
-                matched.append(patchi);
-            }
-        }
-
-        if (matched.empty())
-        {
-            FatalIOErrorInFunction(dict)
-                << "no patch matches sieve " << name << nl
-                << "    patches: " << flatOutput(patches.names())
-                << exit(FatalIOError);
-        }
-
-        for (const label patchi : matched)
-        {
-            if (!sieves.found(patchi))
-            {
-                sieves.append(patchi);
-            }
-        }
-    }
-}
-
-
 Foam::captureStatistics::captureStatistics
 (
-    const setting& given,
     const wordList& patchNames,
+    const labelList& sieves,
     const cellPopulation& population,
     const fileName& folder,
     const dictionary& earlierLog
 )
 :
     patchNames_(patchNames),
-    sieves_(given.sieves),
-    speedFraction_(given.speedFraction),
-    slowSpeed_(0),
-    holdTime_(given.holdTime),
+    sieves_(sieves),
     population_(population),
-    nLogged_(population.varies() ? 15 : 13),
     folder_(folder),
-    pending_(),
     cells_(),
     counts_(Zero),
     log_
     (
         folder/"events.csv",
-        std::string
-        (
-            "t,id,event,patch,x1,x2,x3,eps1,eps2,eps3,eta,deepest,deepestCell"
-        ) + (population.varies() ? ",length,width" : ""),
+        cellEvent::header(population.varies()),
         12,
         earlierLog
     )
 {
-    if (Pstream::master() && log_.earlier() > 0)
-    {
-        readLog();
-    }
+    readLog();
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::captureStatistics::judge
-(
-    const UList<cellState>& before,
-    List<cellSweep>& moves,
-    const scalar end
-)
+void Foam::captureStatistics::add(List<cellEvent>&& events)
 {
-    forAll(moves, i)
+    if (!Pstream::master() || events.empty())
     {
-        const cellState& was = before[i];
-        cellState& cell = moves[i].state;
-
-        if (cell.fate == cellState::waiting)
-        {
-            // Once, at the first attempt
-            if (cell.time == cell.planned)
-            {
-                note(waiting, cell);
-            }
-            continue;
-        }
-        if (was.fate == cellState::waiting)
-        {
-            note(injected, was);
-        }
-
-        if (cell.fate == cellState::escaped || cell.fate == cellState::lost)
-        {
-            note
-            (
-                cell.fate == cellState::escaped ? escaped : lost, cell
-            );
-        }
-        else
-        {
-            const scalar dt = end - was.time;
-            const point from(was.body.x[0], was.body.x[1], was.body.x[2]);
-            const point to(cell.body.x[0], cell.body.x[1], cell.body.x[2]);
-
-            judgeSpeed(cell, dt, mag(to - from)/dt);
-        }
+        return;
     }
 
-    judgeHeld(moves);
+    // By time and cell
+    std::stable_sort
+    (
+        events.begin(),
+        events.end(),
+        [](const cellEvent& a, const cellEvent& b)
+        {
+            return
+                a.cell.time < b.cell.time
+             || (a.cell.time == b.cell.time && a.cell.id < b.cell.id);
+        }
+    );
+
+    for (const cellEvent& event : events)
+    {
+        count(event);
+        event.write(log_.stream(), patchNames_, population_.varies());
+    }
+
+    log_.flush();
 }
 
 
-bool Foam::captureStatistics::inside(const label id) const
+Foam::labelHashSet Foam::captureStatistics::cellsInside() const
 {
-    if (!cells_.found(id))
+    labelHashSet ids;
+
+    forAllConstIters(cells_, iter)
     {
-        return false;
-    }
+        const label fate = iter().last.fate;
 
-    const cellState::fateType fate = fateAfter(cells_[id].last);
-
-    return fate != cellState::escaped && fate != cellState::lost;
-}
-
-
-Foam::labelList Foam::captureStatistics::cellsInside() const
-{
-    DynamicList<label> ids;
-    for (const label id : cells_.sortedToc())
-    {
-        if (inside(id))
+        if (fate != cellState::escaped && fate != cellState::lost)
         {
-            ids.append(id);
+            ids.insert(iter.key());
         }
     }
 
-    return labelList(std::move(ids));
+    return ids;
 }
 
 
@@ -400,9 +154,10 @@ void Foam::captureStatistics::update(const UList<cellState>& cells)
     {
         if (cell.fate != cellState::waiting)
         {
-            cells_[cell.id].deepest = cell.deepest;
-            cells_[cell.id].deepestCell = cell.deepestCell;
-            cells_[cell.id].imbalance = cell.imbalance;
+            cellState& last = cells_[cell.id].last;
+            last.deepest = cell.deepest;
+            last.deepestCell = cell.deepestCell;
+            last.imbalance = cell.imbalance;
         }
     }
 }

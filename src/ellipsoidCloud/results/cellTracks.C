@@ -8,16 +8,12 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "cellTracks.H"
-#include "atomicWrite.H"
+#include "writeTracksVTP.H"
 #include "Pstream.H"
 #include "PstreamReduceOps.H"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
-#include <functional>
-#include <sstream>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -214,109 +210,9 @@ void Foam::cellTracks::flush()
 }
 
 
-void Foam::cellTracks::writeVTP()
+void Foam::cellTracks::writeVTP() const
 {
-    // The rows of each cell, from the file: they may be of earlier runs too
-    struct vtkPoint { scalar t; scalar values[12]; int fate; };
-    Map<DynamicList<vtkPoint>> cells;
-    label nPoints = 0;
-
-    std::ifstream csv(folder_/"tracks.csv");
-    std::string line;
-    std::getline(csv, line);
-
-    while (std::getline(csv, line))
-    {
-        std::istringstream fields(line);
-        std::string field;
-        scalar values[18];
-        vtkPoint p;
-
-        for (scalar& value : values)
-        {
-            std::getline(fields, field, ',');
-            value = std::atof(field.c_str());
-        }
-        std::getline(fields, field, ',');
-
-        p.t = values[0];
-        std::copy_n(values + 2, 6, p.values);
-        std::copy_n(values + 12, 6, p.values + 6);
-        p.fate = cellState::fateNames[word(field)];
-
-        cells(label(values[1])).append(p);
-        ++nPoints;
-    }
-
-    std::ofstream os(folder_/"tracks.vtp");
-    os.precision(9);
-
-    const auto array =
-        [&]
-        (
-            const char* type,
-            const char* name,
-            const int nComponents,
-            const std::function<void(label, const vtkPoint&)>& write
-        )
-        {
-            os  << "<DataArray type=\"" << type << "\" Name=\"" << name
-                << "\" NumberOfComponents=\"" << nComponents
-                << "\" format=\"ascii\">\n";
-            for (const label id : cells.sortedToc())
-            {
-                for (const vtkPoint& p : cells[id])
-                {
-                    write(id, p);
-                    os << '\n';
-                }
-            }
-            os << "</DataArray>\n";
-        };
-
-    const auto triple =
-        [&](const int first)
-        {
-            return
-                [&os, first](label, const vtkPoint& p)
-                {
-                    os  << p.values[first] << ' ' << p.values[first + 1] << ' '
-                        << p.values[first + 2];
-                };
-        };
-
-    os  << "<?xml version=\"1.0\"?>\n"
-        << "<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
-        << "<Piece NumberOfPoints=\"" << nPoints << "\" NumberOfLines=\""
-        << cells.size() << "\">\n<Points>\n";
-    array("Float64", "x", 3, triple(0));
-    os  << "</Points>\n<PointData>\n";
-    array("Float64", "t", 1, [&](label, const vtkPoint& p) { os << p.t; });
-    array("Int32", "id", 1, [&](label id, const vtkPoint&) { os << id; });
-    array("Float64", "U", 3, triple(3));
-    array("Float64", "omega", 3, triple(6));
-    array("Float64", "O", 3, triple(9));
-    array("Int32", "fate", 1, [&](label, const vtkPoint& p) { os << p.fate; });
-    os  << "</PointData>\n<Lines>\n"
-        << "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
-    for (label i = 0; i < nPoints; ++i)
-    {
-        os << i << '\n';
-    }
-    os  << "</DataArray>\n"
-        << "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
-    label offset = 0;
-    for (const label id : cells.sortedToc())
-    {
-        offset += cells[id].size();
-        os << offset << '\n';
-    }
-    os  << "</DataArray>\n</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
-
-    if (!os.flush())
-    {
-        cannotWrite(folder_/"tracks.vtp", errno);
-    }
+    writeTracksVTP(file_.name(), folder_/"tracks.vtp");
 }
 
 
