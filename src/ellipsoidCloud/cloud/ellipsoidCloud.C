@@ -187,7 +187,7 @@ void Foam::ellipsoidCloud::setFlow
     (
         new groupScheduler
         (
-            population_, *flow_, *walls_, *tracks_, properties_
+            population_, *flow_, *walls_, properties_, tracks_.get()
         )
     );
 
@@ -208,45 +208,24 @@ void Foam::ellipsoidCloud::evolve()
 
     addNew(time_, end);
 
-    List<cellSweep> moves(cells_.size());
-    forAll(cells_, i)
-    {
-        cellState& cell = cells_[i];
-
-        // One that had no room tries again
-        if (cell.fate == cellState::waiting)
-        {
-            cell.time = max(cell.time, time_);
-        }
-        moves[i] = cellSweep();
-        moves[i].state = cell;
-    }
-
-    DynamicList<cellTracks::row> rows;
-    interval_->advance(moves, time_, end, rows);
-    tracks_->take(rows);
-
     DynamicList<cellEvent> events;
-    criterion_.judge(cells_, moves, end, events);
+    const List<cellSweep> moves
+    (
+        interval_->advanceInterval(cells_, criterion_, time_, end, events)
+    );
     statistics_->add(std::move(events));
 
-    label nStay = 0;
     for (const cellSweep& cell : moves)
     {
-        if (!cell.gone())
-        {
-            cells_[nStay++] = cell.state;
-        }
-        else
+        if (cell.gone())
         {
             population_.forget(cell.state.id);
-            if (cell.state.fate == cellState::lost)
-            {
-                reportLost(cell);
-            }
+        }
+        if (cell.state.fate == cellState::lost)
+        {
+            reportLost(cell);
         }
     }
-    cells_.setSize(nStay);
 
     time_ = end;
 

@@ -8,15 +8,11 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "cellOrientation.H"
+#include "ellipsoidCore.H"
 #include "unitConversion.H"
 #include "vector.H"
 
 #include <algorithm>
-
-extern "C"
-{
-    #include "ellipsoid.h"
-}
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 

@@ -8,12 +8,9 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "groupScheduler.H"
+#include "captureCriterion.H"
 #include "overlapGroups.H"
-#include "HashSet.H"
 #include "plainLists.H"
-
-#include <algorithm>
-#include <numeric>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -41,129 +38,133 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::scalar Foam::groupScheduler::gap
+Foam::DynamicList<Foam::groupScheduler::nearPair>
+Foam::groupScheduler::nearPairs
 (
-    const cellSweep& a,
-    const cellSweep& b,
-    const scalar horizon
+    const List<cellSweep>& cells,
+    const labelUList& indices,
+    const labelUList& unitOf,
+    const scalar margin
 ) const
 {
-    return ellipsoid_cell_gap
-    (
-        &population_.model(a.state.id), a.x, a.q,
-        &population_.model(b.state.id), b.x, b.q,
-        horizon
-    );
+    DynamicList<nearPair> found;
+    List<boundBox> boxes(interacting_ ? indices.size() : 0);
+
+    forAll(boxes, k)
+    {
+        const cellSweep& cell = cells[indices[k]];
+        const scalar reach = population_.model(cell.state.id).reach;
+        boxes[k] = cell.box(reach + 0.5*margin);
+    }
+
+    for (const labelPair& pair : overlapGroups::overlapping(boxes))
+    {
+        if (unitOf[pair.first()] != unitOf[pair.second()])
+        {
+            // Each point of a cell stays within its travel of where it began
+            const cellSweep& a = cells[indices[pair.first()]];
+            const cellSweep& b = cells[indices[pair.second()]];
+            const scalar horizon = a.travel + b.travel + margin;
+            const scalar gap = ellipsoid_cell_gap
+            (
+                &population_.model(a.state.id), a.start.x, a.start.q,
+                &population_.model(b.state.id), b.start.x, b.start.q,
+                horizon
+            );
+
+            if (gap < horizon)
+            {
+                found.append(nearPair{pair, gap});
+            }
+        }
+    }
+
+    return found;
+}
+
+
+Foam::labelHashSet Foam::groupScheduler::blocked
+(
+    const UIndirectList<cellSweep>& cells,
+    const UList<nearPair>& pairs
+)
+{
+    labelHashSet found;
+
+    // By cells that are there, then by cells that enter and have a lower id
+    for (const nearPair& near : pairs)
+    {
+        const label a = near.places.first();
+        const label b = near.places.second();
+
+        if (near.gap < 0 && waits(cells[a]) != waits(cells[b]))
+        {
+            found.insert(waits(cells[a]) ? a : b);
+        }
+    }
+    for (const nearPair& near : pairs)
+    {
+        const label a = near.places.first();
+
+        if (near.gap < 0 && waits(cells[a]) && !found.found(a))
+        {
+            found.insert(near.places.second());
+        }
+    }
+
+    return found;
 }
 
 
 Foam::List<Foam::groupScheduler::unit> Foam::groupScheduler::unitsOf
 (
     const List<cellSweep>& cells,
-    const labelUList& who,
+    const labelUList& indices,
     const span& time
 ) const
 {
-    // Those there at the start, those that may enter then, those that enter
+    // Cells there at the start and those that may enter then; cells that enter
     // later in the span
     DynamicList<label> here;
     DynamicList<label> later;
 
-    for (const label i : who)
+    for (const label i : indices)
     {
-        const cellSweep& cell = cells[i];
+        const scalar t = cells[i].state.time;
 
-        if (waits(cell))
-        {
-            if (cell.state.time == time.start)
-            {
-                here.append(i);
-            }
-            else if (cell.state.time > time.start && cell.state.time < time.end)
-            {
-                later.append(i);
-            }
-        }
-        else if (!cell.gone())
+        if (waits(cells[i]) ? t == time.start : !cells[i].gone())
         {
             here.append(i);
         }
-    }
-
-    labelHashSet stay;
-    DynamicList<labelPair> close;
-
-    if (pushing_)
-    {
-        List<boundBox> boxes(here.size());
-        forAll(here, k)
+        else if (waits(cells[i]) && t > time.start && t < time.end)
         {
-            const cellSweep& cell = cells[here[k]];
-            boxes[k] = cell.box(reach(cell) + 0.5*margin_);
-        }
-
-        // By the lower of a pair and then the other, so that who comes first
-        // by id enters first
-        DynamicList<labelPair> overlapping;
-        for (const labelPair& pair : overlapGroups::overlapping(boxes))
-        {
-            const cellSweep& a = cells[here[pair.first()]];
-            const cellSweep& b = cells[here[pair.second()]];
-            const scalar apart = gap(a, b, margin_);
-
-            if (apart < margin_)
-            {
-                close.append(pair);
-            }
-            if (apart < 0 && (waits(a) || waits(b)))
-            {
-                overlapping.append(pair);
-            }
-        }
-
-        // First who is in the way of those there, then of those that enter
-        for (const labelPair& pair : overlapping)
-        {
-            for (const label k : {pair.first(), pair.second()})
-            {
-                const label other = pair.first() + pair.second() - k;
-
-                if (waits(cells[here[k]]) && !waits(cells[here[other]]))
-                {
-                    stay.insert(k);
-                }
-            }
-        }
-        for (const labelPair& pair : overlapping)
-        {
-            if (!stay.found(pair.first()) && waits(cells[here[pair.first()]]))
-            {
-                stay.insert(pair.second());
-            }
+            later.append(i);
         }
     }
+
+    const DynamicList<nearPair> pairs
+    (
+        nearPairs(cells, here, identity(here.size()), unitGap*beadRadius_)
+    );
+    const labelHashSet stay
+    (
+        blocked(UIndirectList<cellSweep>(cells, here), pairs)
+    );
 
     DynamicList<labelPair> bonds;
-    for (const labelPair& pair : close)
+    for (const nearPair& near : pairs)
     {
-        if (!stay.found(pair.first()) && !stay.found(pair.second()))
+        if (!stay.found(near.places.first()) && !stay.found(near.places.second()))
         {
-            bonds.append(pair);
+            bonds.append(near.places);
         }
     }
 
+    here.append(later);
     const labelList lowest(overlapGroups::connected(here.size(), bonds));
     labelList unitOf(here.size(), -1);
-    List<unit> units(here.size() + later.size());
+    List<unit> units(here.size());
     label nUnits = 0;
-
-    const auto add =
-        [&](unit& to, const label i)
-        {
-            to.cells.append(i);
-            to.before.append(cells[i]);
-            to.inParts = false;
-        };
 
     forAll(here, k)
     {
@@ -173,13 +174,10 @@ Foam::List<Foam::groupScheduler::unit> Foam::groupScheduler::unitsOf
             if (to < 0)
             {
                 to = nUnits++;
+                units[to].inParts = false;
             }
-            add(units[to], here[k]);
+            units[to].cells.append(here[k]);
         }
-    }
-    for (const label i : later)
-    {
-        add(units[nUnits++], i);
     }
 
     units.setSize(nUnits);
@@ -187,22 +185,15 @@ Foam::List<Foam::groupScheduler::unit> Foam::groupScheduler::unitsOf
 }
 
 
-Foam::DynamicList<Foam::groupScheduler::meeting> Foam::groupScheduler::meetings
+Foam::labelList Foam::groupScheduler::join
 (
     const List<cellSweep>& cells,
-    const List<unit>& units
+    List<unit>& units,
+    const scalar longTravel
 ) const
 {
-    DynamicList<meeting> found;
-    DynamicList<label> who;
+    DynamicList<label> indices;
     DynamicList<label> unitOf;
-    DynamicList<boundBox> boxes;
-    const scalar unseen = unseenGap*beadRadius_;
-
-    if (!pushing_)
-    {
-        return found;
-    }
 
     forAll(units, unitI)
     {
@@ -210,151 +201,106 @@ Foam::DynamicList<Foam::groupScheduler::meeting> Foam::groupScheduler::meetings
         {
             if (!waits(cells[i]))
             {
-                who.append(i);
+                indices.append(i);
                 unitOf.append(unitI);
-                boxes.append(cells[i].box(reach(cells[i]) + 0.5*unseen));
             }
         }
     }
 
-    for (const labelPair& pair : overlapGroups::overlapping(boxes))
-    {
-        const labelPair both(unitOf[pair.first()], unitOf[pair.second()]);
-
-        if (both.first() == both.second())
-        {
-            continue;
-        }
-
-        // Each point of a cell stays within its travel of where it began
-        const cellSweep& a = cells[who[pair.first()]];
-        const cellSweep& b = cells[who[pair.second()]];
-        const scalar near = a.travel + b.travel + unseen;
-
-        if (gap(a, b, near) < near)
-        {
-            found.append(meeting{both, max(a.travel, b.travel)});
-        }
-    }
-
-    return found;
-}
-
-
-Foam::List<Foam::groupScheduler::unit> Foam::groupScheduler::joined
-(
-    List<unit>& units,
-    const UList<meeting>& meetings,
-    const scalar farTravel,
-    labelList& changed
-)
-{
-    List<labelPair> pairs(meetings.size());
-    forAll(meetings, i)
-    {
-        pairs[i] = meetings[i].units;
-    }
-
-    const labelList lowest(overlapGroups::connected(units.size(), pairs));
-
-    // Of those that are joined, by the lowest of them
+    // Of each unit the longest travel of its cells that may have come into
+    // contact with another's
+    DynamicList<labelPair> bonds;
     scalarList travel(units.size(), scalar(-1));
-    for (const meeting& m : meetings)
+
+    for
+    (
+        const nearPair& near
+      : nearPairs(cells, indices, unitOf, unseenGap*beadRadius_)
+    )
     {
-        scalar& longest = travel[lowest[m.units.first()]];
-        longest = max(longest, m.travel);
+        const label a = near.places.first();
+        const label b = near.places.second();
+        scalar& longest = travel[unitOf[a]];
+
+        longest = max(longest, cells[indices[a]].travel);
+        longest = max(longest, cells[indices[b]].travel);
+        bonds.append(labelPair(unitOf[a], unitOf[b]));
     }
 
-    List<unit> result(units.size());
+    const labelList lowest(overlapGroups::connected(units.size(), bonds));
     labelList place(units.size(), -1);
     DynamicList<label> again;
     label nUnits = 0;
 
     forAll(units, unitI)
     {
-        label& to = place[lowest[unitI]];
+        const label first = lowest[unitI];
+        const bool isFirst = (first == unitI);
+        travel[first] = max(travel[first], travel[unitI]);
 
-        if (to < 0)
+        if (isFirst)
         {
-            to = nUnits++;
-            result[to] = std::move(units[unitI]);
-
-            if (travel[unitI] >= 0)
+            place[first] = nUnits++;
+            if (place[first] != unitI)
             {
-                result[to].inParts = travel[unitI] > farTravel;
-                result[to].rows.clear();
-                again.append(to);
+                units[place[first]] = std::move(units[unitI]);
             }
         }
         else
         {
-            result[to].cells.append(units[unitI].cells);
-            result[to].before.append(units[unitI].before);
+            units[place[first]].cells.append(units[unitI].cells);
         }
     }
-    result.setSize(nUnits);
-
-    // Within a unit by id
-    for (const label to : again)
+    forAll(place, unitI)
     {
-        unit& mixed = result[to];
-        labelList order(mixed.cells.size());
-        std::iota(order.begin(), order.end(), 0);
-        std::sort
-        (
-            order.begin(),
-            order.end(),
-            [&](const label a, const label b)
-            {
-                return mixed.cells[a] < mixed.cells[b];
-            }
-        );
-        mixed.cells = labelList(UIndirectList<label>(mixed.cells, order));
-        mixed.before =
-            List<cellSweep>(UIndirectList<cellSweep>(mixed.before, order));
+        if (place[unitI] >= 0 && travel[unitI] >= 0)
+        {
+            unit& joined = units[place[unitI]];
+            sort(joined.cells);
+            joined.inParts = travel[unitI] > longTravel;
+            joined.rows.clear();
+            again.append(place[unitI]);
+        }
     }
 
-    changed = std::move(again);
-    return result;
+    units.setSize(nUnits);
+    return labelList(std::move(again));
 }
 
 
-void Foam::groupScheduler::move
+void Foam::groupScheduler::advance
 (
     List<cellSweep>& cells,
-    unit& moved,
+    unit& u,
     const span& time
 )
 {
-    const auto restore =
-        [&]()
-        {
-            UIndirectList<cellSweep>(cells, moved.cells) = moved.before;
-            moved.rows.clear();
-        };
-
-    restore();
-
     // A cell of a unit in parts that enters later does so at the end of a part
     scalar middle = time.end;
-    for (const cellSweep& cell : moved.before)
+    for (const label i : u.cells)
     {
-        if (waits(cell) && cell.state.time > time.start)
+        cells[i] = time.before[i];
+        if (waits(cells[i]) && cells[i].state.time > time.start)
         {
-            middle = min(middle, cell.state.time);
+            middle = min(middle, cells[i].state.time);
         }
     }
-    const bool enters = middle < time.end && moved.cells.size() > 1;
+    u.path.clear();
+    const bool enters = middle < time.end && u.cells.size() > 1;
 
-    if (!moved.inParts && !enters)
+    if (!u.inParts && !enters)
     {
         const bool mayFail = time.depth < maxDepth;
 
-        if (mover_.move(cells, moved.cells, time.end, mayFail, moved.rows))
+        if (groups_.advance(cells, u.cells, time.end, mayFail, u.path))
         {
             return;
         }
-        restore();
+        for (const label i : u.cells)
+        {
+            cells[i] = time.before[i];
+        }
+        u.path.clear();
     }
 
     label depth = time.depth;
@@ -364,20 +310,74 @@ void Foam::groupScheduler::move
         ++depth;
     }
 
-    advance(cells, moved.cells, {time.start, middle, depth, false}, moved.rows);
+    const auto advancePart =
+        [&](const scalar start, const scalar end)
+        {
+            const List<unit> parts
+            (
+                advance(cells, u.cells, span{start, end, depth, false, {}})
+            );
+            for (const unit& part : parts)
+            {
+                u.path.append(part.path);
+            }
+        };
 
-    const List<cellSweep> first(UIndirectList<cellSweep>(cells, moved.cells));
+    advancePart(time.start, middle);
+    const List<cellSweep> first(UIndirectList<cellSweep>(cells, u.cells));
+    advancePart(middle, time.end);
 
-    advance(cells, moved.cells, {middle, time.end, depth, false}, moved.rows);
-
-    forAll(moved.cells, k)
+    forAll(first, k)
     {
-        cells[moved.cells[k]].prepend(first[k]);
+        cells[u.cells[k]].prepend(first[k]);
     }
 }
 
 
-Foam::labelList Foam::groupScheduler::dealt
+void Foam::groupScheduler::sample
+(
+    List<cellSweep>& cells,
+    unit& u,
+    const span& time
+) const
+{
+    // Until its end the cells have the fate that they had at the start, or
+    // that they entered with
+    List<cellSweep> after(UIndirectList<cellSweep>(cells, u.cells));
+    u.rows.clear();
+
+    forAll(after, k)
+    {
+        cellState& cell = cells[u.cells[k]].state;
+        cell = time.before[u.cells[k]].state;
+
+        if (cell.fate == cellState::waiting && !waits(after[k]))
+        {
+            cell.fate = cellState::inFlight;
+            tracks_->start(cell, u.rows);
+        }
+    }
+    for (const groupAdvance::segment& taken : u.path)
+    {
+        tracks_->add(cells[taken.cell].state, taken.step, u.rows);
+    }
+    forAll(after, k)
+    {
+        cellState& cell = cells[u.cells[k]].state;
+        after[k].state.nextRow = cell.nextRow;
+        std::copy_n(cell.lastRow, 8, after[k].state.lastRow);
+        cell = after[k].state;
+
+        if (after[k].gone())
+        {
+            tracks_->finish(cell, u.rows);
+        }
+    }
+    u.path.clear();
+}
+
+
+Foam::labelList Foam::groupScheduler::distributed
 (
     const List<unit>& units,
     const labelUList& listed,
@@ -395,27 +395,24 @@ Foam::labelList Foam::groupScheduler::dealt
     scalarList work(listed.size());
     forAll(listed, k)
     {
+        const labelList& members = units[listed[k]].cells;
         scalar steps = 1;
-        for (const cellSweep& cell : units[listed[k]].before)
+        for (const label i : members)
         {
-            const scalar step = cell.state.controller.step;
+            const scalar step = time.before[i].state.controller.step;
             steps = max
             (
                 steps, step > 0 ? (time.end - time.start)/step : newSteps
             );
         }
-        work[k] = steps*units[listed[k]].cells.size();
+        work[k] = steps*members.size();
     }
 
-    labelList order(identity(listed.size()));
-    std::stable_sort
-    (
-        order.begin(),
-        order.end(),
-        [&](const label a, const label b) { return work[a] > work[b]; }
-    );
-
+    // The most expensive first
     scalarList load(Pstream::nProcs(), Zero);
+    labelList order;
+    sortedOrder(work, order, UList<scalar>::greater(work));
+
     for (const label k : order)
     {
         ranks[k] = findMin(load);
@@ -434,20 +431,12 @@ void Foam::groupScheduler::exchange
     const labelUList& ranks
 )
 {
-    if (!Pstream::parRun())
-    {
-        return;
-    }
-
     DynamicList<cellSweep> mine;
     forAll(listed, k)
     {
         if (ranks[k] == Pstream::myProcNo())
         {
-            for (const label i : units[listed[k]].cells)
-            {
-                mine.append(cells[i]);
-            }
+            mine.append(UIndirectList<cellSweep>(cells, units[listed[k]].cells));
         }
     }
 
@@ -464,54 +453,54 @@ void Foam::groupScheduler::exchange
 }
 
 
-void Foam::groupScheduler::advance
+Foam::List<Foam::groupScheduler::unit> Foam::groupScheduler::advance
 (
     List<cellSweep>& cells,
-    const labelUList& who,
-    const span& time,
-    DynamicList<cellTracks::row>& rows
+    const labelUList& indices,
+    span&& time
 )
 {
-    for (const label i : who)
+    for (const label i : indices)
     {
         cells[i].begin();
+        time.before.insert(i, cells[i]);
     }
 
-    List<unit> units(unitsOf(cells, who, time));
+    List<unit> units(unitsOf(cells, indices, time));
     labelList todo(identity(units.size()));
 
     while (todo.size())
     {
-        const labelList ranks(dealt(units, todo, time));
+        const labelList ranks(distributed(units, todo, time));
 
         forAll(todo, k)
         {
+            unit& u = units[todo[k]];
+
             if (!time.shared || ranks[k] == Pstream::myProcNo())
             {
-                move(cells, units[todo[k]], time);
+                advance(cells, u, time);
+                if (time.shared && tracks_)
+                {
+                    sample(cells, u, time);
+                }
             }
         }
 
-        if (time.shared)
+        if (time.shared && Pstream::parRun())
         {
             exchange(cells, units, todo, ranks);
         }
 
-        units = joined
+        todo = join
         (
+            cells,
             units,
-            meetings(cells, units),
-            time.depth < maxDepth
-          ? shortTravel*beadRadius_
-          : GREAT,
-            todo
+            time.depth < maxDepth ? shortTravel*beadRadius_ : GREAT
         );
     }
 
-    for (const unit& moved : units)
-    {
-        rows.append(moved.rows);
-    }
+    return units;
 }
 
 
@@ -522,37 +511,70 @@ Foam::groupScheduler::groupScheduler
     const cellPopulation& population,
     const frozenFlow& flow,
     const wallFacets& walls,
-    const cellTracks& tracks,
-    const ellipsoidProperties& properties
+    const ellipsoidProperties& properties,
+    cellTracks* tracks
 )
 :
     population_(population),
-    pushing_(properties.pushing()),
+    interacting_(properties.pushing()),
     beadRadius_(properties.options().bead_radius),
-    margin_(unitGap*beadRadius_),
-    mover_(population, flow, walls, tracks, properties.seed(), pushing_)
+    groups_(population, flow, walls, properties.seed(), interacting_),
+    tracks_(tracks)
 {}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::groupScheduler::advance
+Foam::List<Foam::cellSweep> Foam::groupScheduler::advanceInterval
 (
-    List<cellSweep>& cells,
+    List<cellState>& cells,
+    const captureCriterion& criterion,
     const scalar start,
     const scalar end,
-    DynamicList<cellTracks::row>& rows
+    DynamicList<cellEvent>& events
 )
 {
-    advance(cells, identity(cells.size()), {start, end, 0, true}, rows);
+    List<cellSweep> moves(cells.size());
+    forAll(cells, i)
+    {
+        // A cell that had no room tries again
+        if (cells[i].fate == cellState::waiting)
+        {
+            cells[i].time = max(cells[i].time, start);
+        }
+        moves[i] = cellSweep();
+        moves[i].state = cells[i];
+    }
 
-    for (const cellSweep& cell : cells)
+    for
+    (
+        const unit& u
+      : advance(moves, identity(cells.size()), span{start, end, 0, true, {}})
+    )
+    {
+        if (tracks_)
+        {
+            tracks_->take(u.rows);
+        }
+    }
+
+    criterion.judge(cells, moves, end, events);
+
+    label nLeft = 0;
+    for (const cellSweep& cell : moves)
     {
         if (cell.gone())
         {
-            mover_.forget(cell.state.id);
+            groups_.forget(cell.state.id);
+        }
+        else
+        {
+            cells[nLeft++] = cell.state;
         }
     }
+    cells.setSize(nLeft);
+
+    return moves;
 }
 
 

@@ -32,16 +32,8 @@ void Foam::independentCells::followSome
     ending* endings
 ) const
 {
-    // Writes nothing unless it is opened
-    const cellTracks tracks
-    (
-        cellTracks::setting(properties_.section("tracks")),
-        patchNames_,
-        population_,
-        "",
-        dictionary()
-    );
-    groupScheduler interval(population_, flow_, walls_, tracks, properties_);
+    groupScheduler scheduler(population_, flow_, walls_, properties_, nullptr);
+    DynamicList<cellEvent> events;
 
     List<cellState> cells(starts.size());
     labelList which(identity(starts.size()));
@@ -56,18 +48,12 @@ void Foam::independentCells::followSome
 
     for (label n = 0; cells.size() && n < nIntervals; ++n)
     {
-        List<cellSweep> moves(cells.size());
-        forAll(cells, i)
-        {
-            moves[i] = cellSweep();
-            moves[i].state = cells[i];
-        }
-
         const scalar end = n + 1 < nIntervals ? (n + 1)*deltaT : endTime;
-        DynamicList<cellTracks::row> rows;
-        interval.advance(moves, n*deltaT, end, rows);
-        DynamicList<cellEvent> events;
-        criterion_.judge(cells, moves, end, events);
+        events.clear();
+        const List<cellSweep> moves
+        (
+            scheduler.advanceInterval(cells, criterion_, n*deltaT, end, events)
+        );
 
         label nStay = 0;
         forAll(moves, i)
@@ -78,12 +64,7 @@ void Foam::independentCells::followSome
             to.fate = cell.state.fate;
             to.patch = cell.state.patch;
 
-            if (cell.gone())
-            {
-                continue;
-            }
-
-            for (label w = 0; w < cell.nWalls; ++w)
+            for (label w = 0; w < cell.nWalls && !cell.gone(); ++w)
             {
                 if (criterion_.sieves().found(cell.walls[w]))
                 {
@@ -92,7 +73,7 @@ void Foam::independentCells::followSome
             }
 
             // One that has stalled may get going again
-            if (cell.state.fate != cellState::caught)
+            if (!cell.gone() && to.fate != cellState::caught)
             {
                 which[nStay] = which[i];
                 cells[nStay++] = cell.state;
