@@ -14,6 +14,8 @@ import os
 import re
 import sys
 
+from foamDictionary import parse, spelled, without_comments
+
 
 def chosen(usage, names):
     """Options '-name VALUE' of the command line; None where not given."""
@@ -45,7 +47,7 @@ def _text(file, top, above=()):
             text = source.read()
     except (OSError, UnicodeDecodeError) as error:
         fail(top, f"cannot read {file}: {getattr(error, 'strerror', None) or error}")
-    text = re.sub(r"/\*.*?\*/|//[^\n]*", " ", text, flags=re.S)
+    text = without_comments(text)
 
     def included(match):
         return _text(os.path.join(os.path.dirname(file), match.group(1)), top, above)
@@ -54,57 +56,27 @@ def _text(file, top, above=()):
 
 
 def _parse(text, file):
-    """Nested dict of an OpenFOAM dictionary; lists as nested lists of words."""
-    tokens = re.findall(r"[{};()]|[^\s{};()]+", text)
+    """Nested dict of a parameter file, in which values are words, numbers or lists."""
+    try:
+        entries = parse(text)
+    except ValueError as error:
+        fail(file, error)
+    _check(entries, file)
+    return entries
 
-    def unreadable(key):
-        fail(file, f"cannot read entry '{key}'")
 
-    def listed(words, key):
-        """Nested lists of the words between the outermost brackets."""
-        stack = [[]]
-        for word in words:
-            if word == "(":
-                stack.append([])
-            elif word == ")":
-                if len(stack) < 2:
-                    unreadable(key)
-                inner = stack.pop()
-                stack[-1].append(inner)
-            else:
-                stack[-1].append(word)
-        if len(stack) > 1:
-            unreadable(key)
-        return stack[0]
-
-    def dictionary(at, closing):
-        entries = {}
-        while at < len(tokens) and tokens[at] != closing:
-            key = tokens[at]
-            if at + 1 < len(tokens) and tokens[at + 1] == "{":
-                entries[key], at = dictionary(at + 2, "}")
-                continue
-            try:
-                end = tokens.index(";", at)
-            except ValueError:
-                fail(file, f"entry '{key}' has no ';'")
-            words = tokens[at + 1:end]
-            is_list = words[:1] == ["("] and words[-1:] == [")"]
-            refused = "{}" if is_list else "{}()"
-            if any(word in refused for word in words):
-                unreadable(key)
-            entries[key] = listed(words[1:-1], key) if is_list else " ".join(words)
-            at = end + 1
-        if closing and at >= len(tokens):
-            fail(file, "a '{' is not closed")
-        return entries, at + 1
-
-    return dictionary(0, None)[0]
+def _check(entries, file):
+    """Refuse brackets that are not of lists."""
+    for key, value in entries.items():
+        if isinstance(value, dict):
+            _check(value, file)
+        elif set("{}") & set(spelled(value)) or isinstance(value, str) and set("()") & set(value):
+            fail(file, f"cannot read entry '{key}'")
 
 
 def shown(value):
     """A value as it stands in the file, a long one cut."""
-    text = value if isinstance(value, str) else "(" + " ".join(map(shown, value)) + ")"
+    text = spelled(value)
     return text if len(text) < 60 else text[:56] + " ..."
 
 

@@ -22,7 +22,7 @@ from vtkmodules.vtkParallelCore import vtkDummyController
 
 import poses
 from files import (
-    CaseError, number_folders, read_csv, read_dictionary, read_text, without_comments,
+    CaseError, number_folders, read_csv, read_dictionary, read_text, without_header,
 )
 from plane import Plane, coincide
 
@@ -192,7 +192,7 @@ class Case:
     def patches(self):
         """Patch name to type, in the order of the mesh."""
         file = self.path("constant", "polyMesh", "boundary")
-        text = without_comments(read_text(file))
+        text = without_header(read_text(file))
         found = re.findall(r"([^\s(){};]+)\s*\{[^{}]*?\btype\s+(\w+)\s*;", text)
         if not found:
             raise CaseError(f"{file}: no patches found")

@@ -8,9 +8,14 @@ import gzip
 import os
 import re
 import subprocess
+import sys
 import warnings
 
 import numpy as np
+
+sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), "../geometry"))
+
+from foamDictionary import parse, spelled, without_comments  # noqa: E402  (found by the path above)
 
 
 class CaseError(Exception):
@@ -26,15 +31,14 @@ def read_text(file):
         raise CaseError(f"{file}: {error.strerror or error}") from None
 
 
-def without_comments(text):
+def without_header(text):
     """Text of an OpenFOAM file without its comments and header."""
-    text = re.sub(r"/\*.*?\*/|//[^\n]*", " ", text, flags=re.S)
-    return re.sub(r"\bFoamFile\s*\{[^}]*\}", " ", text)
+    return re.sub(r"\bFoamFile\s*\{[^}]*\}", " ", without_comments(text))
 
 
 def read_dictionary(file):
     """An OpenFOAM dictionary as nested dicts; lists as lists, other values as strings."""
-    text = without_comments(read_text(file))
+    text = without_header(read_text(file))
     if re.search(r"[#$]", text):
         # Directives and macros are OpenFOAM's to resolve
         try:
@@ -44,31 +48,11 @@ def read_dictionary(file):
             ).stdout
         except (OSError, subprocess.CalledProcessError):
             raise CaseError(f"{file}: its # and $ need OpenFOAM's foamDictionary") from None
-        text = without_comments(text)
-    tokens = re.findall(r'"[^"]*"|[{}();]|[^\s{}();"]+', text)
-
-    def fail(what):
-        raise CaseError(f"{file}: {what}")
-
-    def read(at, nested):
-        entries = {}
-        while at < len(tokens) and tokens[at] != "}":
-            key = tokens[at]
-            if at + 1 < len(tokens) and tokens[at + 1] == "{":
-                entries[key], at = read(at + 2, True)
-                continue
-            try:
-                end = tokens.index(";", at)
-            except ValueError:
-                fail(f"entry '{key}' has no ';'")
-            words = tokens[at + 1:end]
-            entries[key] = words[1:-1] if words[:1] == ["("] else " ".join(words)
-            at = end + 1
-        if nested != (at < len(tokens)):
-            fail("'{' and '}' do not match")
-        return entries, at + 1
-
-    return read(0, False)[0]
+        text = without_header(text)
+    try:
+        return parse(text)
+    except ValueError as error:
+        raise CaseError(f"{file}: {error}") from None
 
 
 def read_csv(file, types):

@@ -19,7 +19,7 @@ from PIL import Image
 from vtkmodules.vtkCommonCore import vtkVersion
 
 from case import MILLI
-from files import CaseError, read_dictionary, read_text
+from files import CaseError, read_dictionary, read_text, spelled
 
 # Chapter to (picture, title)
 CHAPTERS = {
@@ -264,7 +264,7 @@ def flattened(entries, above=""):
         if isinstance(value, dict):
             rows += flattened(value, f"{above}{key}/")
         else:
-            words = value if isinstance(value, str) else "(" + " ".join(value) + ")"
+            words = spelled(value)
             # Thousands of positions are no parameter to read
             rows.append((above + key, words if len(words) < 200 else words[:200] + " ..."))
     return rows
@@ -285,7 +285,7 @@ def parameters(case):
         for key in wanted:
             if key in given:
                 value = given[key]
-                words = value if isinstance(value, str) else "(" + " ".join(value) + ")"
+                words = spelled(value)
                 rows.append((f"{folder}/{name}: {key}", words))
     parts.append(words_table(rows))
     return "\n".join(parts)
