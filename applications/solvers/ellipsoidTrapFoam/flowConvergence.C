@@ -13,6 +13,8 @@ License
 #include "fvcDiv.H"
 #include "fvMesh.H"
 #include "masterGate.H"
+#include "surfaceFields.H"
+#include "volFields.H"
 
 #include <cmath>
 
@@ -64,18 +66,18 @@ Foam::scalarField Foam::flowConvergence::record
 {
     through_.reset(new inletFlux(U, phi));
 
-    const label nPatches = through_->patches().size();
+    const label nPatches = through_->patches.size();
 
-    scalarField values(through_->flux());
-    values.append(through_->meanSpeed());
+    scalarField values(through_->flux);
+    values.append(through_->meanSpeed);
 
-    scalarField scales(through_->magFlux());
-    scales.append(through_->meanSpeed());
+    scalarField scales(through_->magFlux);
+    scales.append(through_->meanSpeed);
 
     // A flux that is nothing beside the others need not be as exact
     for (label i = 0; i < nPatches; ++i)
     {
-        scales[i] = max(scales[i], fluxTolerance_*through_->crossing());
+        scales[i] = max(scales[i], fluxTolerance_*through_->crossing);
     }
 
     history_.append(values);
@@ -193,7 +195,7 @@ void Foam::flowConvergence::update
     value_[mForces] = forces.net;
     value_[mContinuity] =
         gSum(mag(fvc::div(phi)().primitiveField())*mesh_.V())
-       /(through_->crossing() + VSMALL);
+       /(through_->crossing + VSMALL);
     value_[mFluxChange] = fluxChange(scales);
 }
 
@@ -211,7 +213,7 @@ bool Foam::flowConvergence::sound() const
         }
     }
 
-    const scalar meanSpeed = through_->meanSpeed();
+    const scalar meanSpeed = through_->meanSpeed;
 
     return std::isfinite(meanSpeed) && meanSpeed < maxSpeed;
 }

@@ -343,11 +343,11 @@ void Foam::steadyFlow::reportProgress(const label iteration) const
 
     if (through.closed())
     {
-        Info<< ", mean speed " << text(through.speed()) << " m/s" << endl;
+        Info<< ", mean speed " << text(through.speed) << " m/s" << endl;
     }
     else
     {
-        Info<< ", inflow " << text(through.inflow()) << " m3/s" << endl;
+        Info<< ", inflow " << text(through.inflow) << " m3/s" << endl;
     }
 }
 
@@ -456,7 +456,7 @@ void Foam::steadyFlow::solve()
             FatalIOErrorInFunction(controls_)
                 << "The flow diverges: iteration " << iteration << " left "
                 << convergence_.measures().c_str() << ", mean speed "
-                << text(convergence_.through().meanSpeed()) << " m/s" << nl
+                << text(convergence_.through().meanSpeed) << " m/s" << nl
                 << "Nothing was written. Lower the relaxationFactors, or check"
                 << " the boundary conditions and nu." << exit(FatalIOError);
         }
@@ -498,29 +498,29 @@ void Foam::steadyFlow::report(const scalar density) const
     if (through.closed())
     {
         Info<< "flow: nothing flows through, mean speed "
-            << text(through.speed()) << " m/s" << endl;
+            << text(through.speed) << " m/s" << endl;
         return;
     }
 
     scalar inP = 0;
     scalar outflow = 0, outP = 0;
 
-    forAll(through.patches(), i)
+    forAll(through.patches, i)
     {
         // A patch may have no faces
-        if (through.area()[i] <= 0)
+        if (through.area[i] <= 0)
         {
             continue;
         }
 
-        const label patchi = through.patches()[i];
-        const scalar flux = through.flux()[i];
+        const label patchi = through.patches[i];
+        const scalar flux = through.flux[i];
         const scalar patchP =
             gSum
             (
                 p_.boundaryField()[patchi]*mesh_.magSf().boundaryField()[patchi]
             )
-           /through.area()[i];
+           /through.area[i];
 
         Info<< "flow: " << mesh_.boundary()[patchi].name() << ": "
             << text(mag(flux)) << " m3/s " << (flux < 0 ? "in" : "out")
@@ -537,12 +537,12 @@ void Foam::steadyFlow::report(const scalar density) const
         }
     }
 
-    Info<< "flow: mean inlet speed " << text(through.speed()) << " m/s"
+    Info<< "flow: mean inlet speed " << text(through.speed) << " m/s"
         << endl;
 
     if (outflow > 0)
     {
-        const scalar drop = inP/through.inflow() - outP/outflow;
+        const scalar drop = inP/through.inflow - outP/outflow;
 
         Info<< "flow: pressure drop " << text(drop) << " m2/s2";
 

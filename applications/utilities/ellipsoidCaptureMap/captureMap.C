@@ -109,8 +109,8 @@ Foam::List<Foam::captureMap::pose> Foam::captureMap::readPoses
 
 Foam::inletPlane::window Foam::captureMap::windowOf(const square& one) const
 {
-    const scalar ds = plane_.width()/(nPlaces(0) - 1);
-    const scalar dt = plane_.height()/(nPlaces(1) - 1);
+    const scalar ds = plane_.width()/(nNodes(0) - 1);
+    const scalar dt = plane_.height()/(nNodes(1) - 1);
     const label n = sideOf(one);
 
     return inletPlane::window
@@ -120,7 +120,7 @@ Foam::inletPlane::window Foam::captureMap::windowOf(const square& one) const
 }
 
 
-void Foam::captureMap::begin(const place& at, const label level)
+void Foam::captureMap::begin(const node& at, const label level)
 {
     const label id = starts_.size();
 
@@ -131,10 +131,10 @@ void Foam::captureMap::begin(const place& at, const label level)
 
     const point x
     (
-        plane_.place
+        plane_.position
         (
-            at.i*(plane_.width()/(nPlaces(0) - 1)),
-            at.j*(plane_.height()/(nPlaces(1) - 1))
+            at.i*(plane_.width()/(nNodes(0) - 1)),
+            at.j*(plane_.height()/(nNodes(1) - 1))
         )
     );
 
@@ -174,14 +174,14 @@ void Foam::captureMap::followWaiting()
 
 void Foam::captureMap::addEdge
 (
-    const place& a,
-    const place& b,
+    const node& a,
+    const node& b,
     DynamicList<label>& ids
 ) const
 {
-    const place middle{a.pose, (a.i + b.i)/2, (a.j + b.j)/2};
+    const node middle{a.pose, (a.i + b.i)/2, (a.j + b.j)/2};
 
-    // Neighbouring places have no middle
+    // Neighbouring nodes have none between them
     if (mag(a.i - b.i) + mag(a.j - b.j) < 2 || startOf(middle) < 0)
     {
         return;
@@ -196,17 +196,17 @@ void Foam::captureMap::addEdge
 Foam::DynamicList<Foam::label> Foam::captureMap::on(const square& one) const
 {
     const label n = sideOf(one);
-    const place& at = one.at;
-    const FixedList<place, 4> corners
+    const node& at = one.at;
+    const FixedList<node, 4> corners
     ({
         at,
-        place{at.pose, at.i + n, at.j},
-        place{at.pose, at.i + n, at.j + n},
-        place{at.pose, at.i, at.j + n}
+        node{at.pose, at.i + n, at.j},
+        node{at.pose, at.i + n, at.j + n},
+        node{at.pose, at.i, at.j + n}
     });
 
     DynamicList<label> ids;
-    for (const place& corner : corners)
+    for (const node& corner : corners)
     {
         ids.append(startOf(corner));
     }
@@ -293,7 +293,7 @@ bool Foam::captureMap::divide()
         {
             begin
             (
-                place
+                node
                 {
                     one.at.pose,
                     one.at.i + (k % 3)*half,
@@ -315,7 +315,7 @@ bool Foam::captureMap::divide()
             continue;
         }
 
-        const place low = one.at;
+        const node low = one.at;
         ++one.level;
         for (label k = 0; k < 4; ++k)
         {
@@ -330,19 +330,68 @@ bool Foam::captureMap::divide()
 }
 
 
+void Foam::captureMap::checkLattice(const dictionary& dict) const
+{
+    const masterGate once;
+
+    if (scalar(nNodes(0))*nNodes(1) > labelMax)
+    {
+        FatalIOErrorInFunction(dict)
+            << "squares and levels make a lattice of " << nNodes(0)
+            << " x " << nNodes(1) << " nodes" << nl
+            << "    allowed: " << labelMax << " in all"
+            << exit(FatalIOError);
+    }
+
+    const scalar nStarts =
+        scalar(nFirst_[0] + 1)*(nFirst_[1] + 1)*poses_.size();
+
+    if (nStarts > mostFirst_)
+    {
+        FatalIOErrorInFunction(dict)
+            << "squares and orientations make " << nStarts
+            << " first starts" << nl
+            << "    allowed: " << mostFirst_ << " in all"
+            << exit(FatalIOError);
+    }
+}
+
+
+void Foam::captureMap::beginFirst()
+{
+    const label n = 1 << levels_;
+
+    forAll(poses_, p)
+    {
+        for (label j = 0; j <= nFirst_[1]; ++j)
+        {
+            for (label i = 0; i <= nFirst_[0]; ++i)
+            {
+                begin(node{p, i*n, j*n}, 0);
+
+                if (i < nFirst_[0] && j < nFirst_[1])
+                {
+                    squares_.append(square{node{p, i*n, j*n}, 0});
+                }
+            }
+        }
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::captureMap::captureMap
 (
     const dictionary& dict,
     const independentCells& cells,
-    const undecomposedFlow& whole,
+    const undecomposedFlow& undecomposed,
     const label seed,
     const scalar deltaT
 )
 :
     cells_(cells),
-    plane_(dict, whole),
+    plane_(dict, undecomposed),
     levels_(readLevels(dict)),
     mostCells_(readMostCells(dict)),
     deltaT_(deltaT),
@@ -362,48 +411,8 @@ Foam::captureMap::captureMap
     nFirst_[0] = max(label(plane_.width()/side + 0.5), label(1));
     nFirst_[1] = max(label(plane_.height()/side + 0.5), label(1));
 
-    const label n = 1 << levels_;
-
-    {
-        const masterGate once;
-
-        if (scalar(nPlaces(0))*nPlaces(1) > labelMax)
-        {
-            FatalIOErrorInFunction(dict)
-                << "squares and levels make a lattice of " << nPlaces(0)
-                << " x " << nPlaces(1) << " places" << nl
-                << "    allowed: " << labelMax << " in all"
-                << exit(FatalIOError);
-        }
-
-        const scalar nStarts =
-            scalar(nFirst_[0] + 1)*(nFirst_[1] + 1)*poses_.size();
-
-        if (nStarts > mostFirst_)
-        {
-            FatalIOErrorInFunction(dict)
-                << "squares and orientations make " << nStarts
-                << " first starts" << nl
-                << "    allowed: " << mostFirst_ << " in all"
-                << exit(FatalIOError);
-        }
-    }
-
-    forAll(poses_, p)
-    {
-        for (label j = 0; j <= nFirst_[1]; ++j)
-        {
-            for (label i = 0; i <= nFirst_[0]; ++i)
-            {
-                begin(place{p, i*n, j*n}, 0);
-
-                if (i < nFirst_[0] && j < nFirst_[1])
-                {
-                    squares_.append(square{place{p, i*n, j*n}, 0});
-                }
-            }
-        }
-    }
+    checkLattice(dict);
+    beginFirst();
 
     const masterGate once;
 

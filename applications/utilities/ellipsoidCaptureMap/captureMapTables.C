@@ -164,7 +164,7 @@ void Foam::captureMap::writeSquares(Ostream& os) const
         const square& one = squares_[i];
         const labelHashSet found(kindsOn(one));
         const inletPlane::window w(windowOf(one));
-        const point x(plane_.place(0.5*(w.s0 + w.s1), 0.5*(w.t0 + w.t1)));
+        const point x(plane_.position(0.5*(w.s0 + w.s1), 0.5*(w.t0 + w.t1)));
 
         os << one.at.pose << ',' << one.level;
         for (const scalar component : x.v_)
@@ -215,7 +215,7 @@ void Foam::captureMap::report(Ostream& os) const
     {
         finest = max(finest, one.level);
     }
-    const inletPlane::window w(windowOf(square{place{0, 0, 0}, finest}));
+    const inletPlane::window w(windowOf(square{node{0, 0, 0}, finest}));
 
     os  << nl << "capture map: " << poses_.size() << " orientations, "
         << starts_.size() << " starts, " << nFollowed_ << " cells followed"

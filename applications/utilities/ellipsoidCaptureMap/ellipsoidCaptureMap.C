@@ -37,8 +37,59 @@ SourceFiles
 #include "captureMap.H"
 #include "masterGate.H"
 #include "checkpoint.H"
+#include "surfaceFields.H"
+#include "undecomposedFlow.H"
+#include "volFields.H"
 
 using namespace Foam;
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+static IOobject fieldOf
+(
+    const word& name,
+    const word& instance,
+    const fvMesh& mesh
+)
+{
+    return IOobject
+    (
+        name, instance, mesh, IOobject::MUST_READ, IOobject::NO_WRITE
+    );
+}
+
+
+//- End the run if the dictionary cannot be right or the flow is not solved
+static void checkCase
+(
+    const dictionary& dict,
+    const fvMesh& mesh,
+    const label seed,
+    const word& instance
+)
+{
+    const Time& runTime = mesh.time();
+    IOobject phi(fieldOf("phi", instance, mesh));
+    const bool solved = returnReduce
+    (
+        phi.typeHeaderOk<surfaceScalarField>(true)
+     && !isFile(checkpoint::unfinishedFlow(runTime.path()/instance)),
+        andOp<bool>()
+    );
+
+    const masterGate once;
+
+    captureMap::check(dict, mesh.boundaryMesh(), seed);
+    ellipsoidProperties::getAbove(runTime.controlDict(), "deltaT", 0);
+
+    if (!solved)
+    {
+        FatalErrorInFunction
+            << "no solved flow in " << runTime.globalPath()/instance
+            << ": run ellipsoidTrapFoam -flowOnly first" << exit(FatalError);
+    }
+}
+
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
@@ -74,50 +125,21 @@ int main(int argc, char *argv[])
     );
 
     const word instance(runTime.findInstance(mesh.dbDir(), "U"));
-    const auto field =
-        [&](const word& name)
-        {
-            return IOobject
-            (
-                name, instance, mesh, IOobject::MUST_READ, IOobject::NO_WRITE
-            );
-        };
+    checkCase(dict, mesh, properties.seed(), instance);
 
-    const bool solved =
-        returnReduce
-        (
-            field("phi").typeHeaderOk<surfaceScalarField>(true)
-         && !isFile(checkpoint::unfinishedFlow(runTime.path()/instance)),
-            andOp<bool>()
-        );
+    undecomposedFlow undecomposed(mesh);
     {
-        const masterGate once;
+        const volVectorField U(fieldOf("U", instance, mesh), mesh);
+        const volScalarField p(fieldOf("p", instance, mesh), mesh);
+        const surfaceScalarField phi(fieldOf("phi", instance, mesh), mesh);
 
-        captureMap::check(dict, mesh.boundaryMesh(), properties.seed());
-        ellipsoidProperties::getAbove(runTime.controlDict(), "deltaT", 0);
+        undecomposed.gather(U, p, phi);
 
-        if (!solved)
-        {
-            FatalErrorInFunction
-                << "no solved flow in " << runTime.globalPath()/instance
-                << ": run ellipsoidTrapFoam -flowOnly first"
-                << exit(FatalError);
-        }
-    }
-
-    undecomposedFlow whole(mesh);
-    {
-        const volVectorField U(field("U"), mesh);
-        const volScalarField p(field("p"), mesh);
-        const surfaceScalarField phi(field("phi"), mesh);
-
-        whole.gather(U, p, phi);
-
-        const independentCells cells(properties, mesh, whole);
+        const independentCells cells(properties, mesh, undecomposed);
 
         captureMap map
         (
-            dict, cells, whole, properties.seed(), runTime.deltaTValue()
+            dict, cells, undecomposed, properties.seed(), runTime.deltaTValue()
         );
         map.make();
 

@@ -24,14 +24,14 @@ namespace Foam
     //- What of a polygon lies on one side of a line: where above(c) >= 0, which
     //  is linear. Sutherland & Hodgman, Commun. ACM 17, 32 (1974).
     template<class Distance>
-    static polygon cut(const polygon& whole, const Distance& above)
+    static polygon cut(const polygon& full, const Distance& above)
     {
         polygon rest;
 
-        forAll(whole, i)
+        forAll(full, i)
         {
-            const corner& a = whole[i];
-            const corner& b = whole[whole.fcIndex(i)];
+            const corner& a = full[i];
+            const corner& b = full[full.fcIndex(i)];
             const scalar da = above(a);
             const scalar db = above(b);
 
@@ -71,7 +71,7 @@ namespace Foam
 
 void Foam::inletPlane::setDirections(const patchInflow& patch)
 {
-    const pointField& corners = patch.corners();
+    const pointField& corners = patch.corners;
 
     // All triangles are turned alike, and outwards
     vector outward(Zero);
@@ -115,11 +115,11 @@ void Foam::inletPlane::setDirections(const patchInflow& patch)
 Foam::inletPlane::inletPlane
 (
     const dictionary& dict,
-    const undecomposedFlow& whole
+    const undecomposedFlow& undecomposed
 )
 {
-    const patchInflow patch(dict, whole);
-    const pointField& corners = patch.corners();
+    const patchInflow patch(dict, undecomposed);
+    const pointField& corners = patch.corners;
 
     setDirections(patch);
 
@@ -147,7 +147,7 @@ Foam::inletPlane::inletPlane
         }
     }
 
-    const scalar layer = average(patch.behind() & inward_) - average(depth);
+    const scalar layer = average(patch.behind & inward_) - average(depth);
     origin_ =
         min(s)*first_ + min(t)*second_ + (max(depth) + 1e-3*layer)*inward_;
 
@@ -155,16 +155,16 @@ Foam::inletPlane::inletPlane
     forAll(triangles_, i)
     {
         triangle& tri = triangles_[i];
-        polygon whole;
+        polygon full;
 
         for (label k = 0; k < 3; ++k)
         {
             tri.s[k] = s[3*i + k] - min(s);
             tri.t[k] = t[3*i + k] - min(t);
-            whole.append(corner{tri.s[k], tri.t[k]});
+            full.append(corner{tri.s[k], tri.t[k]});
         }
-        tri.area = areaOf(whole);
-        tri.inflow = patch.upTo()[i] - (i ? patch.upTo()[i - 1] : 0);
+        tri.area = areaOf(full);
+        tri.inflow = patch.upTo[i] - (i ? patch.upTo[i - 1] : 0);
     }
 }
 

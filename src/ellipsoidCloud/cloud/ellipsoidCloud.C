@@ -11,6 +11,8 @@ License
 #include "masterGate.H"
 #include "inletFlux.H"
 #include "clockTime.H"
+#include "surfaceFields.H"
+#include "volFields.H"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +24,7 @@ void Foam::ellipsoidCloud::makeInjections()
     const dictionary& dict = properties_.subDict("injection");
     const cellInjection::setting from
     {
-        *whole_, *flow_, *walls_, population_, properties_.seed()
+        *undecomposed_, *flow_, *walls_, population_, properties_.seed()
     };
 
     label nCells = 0;
@@ -45,9 +47,12 @@ void Foam::ellipsoidCloud::makeInjections()
 Foam::scalar Foam::ellipsoidCloud::presentTime(const Time& time)
 {
     const scalar steps = time.value()/time.deltaTValue();
-    const scalar whole = std::round(steps);
+    const scalar nearest = std::round(steps);
 
-    return mag(steps - whole) < 1e-6 ? whole*time.deltaTValue() : time.value();
+    return
+        mag(steps - nearest) < 1e-6
+      ? nearest*time.deltaTValue()
+      : time.value();
 }
 
 
@@ -108,13 +113,13 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
     mesh_(mesh),
     properties_(mesh),
     earlier_(mesh.time()),
-    whole_(new undecomposedFlow(mesh)),
+    undecomposed_(new undecomposedFlow(mesh)),
     field_(new electricField(properties_.section("forces"), mesh)),
     population_(properties_),
     flow_(),
     walls_(),
-    cellRank_(whole_->cellRank()),
-    cellLocal_(whole_->cellLocal()),
+    cellRank_(undecomposed_->cellRank()),
+    cellLocal_(undecomposed_->cellLocal()),
     injections_(),
     cells_(),
     criterion_(properties_.section("capture"), mesh.boundaryMesh()),
@@ -132,7 +137,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
 
         if (Pstream::master())
         {
-            meshNotes_ = checkpoint::notesOf(whole_->mesh());
+            meshNotes_ = checkpoint::notesOf(undecomposed_->mesh());
             earlier_.checkMesh(meshNotes_);
         }
     }
@@ -155,33 +160,33 @@ void Foam::ellipsoidCloud::setFlow
     const surfaceScalarField& phi
 )
 {
-    whole_->gather(U, p, phi);
+    undecomposed_->gather(U, p, phi);
 
     flow_.reset
     (
         new frozenFlow
         (
-            *whole_,
+            *undecomposed_,
             fluidDensity(),
             properties_.scheme(),
-            field_->onWhole(*whole_)
+            field_->onUndecomposed(*undecomposed_)
         )
     );
     walls_.reset
     (
         new wallFacets
         (
-            Pstream::master() ? &whole_->mesh() : nullptr,
+            Pstream::master() ? &undecomposed_->mesh() : nullptr,
             longestSemiAxis(properties_.options())
         )
     );
 
-    criterion_.setInletSpeed(inletFlux::speedOf(*whole_));
+    criterion_.setInletSpeed(inletFlux::speedOf(*undecomposed_));
 
     checkPlaces();
     makeInjections();
     field_.clear();
-    whole_.clear();
+    undecomposed_.clear();
 
     interval_.reset
     (
@@ -191,7 +196,7 @@ void Foam::ellipsoidCloud::setFlow
         )
     );
 
-    // Nothing on the disk is touched before all is known to be sound
+    // Nothing on the disk is changed before all has been checked
     statistics_->open();
     tracks_->open();
 

@@ -16,6 +16,7 @@ Description
 #include "ellipsoidParcel.H"
 #include "masterGate.H"
 #include "plainLists.H"
+#include "fvMesh.H"
 #include "HashSet.H"
 #include "StringStream.H"
 #include "atomicWrite.H"
@@ -127,7 +128,7 @@ void Foam::ellipsoidCloud::checkPlaces() const
             cell.tet < 0
          || cell.tet >= flow_->nTets()
          || !(mag(x) < GREAT)
-         || flow_->place(x, at) != frozenFlow::pInside
+         || flow_->locate(x, at) != frozenFlow::pInside
         )
         {
             OStringStream os;
@@ -227,52 +228,45 @@ void Foam::ellipsoidCloud::report()
 
 void Foam::ellipsoidCloud::reportWork() const
 {
-    const groupAdvance::account& done = interval_->done();
+    List<groupAdvance::account> ranks
+    (
+        Pstream::nProcs(), groupAdvance::account()
+    );
+    ranks[Pstream::myProcNo()] = interval_->done();
+    Pstream::gatherList(ranks);
 
-    // Counts may pass a label's range
-    const int64_t accepted =
-        returnReduce(int64_t(done.steps.accepted), sumOp<int64_t>());
-    const int64_t rejected =
-        returnReduce(int64_t(done.steps.rejected), sumOp<int64_t>());
-    const int64_t nGroups =
-        returnReduce(int64_t(done.nGroups), sumOp<int64_t>());
-    const label largest = returnReduce(done.largest, maxOp<label>());
-    const scalar inGroups = returnReduce(done.groupTime, sumOp<scalar>());
-    const scalar inAll = returnReduce(done.time, sumOp<scalar>());
+    groupAdvance::account sum = {};
+    scalar longest = VSMALL;
+    OStringStream load;
+    load.precision(6);
+
+    for (const groupAdvance::account& rank : ranks)
+    {
+        const auto steps = rank.steps.accepted + rank.steps.rejected;
+        load << ' ' << rank.time << " (" << int64_t(steps) << ')';
+        longest = max(longest, rank.time);
+
+        sum.steps.accepted += rank.steps.accepted;
+        sum.steps.rejected += rank.steps.rejected;
+        sum.nGroups += rank.nGroups;
+        sum.largest = max(sum.largest, rank.largest);
+        sum.groupTime += rank.groupTime;
+        sum.time += rank.time;
+    }
 
     Info<< nl << "tracking: " << returnReduce(trackingTime_, maxOp<scalar>())
-        << " s, " << accepted << " steps, " << rejected << " rejected" << nl
-        << "groups of cells: " << nGroups << " moved, " << largest
+        << " s, " << int64_t(sum.steps.accepted) << " steps, "
+        << int64_t(sum.steps.rejected) << " rejected" << nl
+        << "groups of cells: " << sum.nGroups << " moved, " << sum.largest
         << " cells in the largest, "
-        << 100*inGroups/max(inAll, VSMALL) << " % of the time" << endl;
+        << 100*sum.groupTime/max(sum.time, VSMALL) << " % of the time" << endl;
 
     if (Pstream::parRun())
     {
-        reportLoad();
+        Info<< "load of the ranks, as seconds (steps):" << load.str().c_str()
+            << "; evenness " << 100*sum.time/ranks.size()/longest << " %"
+            << endl;
     }
-}
-
-
-void Foam::ellipsoidCloud::reportLoad() const
-{
-    List<scalar> moving(Pstream::nProcs(), Zero);
-    List<int64_t> steps(Pstream::nProcs(), int64_t(0));
-
-    const groupAdvance::account& done = interval_->done();
-
-    moving[Pstream::myProcNo()] = done.time;
-    steps[Pstream::myProcNo()] = done.steps.accepted + done.steps.rejected;
-    Pstream::gatherList(moving);
-    Pstream::gatherList(steps);
-
-    const scalar longest = max(max(moving), VSMALL);
-
-    Info<< "load of the ranks, as seconds (steps):";
-    forAll(moving, ranki)
-    {
-        Info<< ' ' << moving[ranki] << " (" << steps[ranki] << ')';
-    }
-    Info<< "; evenness " << 100*average(moving)/longest << " %" << endl;
 }
 
 

@@ -23,13 +23,11 @@ Foam::labelHashSet Foam::baffleSides::bafflePoints() const
 
     for (const polyPatch& pp : mesh_.boundaryMesh())
     {
-        if (!isA<wallPolyPatch>(pp))
-        {
-            continue;
-        }
+        const label nFaces = isA<wallPolyPatch>(pp) ? pp.size() : 0;
 
-        for (const face& f : pp)
+        for (label i = 0; i < nFaces; ++i)
         {
+            const face& f = pp[i];
             std::vector<label> corners(f.begin(), f.end());
             std::sort(corners.begin(), corners.end());
 
@@ -46,25 +44,15 @@ Foam::labelHashSet Foam::baffleSides::bafflePoints() const
 
 void Foam::baffleSides::split(const label pointi, const UList<label>& faces)
 {
-    const labelList& owner = mesh_.faceOwner();
-    const labelList& neighbour = mesh_.faceNeighbour();
-
-    // The group of each cell: the lowest cell that it hangs together with
+    // The group of each cell: the lowest cell that it is connected with by
+    // faces that have the point
     Map<label> group;
 
     for (const label facei : faces)
     {
-        group.insert(owner[facei], owner[facei]);
-
-        if (mesh_.isInternalFace(facei))
-        {
-            group.insert(neighbour[facei], neighbour[facei]);
-        }
+        group.insert(mesh_.faceOwner()[facei], mesh_.faceOwner()[facei]);
     }
-
-    bool changed = true;
-
-    while (changed)
+    for (bool changed = true; changed;)
     {
         changed = false;
 
@@ -72,14 +60,12 @@ void Foam::baffleSides::split(const label pointi, const UList<label>& faces)
         {
             if (mesh_.isInternalFace(facei))
             {
-                label& a = group[owner[facei]];
-                label& b = group[neighbour[facei]];
+                const label celli = mesh_.faceNeighbour()[facei];
+                label& b = group(celli, celli);
+                label& a = group[mesh_.faceOwner()[facei]];
 
-                if (a != b)
-                {
-                    a = b = min(a, b);
-                    changed = true;
-                }
+                changed = changed || a != b;
+                a = b = min(a, b);
             }
         }
     }
@@ -110,7 +96,8 @@ void Foam::baffleSides::split(const label pointi, const UList<label>& faces)
     {
         if (!mesh_.isInternalFace(facei))
         {
-            sides_[sideOf_[pointi][owner[facei]]].faces.append(facei);
+            const label celli = mesh_.faceOwner()[facei];
+            sides_[sideOf_[pointi][celli]].faces.append(facei);
         }
     }
 }
@@ -123,15 +110,9 @@ Foam::baffleSides::baffleSides(const polyMesh& mesh)
     mesh_(mesh)
 {
     const labelHashSet points(bafflePoints());
-
-    if (points.empty())
-    {
-        return;
-    }
-
     Map<DynamicList<label>> faces;
 
-    forAll(mesh.faces(), facei)
+    for (label facei = 0; points.size() && facei < mesh.nFaces(); ++facei)
     {
         for (const label pointi : mesh.faces()[facei])
         {

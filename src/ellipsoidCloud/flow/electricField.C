@@ -12,6 +12,8 @@ License
 #include "fvcGrad.H"
 #include "masterGate.H"
 #include "StringStream.H"
+#include "undecomposedFlow.H"
+#include "volFields.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -130,6 +132,11 @@ Foam::electricField::electricField
 }
 
 
+// * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
+
+Foam::electricField::~electricField() = default;
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 bool Foam::electricField::isNamed(const dictionary& forces)
@@ -155,21 +162,21 @@ void Foam::electricField::checkEntries(const dictionary& forces)
 }
 
 
-Foam::autoPtr<Foam::volVectorField> Foam::electricField::onWhole
+Foam::autoPtr<Foam::volVectorField> Foam::electricField::onUndecomposed
 (
-    const undecomposedFlow& whole
+    const undecomposedFlow& undecomposed
 ) const
 {
     if (field_.valid())
     {
-        return whole.gather(*field_);
+        return undecomposed.gather(*field_);
     }
 
     autoPtr<volVectorField> E;
 
     if (potential_.valid())
     {
-        const autoPtr<volScalarField> V(whole.gather(*potential_));
+        const autoPtr<volScalarField> V(undecomposed.gather(*potential_));
 
         if (Pstream::master())
         {

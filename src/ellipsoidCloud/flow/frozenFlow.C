@@ -8,12 +8,16 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "frozenFlow.H"
+#include "baffleSides.H"
+#include "indexedOctree.H"
 #include "inletFlux.H"
+#include "treeDataPoint.H"
+#include "undecomposedFlow.H"
+#include "volFields.H"
 #include "wallPolyPatch.H"
 #include "treeBoundBox.H"
 
 #include <algorithm>
-#include <cmath>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -24,75 +28,65 @@ const Foam::Enum<Foam::frozenFlow::schemeType> Foam::frozenFlow::schemeNames
 });
 
 
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
-void Foam::frozenFlow::barycentric
-(
-    const tetrahedron& tet,
-    const scalar x[3],
-    scalar coordinates[4],
-    scalar gradients[4][3]
-) const
+namespace Foam
 {
-    const scalar* origin = vertexRef(tet.vertices[0]).x;
-
-    scalar e[3][3];
-    for (int i = 0; i < 3; ++i)
+    static inline void copy(const vector& from, scalar to[3])
     {
-        const scalar* corner = vertexRef(tet.vertices[i + 1]).x;
-
-        for (int d = 0; d < 3; ++d)
-        {
-            e[i][d] = corner[d] - origin[d];
-        }
+        std::copy_n(from.v_, 3, to);
     }
 
-    for (int i = 0; i < 3; ++i)
+    static inline void copy(const tensor& from, scalar (*to)[3])
     {
-        const scalar* a = e[(i + 1) % 3];
-        const scalar* b = e[(i + 2) % 3];
-
-        gradients[i + 1][0] = a[1]*b[2] - a[2]*b[1];
-        gradients[i + 1][1] = a[2]*b[0] - a[0]*b[2];
-        gradients[i + 1][2] = a[0]*b[1] - a[1]*b[0];
-    }
-
-    const scalar volume =
-        e[0][0]*gradients[1][0]
-      + e[0][1]*gradients[1][1]
-      + e[0][2]*gradients[1][2];
-
-    // A flat tetrahedron holds nothing, but the walk has to get through it
-    const scalar inverseVolume = 1/(volume != 0 ? volume : 1e-40);
-
-    coordinates[0] = 1;
-    for (int d = 0; d < 3; ++d)
-    {
-        gradients[0][d] = 0;
-    }
-
-    for (int i = 1; i < 4; ++i)
-    {
-        coordinates[i] = 0;
-
-        for (int d = 0; d < 3; ++d)
-        {
-            gradients[i][d] *= inverseVolume;
-            gradients[0][d] -= gradients[i][d];
-            coordinates[i] += gradients[i][d]*(x[d] - origin[d]);
-        }
-
-        coordinates[0] -= coordinates[i];
+        std::copy_n(from.v_, 9, &to[0][0]);
     }
 }
 
 
-Foam::frozenFlow::placeType Foam::frozenFlow::walk
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::frozenFlow::tetCoordinates Foam::frozenFlow::coordinates
 (
-    const scalar x[3],
+    const flowTet& tet,
+    const point& x
+) const
+{
+    tetCoordinates c;
+    c.vertices = tet.vertices;
+
+    const point& origin = vertices_[tet.vertices[0]].x;
+    const vector edges[3] =
+    {
+        vertices_[tet.vertices[1]].x - origin,
+        vertices_[tet.vertices[2]].x - origin,
+        vertices_[tet.vertices[3]].x - origin
+    };
+
+    // A flat tetrahedron holds nothing, but the walk has to get through it
+    const scalar volume = edges[0] & (edges[1] ^ edges[2]);
+    const scalar inverseVolume = 1/(volume != 0 ? volume : 1e-40);
+
+    c.weight[0] = 1;
+    c.gradient[0] = Zero;
+
+    for (int a = 1; a < 4; ++a)
+    {
+        c.gradient[a] = inverseVolume*(edges[a % 3] ^ edges[(a + 1) % 3]);
+        c.weight[a] = c.gradient[a] & (x - origin);
+        c.gradient[0] -= c.gradient[a];
+        c.weight[0] -= c.weight[a];
+    }
+
+    return c;
+}
+
+
+Foam::frozenFlow::locationType Foam::frozenFlow::walk
+(
+    const point& x,
     probe& at,
-    scalar coordinates[4],
-    scalar gradients[4][3]
+    tetCoordinates& c
 ) const
 {
     // A coordinate this far below 0 is rounding, not another tetrahedron
@@ -103,32 +97,31 @@ Foam::frozenFlow::placeType Foam::frozenFlow::walk
 
     for (label n = 0; n < maxTets; ++n)
     {
-        const tetrahedron& tet = tetRef(at.tet);
-        barycentric(tet, x, coordinates, gradients);
+        const flowTet& tet = tets_[at.tet];
+        c = coordinates(tet, x);
 
         // Leave by the face most exceeded that leads on; a patch only where
-        // no face does, since the way round a corner may touch it. Nor go
+        // no face does, since the way round a corner may graze it. Nor go
         // straight back where tetrahedra overlap.
         int exit = -1;
         int patchExit = -1;
 
         for (int i = 0; i < 4; ++i)
         {
-            if (coordinates[i] < -tolerance)
-            {
-                int& best = tet.neighbours[i] < 0 ? patchExit : exit;
+            int& best = tet.neighbours[i] < 0 ? patchExit : exit;
 
-                if
-                (
-                    (tet.neighbours[i] != previous || previous < 0)
-                 && (best < 0 || coordinates[i] < coordinates[best])
-                )
-                {
-                    best = i;
-                }
+            if
+            (
+                c.weight[i] < -tolerance
+             && (tet.neighbours[i] != previous || previous < 0)
+             && (best < 0 || c.weight[i] < c.weight[best])
+            )
+            {
+                best = i;
             }
         }
 
+        at.patch = -1;
         if (exit >= 0)
         {
             previous = at.tet;
@@ -137,119 +130,71 @@ Foam::frozenFlow::placeType Foam::frozenFlow::walk
         else if (patchExit >= 0)
         {
             at.patch = -1 - tet.neighbours[patchExit];
-            return patchPlace_[at.patch];
+            return locationType(patchLocation_[at.patch]);
         }
         else
         {
-            at.patch = -1;
             return pInside;
         }
     }
 
-    at.patch = -1;
     return pBeyondWall;
 }
 
 
-void Foam::frozenFlow::interpolate
+void Foam::frozenFlow::velocity
 (
-    const scalar* const values[4],
-    const scalar coordinates[4],
-    const scalar gradients[4][3],
-    scalar value[3],
-    scalar (*jacobian)[3]
-)
-{
-    for (int i = 0; i < 3; ++i)
-    {
-        value[i] = 0;
-
-        for (int a = 0; a < 4; ++a)
-        {
-            value[i] += coordinates[a]*values[a][i];
-        }
-
-        for (int j = 0; jacobian && j < 3; ++j)
-        {
-            jacobian[i][j] = 0;
-
-            for (int a = 0; a < 4; ++a)
-            {
-                jacobian[i][j] += gradients[a][j]*values[a][i];
-            }
-        }
-    }
-}
-
-
-void Foam::frozenFlow::interpolateVelocity
-(
-    const vertex* const v[4],
-    const scalar coordinates[4],
-    const scalar gradients[4][3],
+    const tetCoordinates& c,
     scalar velocity[3],
     scalar (*jacobian)[3]
 ) const
 {
-    const scalar* const u[4] = {v[0]->u, v[1]->u, v[2]->u, v[3]->u};
+    const auto u =
+        [&](const label i) -> const vector& { return vertices_[i].u; };
 
-    interpolate(u, coordinates, gradients, velocity, jacobian);
+    vector value(c.value<vector>(u));
+    tensor derivatives(jacobian ? c.derivatives(u) : tensor::zero);
 
-    if (scheme_ != stCellPointQuadratic)
-    {
-        return;
-    }
-
-    for (int a = 0; a < 3; ++a)
+    for (int a = 0; scheme_ == stCellPointQuadratic && a < 3; ++a)
     {
         for (int b = a + 1; b < 4; ++b)
         {
-            const scalar weight = 0.5*coordinates[a]*coordinates[b];
+            // Change of the slope along the edge from a to b
+            const flowVertex& va = vertices_[c.vertices[a]];
+            const flowVertex& vb = vertices_[c.vertices[b]];
+            const vector bend((va.gradient - vb.gradient) & (vb.x - va.x));
 
-            for (int i = 0; i < 3; ++i)
-            {
-                // Change of the slope along the edge from a to b
-                scalar bend = 0;
-                for (int j = 0; j < 3; ++j)
-                {
-                    bend +=
-                        (v[a]->gradient[i][j] - v[b]->gradient[i][j])
-                       *(v[b]->x[j] - v[a]->x[j]);
-                }
-
-                velocity[i] += weight*bend;
-
-                for (int j = 0; jacobian && j < 3; ++j)
-                {
-                    jacobian[i][j] +=
-                        0.5*bend
-                       *(
-                            gradients[a][j]*coordinates[b]
-                          + coordinates[a]*gradients[b][j]
-                        );
-                }
-            }
+            value += 0.5*c.weight[a]*c.weight[b]*bend;
+            derivatives +=
+                (0.5*bend)
+               *(c.weight[b]*c.gradient[a] + c.weight[a]*c.gradient[b]);
         }
+    }
+
+    copy(value, velocity);
+    if (jacobian)
+    {
+        copy(derivatives, jacobian);
     }
 }
 
 
-void Foam::frozenFlow::checkOpenPatches(const undecomposedFlow& whole) const
+void Foam::frozenFlow::checkOpenPatches(const undecomposedFlow& undecomposed)
 {
-    const inletFlux through(whole.U(), whole.phi());
+    const inletFlux through(undecomposed.U(), undecomposed.phi());
 
-    forAll(through.patches(), i)
+    forAll(through.patches, i)
     {
         const polyPatch& pp =
-            whole.mesh().boundaryMesh()[through.patches()[i]];
+            undecomposed.mesh().boundaryMesh()[through.patches[i]];
 
-        if (pp.size() && through.isRounding(through.magFlux()[i]))
+        if (pp.size() && through.isRounding(through.magFlux[i]))
         {
             FatalErrorInFunction
                 << "nothing flows through patch " << pp.name() << " of type "
                 << pp.type() << nl
                 << "    Cells would leave there. If it is a wall, make it one: "
-                << "type wall in " << whole.mesh().meshDir()/"boundary"
+                << "type wall in " << undecomposed.mesh().meshDir()/"boundary"
                 << exit(FatalError);
         }
     }
@@ -260,7 +205,7 @@ void Foam::frozenFlow::checkOpenPatches(const undecomposedFlow& whole) const
 
 Foam::frozenFlow::frozenFlow
 (
-    const undecomposedFlow& whole,
+    const undecomposedFlow& undecomposed,
     const scalar rho,
     const schemeType scheme,
     const autoPtr<volVectorField>& E
@@ -272,51 +217,39 @@ Foam::frozenFlow::frozenFlow
     {
         const undecomposedFlow::serialScope serial;
 
-        const baffleSides baffles(whole.mesh());
+        const baffleSides baffles(undecomposed.mesh());
 
-        makeTets(whole.mesh(), baffles);
-        makeVertices(whole, rho, baffles);
+        makeTets(undecomposed.mesh(), baffles);
+        makeVertices(undecomposed, rho, baffles);
 
         if (E.valid())
         {
-            makeFields(*E, baffles);
+            makeField(*E, baffles);
         }
 
-        checkOpenPatches(whole);
+        checkOpenPatches(undecomposed);
 
-        const polyBoundaryMesh& patches = whole.mesh().boundaryMesh();
-        patchPlace_.setSize(patches.size());
-
-        forAll(patches, patchi)
+        for (const polyPatch& pp : undecomposed.mesh().boundaryMesh())
         {
-            const polyPatch& pp = patches[patchi];
-
-            patchPlace_[patchi] =
+            patchLocation_.append
+            (
                 isA<wallPolyPatch>(pp) ? pBeyondWall
               : polyPatch::constraintType(pp.type()) ? pBeyondCoupled
-              : pBeyondOpen;
+              : pBeyondOpen
+            );
         }
     }
 
     Pstream::scatter(vertices_);
-    Pstream::scatter(fields_);
+    Pstream::scatter(field_);
     Pstream::scatter(tets_);
     Pstream::scatter(cellTets_);
-
-    labelList places(patchPlace_.size());
-    std::copy(patchPlace_.cbegin(), patchPlace_.cend(), places.begin());
-    Pstream::scatter(places);
-    patchPlace_.setSize(places.size());
-    forAll(places, patchi)
-    {
-        patchPlace_[patchi] = placeType(places[patchi]);
-    }
+    Pstream::scatter(patchLocation_);
 
     centres_.setSize(cellTets_.size() - 1);
     forAll(centres_, celli)
     {
-        const scalar* x = vertexRef(celli).x;
-        centres_[celli] = point(x[0], x[1], x[2]);
+        centres_[celli] = vertices_[celli].x;
     }
 
     const boundBox box(centres_, false);
@@ -336,6 +269,11 @@ Foam::frozenFlow::frozenFlow
 }
 
 
+// * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
+
+Foam::frozenFlow::~frozenFlow() = default;
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 bool Foam::frozenFlow::find(const point& x, probe& at) const
@@ -348,7 +286,7 @@ bool Foam::frozenFlow::find(const point& x, probe& at) const
     {
         at.tet = teti;
 
-        if (place(x, at) == pInside)
+        if (locate(x, at) == pInside)
         {
             return true;
         }
@@ -358,16 +296,15 @@ bool Foam::frozenFlow::find(const point& x, probe& at) const
 }
 
 
-Foam::frozenFlow::placeType Foam::frozenFlow::place
+Foam::frozenFlow::locationType Foam::frozenFlow::locate
 (
     const point& x,
     probe& at
 ) const
 {
-    scalar coordinates[4];
-    scalar gradients[4][3];
+    tetCoordinates c;
 
-    return walk(x.v_, at, coordinates, gradients);
+    return walk(x, at, c);
 }
 
 
@@ -379,66 +316,44 @@ int Foam::frozenFlow::sample
     ellipsoid_flow_sample& sample
 ) const
 {
-    scalar coordinates[4];
-    scalar gradients[4][3];
+    tetCoordinates c;
+    const locationType location = walk(pointOf(x), at, c);
 
-    const placeType place = walk(x, at, coordinates, gradients);
-
-    if (place == pBeyondWall || place == pBeyondCoupled)
+    if (location == pBeyondWall || location == pBeyondCoupled)
     {
         return 1;
     }
 
-    const tetrahedron& tet = tetRef(at.tet);
-    const vertex* v[4];
-
-    std::fill_n(&sample.gradient[0][0], 9, scalar(0));
-    std::fill_n(sample.pressure_gradient, 3, scalar(0));
-
-    for (int a = 0; a < 4; ++a)
-    {
-        v[a] = &vertexRef(tet.vertices[a]);
-
-        for (int i = 0; i < 3; ++i)
+    const auto gradient =
+        [&](const label i) -> const tensor& { return vertices_[i].gradient; };
+    const auto gradp =
+        [&](const label i) -> const vector&
         {
-            sample.pressure_gradient[i] +=
-                coordinates[a]*v[a]->pressureGradient[i];
+            return vertices_[i].pressureGradient;
+        };
 
-            for (int j = 0; j < 3; ++j)
-            {
-                sample.gradient[i][j] += coordinates[a]*v[a]->gradient[i][j];
-            }
-        }
-    }
-
-    interpolateVelocity
+    velocity
     (
-        v,
-        coordinates,
-        gradients,
-        sample.velocity,
-        derivatives ? sample.velocity_jacobian : nullptr
+        c, sample.velocity, derivatives ? sample.velocity_jacobian : nullptr
     );
+    copy(c.value<tensor>(gradient), sample.gradient);
+    copy(c.value<vector>(gradp), sample.pressure_gradient);
 
     if (derivatives)
     {
-        std::fill_n(&sample.pressure_jacobian[0][0], 9, scalar(0));
+        copy(c.derivatives(gradp), sample.pressure_jacobian);
         std::fill_n(&sample.gradient_jacobian[0][0][0], 27, scalar(0));
 
         for (int a = 0; a < 4; ++a)
         {
-            for (int i = 0; i < 3; ++i)
+            const tensor& G = gradient(c.vertices[a]);
+
+            for (int ij = 0; ij < 9; ++ij)
             {
                 for (int k = 0; k < 3; ++k)
                 {
-                    sample.pressure_jacobian[i][k] +=
-                        gradients[a][k]*v[a]->pressureGradient[i];
-
-                    for (int j = 0; j < 3; ++j)
-                    {
-                        sample.gradient_jacobian[i][j][k] +=
-                            gradients[a][k]*v[a]->gradient[i][j];
-                    }
+                    sample.gradient_jacobian[ij/3][ij % 3][k] +=
+                        c.gradient[a][k]*G[ij];
                 }
             }
         }
@@ -456,24 +371,21 @@ int Foam::frozenFlow::field
     scalar (*jacobian)[3]
 ) const
 {
-    scalar coordinates[4];
-    scalar gradients[4][3];
+    tetCoordinates c;
+    const locationType location = walk(pointOf(x), at, c);
 
-    const placeType place = walk(x, at, coordinates, gradients);
-
-    if (place == pBeyondWall || place == pBeyondCoupled)
+    if (location == pBeyondWall || location == pBeyondCoupled)
     {
         return 1;
     }
 
-    const scalar* E[4];
+    const auto E = [&](const label i) -> const vector& { return field_[i]; };
 
-    for (int a = 0; a < 4; ++a)
+    copy(c.value<vector>(E), field);
+    if (jacobian)
     {
-        E[a] = &fields_[3*tetRef(at.tet).vertices[a]];
+        copy(c.derivatives(E), jacobian);
     }
-
-    interpolate(E, coordinates, gradients, field, jacobian);
 
     return 0;
 }
@@ -488,37 +400,26 @@ void Foam::frozenFlow::velocity
 ) const
 {
     probe at(from);
-    scalar coordinates[4];
-    scalar gradients[4][3];
+    tetCoordinates c;
 
-    const placeType place = walk(x, at, coordinates, gradients);
-
-    const tetrahedron& tet = tetRef(at.tet);
-    const vertex* v[4];
-
-    for (int a = 0; a < 4; ++a)
-    {
-        v[a] = &vertexRef(tet.vertices[a]);
-    }
-
-    if (place == pBeyondWall)
+    if (walk(pointOf(x), at, c) == pBeyondWall)
     {
         // Back to the face beyond which the position lies
         scalar sum = 0;
 
         for (int a = 0; a < 4; ++a)
         {
-            coordinates[a] = max(coordinates[a], scalar(0));
-            sum += coordinates[a];
-            std::fill_n(gradients[a], 3, scalar(0));
+            c.weight[a] = max(c.weight[a], scalar(0));
+            c.gradient[a] = Zero;
+            sum += c.weight[a];
         }
-        for (int a = 0; a < 4; ++a)
+        for (scalar& weight : c.weight)
         {
-            coordinates[a] /= sum;
+            weight /= sum;
         }
     }
 
-    interpolateVelocity(v, coordinates, gradients, velocity, jacobian);
+    this->velocity(c, velocity, jacobian);
 }
 
 

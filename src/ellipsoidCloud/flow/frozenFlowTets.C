@@ -13,12 +13,13 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "frozenFlow.H"
+#include "baffleSides.H"
+#include "undecomposedFlow.H"
 #include "volPointInterpolation.H"
 #include "fvcGrad.H"
 #include "wallPolyPatch.H"
 #include "EdgeMap.H"
 
-#include <algorithm>
 #include <cmath>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -58,23 +59,45 @@ namespace Foam
         return value/sum;
     }
 
-    //- End the run if a value at a vertex is not finite
-    static void checkFinite
+    //- A field at all vertices. Ends the run if a value is not finite.
+    template<class Type>
+    static Field<Type> atVertices
     (
-        const scalarList& values,
-        const char* field,
+        const GeometricField<Type, fvPatchField, volMesh>& field,
+        const baffleSides& baffles,
+        const char* name,
         const char* advice
     )
     {
-        for (const scalar value : values)
+        const label nCells = field.mesh().nCells();
+        const label nPoints = field.mesh().nPoints();
+        Field<Type> values(nCells + nPoints + baffles.sides().size());
+
+        SubList<Type>(values, nCells) = field.primitiveField();
+        SubList<Type>(values, nPoints, nCells) =
+            volPointInterpolation::New(field.mesh()).interpolate(field)()
+           .primitiveField();
+
+        forAll(baffles.sides(), sidei)
         {
-            if (std::isnan(value) || std::isinf(value))
+            values[nCells + nPoints + sidei] =
+                atSide(field, baffles.sides()[sidei]);
+        }
+
+        for (const Type& value : values)
+        {
+            for (const scalar component : value.v_)
             {
-                FatalErrorInFunction
-                    << "the " << field << " field holds a value that is not "
-                    << "finite: " << advice << exit(FatalError);
+                if (!std::isfinite(component))
+                {
+                    FatalErrorInFunction
+                        << "the " << name << " field holds a value that is not "
+                        << "finite: " << advice << exit(FatalError);
+                }
             }
         }
+
+        return values;
     }
 }
 
@@ -87,273 +110,164 @@ void Foam::frozenFlow::makeTets
     const baffleSides& baffles
 )
 {
-    const faceList& faces = mesh.faces();
-    const labelList& owner = mesh.faceOwner();
-    const labelList& basePoints = mesh.tetBasePtIs();
-    const label nCells = mesh.nCells();
-
-    // Triangles of face facei, in fan order, are tetrahedra
-    // cellFaceTet[facei] + 0, 1, ... of its owner and its neighbour
-    labelList ownerTet(mesh.nFaces(), -1);
-    labelList neighbourTet(mesh.nFaces(), -1);
-
-    cellTets_.setSize(nCells + 1);
+    // Triangles of a face, in fan order, are tetrahedra first + 0, 1, ... of
+    // its owner, and second + 0, 1, ... of its neighbour
+    List<labelPair> faceTets(mesh.nFaces(), labelPair(-1, -1));
     label nTets = 0;
 
-    for (label celli = 0; celli < nCells; ++celli)
+    cellTets_.setSize(mesh.nCells() + 1);
+    forAll(mesh.cells(), celli)
     {
         cellTets_[celli] = nTets;
 
         for (const label facei : mesh.cells()[celli])
         {
-            (owner[facei] == celli ? ownerTet : neighbourTet)[facei] = nTets;
-            nTets += faces[facei].size() - 2;
+            faceTets[facei][mesh.faceOwner()[facei] != celli] = nTets;
+            nTets += mesh.faces()[facei].size() - 2;
         }
     }
-    cellTets_[nCells] = nTets;
+    cellTets_[mesh.nCells()] = nTets;
+    tets_.setSize(nTets);
 
-    tets_.setSize(nTets*labelsPerTet);
-
-    for (label celli = 0; celli < nCells; ++celli)
+    forAll(mesh.cells(), celli)
     {
-        // The tetrahedron, and its face, waiting at each edge of the cell's
-        // surface for the one on the other side
-        EdgeMap<labelPair> open(4*mesh.cells()[celli].size());
+        splitCell(mesh, baffles, faceTets, celli);
+    }
+}
 
-        label teti = cellTets_[celli];
 
-        for (const label facei : mesh.cells()[celli])
+void Foam::frozenFlow::splitCell
+(
+    const polyMesh& mesh,
+    const baffleSides& baffles,
+    const UList<labelPair>& faceTets,
+    const label celli
+)
+{
+    // The tetrahedron, and its face, at each edge of the cell's surface until
+    // the one on the other side is there
+    EdgeMap<labelPair> open(4*mesh.cells()[celli].size());
+
+    label teti = cellTets_[celli];
+
+    for (const label facei : mesh.cells()[celli])
+    {
+        const face& f = mesh.faces()[facei];
+        const label owned = (mesh.faceOwner()[facei] == celli);
+        const label base = max(mesh.tetBasePtIs()[facei], label(0));
+        const label patchi = mesh.boundaryMesh().whichPatch(facei);
+
+        for (label trii = 1; trii < f.size() - 1; ++trii, ++teti)
         {
-            const face& f = faces[facei];
-            const bool owned = (owner[facei] == celli);
-            const label base = max(basePoints[facei], label(0));
-
-            for (label trii = 1; trii < f.size() - 1; ++trii, ++teti)
+            // The normal of a face points out of its owner
+            const label corners[3] =
             {
-                label* data = &tets_[teti*labelsPerTet];
-                tetrahedron& tet = *reinterpret_cast<tetrahedron*>(data);
+                f[base],
+                f[(base + trii + 1 - owned) % f.size()],
+                f[(base + trii + owned) % f.size()]
+            };
 
-                label a = f[(base + trii) % f.size()];
-                label b = f[(base + trii + 1) % f.size()];
+            flowTet& tet = tets_[teti];
+            tet.vertices[0] = celli;
+            tet.neighbours[0] =
+                patchi < 0 ? faceTets[facei][owned] + trii - 1 : -1 - patchi;
 
-                // The normal of a face points out of its owner
-                if (!owned)
+            for (label i = 0; i < 3; ++i)
+            {
+                tet.vertices[i + 1] =
+                    mesh.nCells() + baffles.vertex(corners[i], celli);
+
+                const edge e(corners[(i + 1) % 3], corners[(i + 2) % 3]);
+
+                if (!open.insert(e, labelPair(teti, i + 1)))
                 {
-                    std::swap(a, b);
-                }
-
-                tet.vertices[0] = celli;
-                tet.vertices[1] = nCells + baffles.vertex(f[base], celli);
-                tet.vertices[2] = nCells + baffles.vertex(a, celli);
-                tet.vertices[3] = nCells + baffles.vertex(b, celli);
-
-                if (mesh.isInternalFace(facei))
-                {
-                    tet.neighbours[0] =
-                        (owned ? neighbourTet : ownerTet)[facei] + trii - 1;
-                }
-                else
-                {
-                    tet.neighbours[0] =
-                        -1 - mesh.boundaryMesh().whichPatch(facei);
-                }
-
-                const edge edges[3] =
-                    {edge(a, b), edge(f[base], b), edge(f[base], a)};
-
-                for (label i = 0; i < 3; ++i)
-                {
-                    const auto waiting = open.cfind(edges[i]);
-
-                    if (waiting.found())
-                    {
-                        const labelPair other(*waiting);
-                        tet.neighbours[i + 1] = other.first();
-                        tets_
-                        [
-                            other.first()*labelsPerTet + 4 + other.second()
-                        ] = teti;
-                        open.erase(edges[i]);
-                    }
-                    else
-                    {
-                        open.insert(edges[i], labelPair(teti, i + 1));
-                    }
+                    const labelPair other(open[e]);
+                    tet.neighbours[i + 1] = other.first();
+                    tets_[other.first()].neighbours[other.second()] = teti;
+                    open.erase(e);
                 }
             }
         }
+    }
 
-        if (open.size())
-        {
-            FatalErrorInFunction
-                << "cell " << celli << " at " << mesh.cellCentres()[celli]
-                << " is not closed: checkMesh says more"
-                << exit(FatalError);
-        }
+    if (open.size())
+    {
+        FatalErrorInFunction
+            << "cell " << celli << " at " << mesh.cellCentres()[celli]
+            << " is not closed: checkMesh says more" << exit(FatalError);
     }
 }
 
 
 void Foam::frozenFlow::makeVertices
 (
-    const undecomposedFlow& whole,
+    const undecomposedFlow& undecomposed,
     const scalar rho,
     const baffleSides& baffles
 )
 {
-    const fvMesh& mesh = whole.mesh();
+    const fvMesh& mesh = undecomposed.mesh();
     const label nCells = mesh.nCells();
+    const char* advice = "solve the flow again from clean fields";
 
-    const volTensorField gradU(fvc::grad(whole.U()));
-    const volVectorField gradp(rho*fvc::grad(whole.p()));
+    vectorField U(atVertices(undecomposed.U(), baffles, "flow", advice));
+    const tensorField gradU
+    (
+        atVertices(fvc::grad(undecomposed.U())(), baffles, "flow", advice)
+    );
+    const vectorField gradp
+    (
+        atVertices((rho*fvc::grad(undecomposed.p()))(), baffles, "flow", advice)
+    );
 
-    const volPointInterpolation& toPoints = volPointInterpolation::New(mesh);
+    // A point that a wall shares with an open patch moves with the wall,
+    // either side of a baffle by itself
+    vectorField wallU(U.size() - nCells, Zero);
+    labelList nWallFaces(wallU.size(), Zero);
 
-    const pointVectorField pointU(toPoints.interpolate(whole.U()));
-    const pointTensorField pointGradU(toPoints.interpolate(gradU));
-    const pointVectorField pointGradp(toPoints.interpolate(gradp));
-
-    // A point that a wall shares with an open patch moves with the wall
-    vectorField wallU(mesh.nPoints(), Zero);
-    labelList nWallFaces(mesh.nPoints(), Zero);
-
-    forAll(mesh.boundaryMesh(), patchi)
+    for (const polyPatch& pp : mesh.boundaryMesh())
     {
-        const polyPatch& pp = mesh.boundaryMesh()[patchi];
+        const vectorField& Up = undecomposed.U().boundaryField()[pp.index()];
+        const label nFaces = isA<wallPolyPatch>(pp) ? pp.size() : 0;
 
-        if (isA<wallPolyPatch>(pp))
+        for (label i = 0; i < nFaces; ++i)
         {
-            forAll(pp, i)
+            for (const label pointi : pp[i])
             {
-                for (const label pointi : pp[i])
-                {
-                    wallU[pointi] += whole.U().boundaryField()[patchi][i];
-                    ++nWallFaces[pointi];
-                }
+                const label j = baffles.vertex(pointi, pp.faceCells()[i]);
+                wallU[j] += Up[i];
+                ++nWallFaces[j];
             }
         }
     }
 
-    const label nSides = baffles.sides().size();
+    vertices_.setSize(U.size());
 
-    vertices_.setSize((nCells + mesh.nPoints() + nSides)*scalarsPerVertex);
-
-    const auto setVertex =
-        [&]
-        (
-            const label i,
-            const point& x,
-            const vector& u,
-            const tensor& gradu,
-            const vector& gradientp
-        )
-        {
-            scalar* data = &vertices_[i*scalarsPerVertex];
-            vertex& v = *reinterpret_cast<vertex*>(data);
-
-            for (direction d = 0; d < 3; ++d)
-            {
-                v.x[d] = x[d];
-                v.u[d] = u[d];
-                v.pressureGradient[d] = gradientp[d];
-
-                for (direction e = 0; e < 3; ++e)
-                {
-                    v.gradient[d][e] = gradu[3*e + d];
-                }
-            }
-        };
-
-    for (label celli = 0; celli < nCells; ++celli)
+    forAll(vertices_, i)
     {
-        setVertex
-        (
-            celli,
-            mesh.cellCentres()[celli],
-            whole.U()[celli],
-            gradU[celli],
-            gradp[celli]
-        );
+        const label j = i - nCells;
+        const label pointi =
+            j < mesh.nPoints() ? j : baffles.sides()[j - mesh.nPoints()].point;
+
+        vertices_[i].x = j < 0 ? mesh.cellCentres()[i] : mesh.points()[pointi];
+        vertices_[i].u =
+            j >= 0 && nWallFaces[j] ? wallU[j]/scalar(nWallFaces[j]) : U[i];
+        vertices_[i].gradient = gradU[i].T();
+        vertices_[i].pressureGradient = gradp[i];
     }
-
-    for (label pointi = 0; pointi < mesh.nPoints(); ++pointi)
-    {
-        setVertex
-        (
-            nCells + pointi,
-            mesh.points()[pointi],
-            nWallFaces[pointi]
-          ? wallU[pointi]/scalar(nWallFaces[pointi])
-          : pointU[pointi],
-            pointGradU[pointi],
-            pointGradp[pointi]
-        );
-    }
-
-    // Either side of a baffle by itself
-    for (label sidei = 0; sidei < nSides; ++sidei)
-    {
-        const baffleSides::side& side = baffles.sides()[sidei];
-
-        vector u(Zero);
-        label nWalls = 0;
-
-        for (const label facei : side.faces)
-        {
-            const label patchi = mesh.boundaryMesh().whichPatch(facei);
-            const polyPatch& pp = mesh.boundaryMesh()[patchi];
-
-            if (isA<wallPolyPatch>(pp))
-            {
-                u += whole.U().boundaryField()[patchi][facei - pp.start()];
-                ++nWalls;
-            }
-        }
-
-        setVertex
-        (
-            nCells + mesh.nPoints() + sidei,
-            mesh.points()[side.point],
-            nWalls ? u/scalar(nWalls) : pointU[side.point],
-            atSide(gradU, side),
-            atSide(gradp, side)
-        );
-    }
-
-    checkFinite(vertices_, "flow", "solve the flow again from clean fields");
 }
 
 
-void Foam::frozenFlow::makeFields
+void Foam::frozenFlow::makeField
 (
     const volVectorField& E,
     const baffleSides& baffles
 )
 {
-    const fvMesh& mesh = E.mesh();
-    const label nCells = mesh.nCells();
-    const label nWhole = nCells + mesh.nPoints();
-
-    const pointVectorField pointE
+    field_ = atVertices
     (
-        volPointInterpolation::New(mesh).interpolate(E)
+        E, baffles, "electric", "look at what forces/electricField names"
     );
-
-    fields_.setSize(3*(nWhole + baffles.sides().size()));
-
-    for (label i = 0; i < fields_.size()/3; ++i)
-    {
-        const vector value
-        (
-            i < nCells ? E[i]
-          : i < nWhole ? pointE[i - nCells]
-          : atSide(E, baffles.sides()[i - nWhole])
-        );
-
-        std::copy_n(value.v_, 3, &fields_[3*i]);
-    }
-
-    checkFinite(fields_, "electric", "look at what forces/electricField names");
 }
 
 

@@ -8,7 +8,9 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "inletFlux.H"
+#include "surfaceFields.H"
 #include "undecomposedFlow.H"
+#include "volFields.H"
 #include "wallPolyPatch.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -19,29 +21,26 @@ Foam::inletFlux::inletFlux
     const surfaceScalarField& phi
 )
 :
-    patches_(openPatches(U.mesh().boundaryMesh())),
-    flux_(patches_.size()),
-    magFlux_(patches_.size()),
-    area_(patches_.size()),
-    inflow_(0),
-    inletArea_(0),
-    meanSpeed_(0),
-    crossing_(0),
-    rounding_(0)
+    patches(openPatches(U.mesh().boundaryMesh())),
+    flux(patches.size()),
+    magFlux(patches.size()),
+    area(patches.size()),
+    inflow(0)
 {
     const fvMesh& mesh = U.mesh();
-    const label n = patches_.size();
+
+    const label n = patches.size();
 
     // One message for all sums
     scalarField sums(3*n + 2);
 
-    forAll(patches_, i)
+    forAll(patches, i)
     {
-        const scalarField& phip = phi.boundaryField()[patches_[i]];
+        const scalarField& phip = phi.boundaryField()[patches[i]];
 
         sums[i] = sum(phip);
         sums[n + i] = sum(mag(phip));
-        sums[2*n + i] = sum(mesh.magSf().boundaryField()[patches_[i]]);
+        sums[2*n + i] = sum(mesh.magSf().boundaryField()[patches[i]]);
     }
     sums[3*n] = sum(mag(U.primitiveField())*mesh.V());
     sums[3*n + 1] = sum(mesh.V().field());
@@ -49,40 +48,42 @@ Foam::inletFlux::inletFlux
     Pstream::listCombineGather(sums, plusEqOp<scalar>());
     Pstream::listCombineScatter(sums);
 
+    flux = SubList<scalar>(sums, n);
+    magFlux = SubList<scalar>(sums, n, n);
+    area = SubList<scalar>(sums, n, 2*n);
+
     const scalar volume = sums[3*n + 1];
-    meanSpeed_ = sums[3*n]/volume;
-    crossing_ = meanSpeed_*pow(volume, 2.0/3.0);
-    rounding_ = 1e-9*crossing_;
+    meanSpeed = sums[3*n]/volume;
+    crossing = meanSpeed*pow(volume, 2.0/3.0);
+    rounding = 1e-9*crossing;
 
-    forAll(patches_, i)
+    scalar inletArea = 0;
+    forAll(patches, i)
     {
-        flux_[i] = sums[i];
-        magFlux_[i] = sums[n + i];
-        area_[i] = sums[2*n + i];
-
-        if (flux_[i] < 0 && !isRounding(flux_[i]))
+        if (flux[i] < 0 && !isRounding(flux[i]))
         {
-            inflow_ -= flux_[i];
-            inletArea_ += area_[i];
+            inflow -= flux[i];
+            inletArea += area[i];
         }
     }
 
+    speed = closed() ? meanSpeed : inflow/inletArea;
     if (!closed())
     {
-        crossing_ = inflow_;
+        crossing = inflow;
     }
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::scalar Foam::inletFlux::speedOf(const undecomposedFlow& whole)
+Foam::scalar Foam::inletFlux::speedOf(const undecomposedFlow& undecomposed)
 {
     scalar speed = 0;
     if (Pstream::master())
     {
         const undecomposedFlow::serialScope serial;
-        speed = inletFlux(whole.U(), whole.phi()).speed();
+        speed = inletFlux(undecomposed.U(), undecomposed.phi()).speed;
     }
     Pstream::scatter(speed);
 

@@ -9,10 +9,11 @@ License
 \*---------------------------------------------------------------------------*/
 #include "undecomposedFlow.H"
 #include "masterGate.H"
+#include "plainLists.H"
 #include "labelIOList.H"
-#include "calculatedFvPatchFields.H"
-#include "calculatedFvsPatchFields.H"
 #include "processorPolyPatch.H"
+#include "surfaceFields.H"
+#include "volFields.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -20,7 +21,8 @@ namespace Foam
 {
     //- UPstream::parRun(bool) sets the flag in newer versions, ...
     template<class PstreamType>
-    auto setParRun(const bool on, int) -> decltype(PstreamType::parRun(on), void())
+    auto setParRun(const bool on, int)
+        -> decltype(PstreamType::parRun(on), void())
     {
         PstreamType::parRun(on);
     }
@@ -118,49 +120,98 @@ void Foam::undecomposedFlow::readMesh(const Time& runTime)
 
 
 template<class Type>
-Foam::autoPtr<Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh>>
-Foam::undecomposedFlow::gather
+Foam::Field<Type> Foam::undecomposedFlow::gathered
 (
-    const GeometricField<Type, fvPatchField, volMesh>& field
+    const UList<Type>& values,
+    const labelUList& addresses,
+    const label size
+)
+{
+    List<List<Type>> allValues(Pstream::nProcs());
+    List<labelList> allAddresses(Pstream::nProcs());
+
+    allValues[Pstream::myProcNo()] = values;
+    allAddresses[Pstream::myProcNo()] = addresses;
+    Pstream::gatherList(allValues);
+    Pstream::gatherList(allAddresses);
+
+    if (!Pstream::master())
+    {
+        return Field<Type>();
+    }
+
+    Field<Type> result(size, Zero);
+    forAll(allValues, ranki)
+    {
+        UIndirectList<Type>(result, allAddresses[ranki]) = allValues[ranki];
+    }
+
+    return result;
+}
+
+
+template<class GeoField>
+Foam::Field<typename GeoField::value_type> Foam::undecomposedFlow::valuesOfFaces
+(
+    const GeoField& field,
+    const bool onFaces
 ) const
 {
-    typedef GeometricField<Type, fvPatchField, volMesh> fieldType;
+    typedef typename GeoField::value_type Type;
+    Field<Type> values(part_.nFaces(), Zero);
 
-    const polyMesh& part = field.mesh();
-
-    // Boundary values go with the label of their face in the whole mesh;
-    // those of processor patches are inner faces there
-    DynamicList<label> faces(part.nFaces() - part.nInternalFaces());
-    DynamicList<Type> faceValues(faces.capacity());
-
-    forAll(field.boundaryField(), patchi)
+    if (onFaces)
     {
-        const fvPatchField<Type>& pf = field.boundaryField()[patchi];
-
-        if (!isA<processorPolyPatch>(pf.patch().patch()))
+        SubList<Type>(values, field.size()) = field.primitiveField();
+    }
+    for (const auto& pf : field.boundaryField())
+    {
+        // Faces of processor patches are inner ones of the undecomposed mesh
+        if (onFaces || !isA<processorPolyPatch>(pf.patch().patch()))
         {
-            forAll(pf, i)
-            {
-                faces.append(mag(faceAddressing_[pf.patch().start() + i]) - 1);
-                faceValues.append(pf[i]);
-            }
+            SubList<Type>(values, pf.size(), pf.patch().start()) = pf;
         }
     }
 
-    List<labelList> allCells(Pstream::nProcs());
-    List<Field<Type>> allValues(Pstream::nProcs());
-    List<labelList> allFaces(Pstream::nProcs());
-    List<List<Type>> allFaceValues(Pstream::nProcs());
+    // A flux is signed by the direction of its face
+    forAll(values, facei)
+    {
+        if (onFaces && faceAddressing_[facei] < 0)
+        {
+            values[facei] = -values[facei];
+        }
+    }
 
-    allCells[Pstream::myProcNo()] = cellAddressing_;
-    allValues[Pstream::myProcNo()] = field.primitiveField();
-    allFaces[Pstream::myProcNo()] = faces;
-    allFaceValues[Pstream::myProcNo()] = faceValues;
+    return values;
+}
 
-    Pstream::gatherList(allCells);
-    Pstream::gatherList(allValues);
-    Pstream::gatherList(allFaces);
-    Pstream::gatherList(allFaceValues);
+
+template<class Type, template<class> class PatchField, class GeoMesh>
+Foam::autoPtr<Foam::GeometricField<Type, PatchField, GeoMesh>>
+Foam::undecomposedFlow::gather
+(
+    const GeometricField<Type, PatchField, GeoMesh>& field
+) const
+{
+    typedef GeometricField<Type, PatchField, GeoMesh> fieldType;
+    const bool onFaces = std::is_same<GeoMesh, surfaceMesh>::value;
+
+    labelList faces(faceAddressing_);
+    for (label& facei : faces)
+    {
+        facei = mag(facei) - 1;
+    }
+
+    const Field<Type> faceValues
+    (
+        gathered(valuesOfFaces(field, onFaces), faces, mesh().nFaces())
+    );
+    const Field<Type> values
+    (
+        onFaces
+      ? faceValues
+      : gathered(field.primitiveField(), cellAddressing_, mesh().nCells())
+    );
 
     if (!Pstream::master())
     {
@@ -169,7 +220,7 @@ Foam::undecomposedFlow::gather
 
     const serialScope serial;
 
-    autoPtr<fieldType> whole
+    autoPtr<fieldType> result
     (
         new fieldType
         (
@@ -184,116 +235,24 @@ Foam::undecomposedFlow::gather
             ),
             mesh(),
             dimensioned<Type>("zero", field.dimensions(), Zero),
-            calculatedFvPatchField<Type>::typeName
+            PatchField<Type>::calculatedType()
         )
     );
 
-    Field<Type>& values = whole->primitiveFieldRef();
-
-    forAll(allCells, ranki)
+    forAll(*result, i)
     {
-        UIndirectList<Type>(values, allCells[ranki]) = allValues[ranki];
-
-        forAll(allFaces[ranki], i)
-        {
-            const label facei = allFaces[ranki][i];
-            const label patchi = mesh().boundaryMesh().whichPatch(facei);
-            fvPatchField<Type>& pf = whole->boundaryFieldRef()[patchi];
-
-            // An empty patch has faces but no values
-            if (pf.size())
-            {
-                pf[facei - pf.patch().start()] = allFaceValues[ranki][i];
-            }
-        }
+        (*result)[i] = values[i];
     }
-
-    return whole;
-}
-
-
-Foam::autoPtr<Foam::surfaceScalarField> Foam::undecomposedFlow::gather
-(
-    const surfaceScalarField& flux
-) const
-{
-    // Addresses count from 1, negative where the face looks the other way
-    labelList faces(faceAddressing_);
-    scalarField faceValues(faces.size(), Zero);
-
-    forAll(flux, facei)
+    for (PatchField<Type>& pf : result->boundaryFieldRef())
     {
-        faceValues[facei] = flux[facei];
-    }
-    for (const fvsPatchScalarField& pf : flux.boundaryField())
-    {
+        // An empty patch has faces but no values
         forAll(pf, i)
         {
-            faceValues[pf.patch().start() + i] = pf[i];
+            pf[i] = faceValues[pf.patch().start() + i];
         }
     }
 
-    List<labelList> allFaces(Pstream::nProcs());
-    List<scalarField> allValues(Pstream::nProcs());
-
-    allFaces[Pstream::myProcNo()].transfer(faces);
-    allValues[Pstream::myProcNo()].transfer(faceValues);
-
-    Pstream::gatherList(allFaces);
-    Pstream::gatherList(allValues);
-
-    if (!Pstream::master())
-    {
-        return autoPtr<surfaceScalarField>();
-    }
-
-    const serialScope serial;
-
-    autoPtr<surfaceScalarField> whole
-    (
-        new surfaceScalarField
-        (
-            IOobject
-            (
-                flux.name(),
-                time_->timeName(),
-                *mesh_,
-                IOobject::NO_READ,
-                IOobject::NO_WRITE
-            ),
-            *mesh_,
-            dimensionedScalar("zero", flux.dimensions(), Zero),
-            calculatedFvsPatchScalarField::typeName
-        )
-    );
-
-    forAll(allFaces, ranki)
-    {
-        forAll(allFaces[ranki], i)
-        {
-            const label address = allFaces[ranki][i];
-            const label facei = mag(address) - 1;
-            const scalar value =
-                address > 0 ? allValues[ranki][i] : -allValues[ranki][i];
-
-            if (facei < mesh_->nInternalFaces())
-            {
-                whole->primitiveFieldRef()[facei] = value;
-                continue;
-            }
-
-            const label patchi = mesh_->boundaryMesh().whichPatch(facei);
-            fvsPatchScalarField& pf = whole->boundaryFieldRef()[patchi];
-
-            // An empty patch has faces but no values
-            if (pf.size())
-            {
-                pf[facei - pf.patch().start()] = value;
-            }
-        }
-    }
-
-    return whole;
+    return result;
 }
 
 
@@ -306,12 +265,9 @@ Foam::undecomposedFlow::undecomposedFlow(const fvMesh& mesh)
     faceAddressing_(),
     time_(),
     mesh_(),
-    UGathered_(),
-    pGathered_(),
-    phiGathered_(),
-    U_(nullptr),
-    p_(nullptr),
-    phi_(nullptr),
+    U_(),
+    p_(),
+    phi_(),
     cellRank_(),
     cellLocal_()
 {
@@ -348,16 +304,8 @@ Foam::undecomposedFlow::undecomposedFlow(const fvMesh& mesh)
         faceAddressing_ = identity(mesh.nFaces(), 1);
     }
 
-    List<labelList> allCells(Pstream::nProcs());
-    allCells[Pstream::myProcNo()] = cellAddressing_;
-    Pstream::gatherList(allCells);
-    Pstream::scatterList(allCells);
-
-    label nCells = 0;
-    for (const labelList& cells : allCells)
-    {
-        nCells += cells.size();
-    }
+    const List<labelList> allCells(fromAllRanks(cellAddressing_));
+    const label nCells = returnReduce(mesh.nCells(), sumOp<label>());
 
     cellRank_.setSize(nCells);
     cellLocal_.setSize(nCells);
@@ -381,9 +329,9 @@ Foam::undecomposedFlow::~undecomposedFlow()
     {
         const serialScope serial;
 
-        phiGathered_.clear();
-        pGathered_.clear();
-        UGathered_.clear();
+        phi_.clear();
+        p_.clear();
+        U_.clear();
         mesh_.clear();
         time_.clear();
     }
@@ -399,25 +347,9 @@ void Foam::undecomposedFlow::gather
     const surfaceScalarField& phi
 )
 {
-    U_ = &U;
-    p_ = &p;
-    phi_ = &phi;
-
-    if (!Pstream::parRun())
-    {
-        return;
-    }
-
-    UGathered_ = gather(U);
-    pGathered_ = gather(p);
-    phiGathered_ = gather(phi);
-
-    if (Pstream::master())
-    {
-        U_ = UGathered_.get();
-        p_ = pGathered_.get();
-        phi_ = phiGathered_.get();
-    }
+    U_ = gather(U);
+    p_ = gather(p);
+    phi_ = gather(phi);
 }
 
 

@@ -6,60 +6,92 @@ License
     SPDX-License-Identifier: GPL-3.0-or-later
     See COPYING at the top of the source tree.
 
-\*---------------------------------------------------------------------------*/
-#include "boxInjection.H"
-#include "addToRunTimeSelectionTable.H"
+Class
+    Foam::boxInjection
 
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+Description
+    Cells spread uniformly over a box, or the part of it the mesh fills.
+
+Usage
+    \verbatim
+    cloudburst
+    {
+        type    box;
+        min     (-10e-6 -60e-6 1e-6);
+        max     (10e-6 -55e-6 9e-6);
+        number  100;
+    }
+    \endverbatim
+
+\*---------------------------------------------------------------------------*/
+
+#include "cellInjection.H"
+
+// * * * * * * * * * * * * * * * * Declarations * * * * * * * * * * * * * * * //
 
 namespace Foam
 {
-    defineTypeNameAndDebug(boxInjection, 0);
-    addToRunTimeSelectionTable(cellInjection, boxInjection, dictionary);
-}
 
-
-// * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
-
-bool Foam::boxInjection::position
-(
-    const label,
-    const scalar uniform[3],
-    point& x,
-    frozenFlow::probe& at
-) const
-{
-    for (direction d = 0; d < 3; ++d)
-    {
-        x[d] = min_[d] + uniform[d]*(max_[d] - min_[d]);
-    }
-
-    return flow_.find(x, at);
-}
-
-
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
-
-Foam::boxInjection::boxInjection
-(
-    const dictionary& dict,
-    const setting& from,
-    const label firstId
-)
+class boxInjection
 :
-    cellInjection(dict, from, firstId),
-    min_(dict.get<point>("min")),
-    max_(dict.get<point>("max"))
+    public cellInjection
 {
-    if (!(cmptMin(max_ - min_) >= 0))
-    {
-        FatalIOErrorInFunction(dict_)
-            << "the box from " << min_ << " to " << max_ << " is inside out"
-            << exit(FatalIOError);
-    }
+    // Private Data
 
-    setTimes(readNumber(0));
-}
+        const point min_;
+        const point max_;
+
+
+    // Private Member Functions
+
+        virtual point position(const label, const vector& uniform) const
+        {
+            return min_ + cmptMultiply(uniform, max_ - min_);
+        }
+
+
+public:
+
+    //- Runtime type information
+    TypeName("box");
+
+
+    // Constructors
+
+        //- Construct from its dictionary
+        boxInjection
+        (
+            const dictionary& dict,
+            const setting& from,
+            const label firstId
+        )
+        :
+            cellInjection(dict, from, firstId),
+            min_(dict.get<point>("min")),
+            max_(dict.get<point>("max"))
+        {
+            if (!(cmptMin(max_ - min_) >= 0))
+            {
+                FatalIOErrorInFunction(dict_)
+                    << "the box from " << min_ << " to " << max_
+                    << " is inside out" << exit(FatalIOError);
+            }
+
+            setTimes(readNumber(0));
+        }
+};
+
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+defineTypeNameAndDebug(boxInjection, 0);
+
+static const cellInjection::addType<boxInjection> addBoxInjection
+({
+    "number", "rate", "min", "max"
+});
+
+} // End namespace Foam
 
 
 // ************************************************************************* //

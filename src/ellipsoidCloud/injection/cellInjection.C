@@ -25,6 +25,26 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+Foam::HashTable<Foam::wordList>& Foam::cellInjection::keywords()
+{
+    // Made when the first type is added, before main()
+    static HashTable<wordList> table;
+
+    return table;
+}
+
+
+void Foam::cellInjection::newCell::check(const ellipsoid_status status) const
+{
+    if (status != ELLIPSOID_OK)
+    {
+        FatalErrorInFunction
+            << "cell " << id << " cannot enter at " << pointOf(x) << ": "
+            << ellipsoid_status_text(status) << exit(FatalError);
+    }
+}
+
+
 Foam::cellState Foam::cellInjection::newCell::state
 (
     const frozenFlow& flow,
@@ -45,7 +65,11 @@ Foam::cellState Foam::cellInjection::newCell::state
 
     ellipsoid_flow_sample sample;
     frozenFlow::probe there(at);
-    flow.sample(x, there, false, sample);
+    check
+    (
+        flow.sample(x, there, false, sample)
+      ? ELLIPSOID_FLOW_FAILED : ELLIPSOID_OK
+    );
     std::copy_n(sample.velocity, 3, state.body.u);
 
     return state;
@@ -63,7 +87,7 @@ bool Foam::cellInjection::newCell::overlaps
     const ellipsoid_surroundings around(here.core());
 
     int cuts = 0;
-    ellipsoid_overlaps_walls(&model, &around, x, q, &cuts);
+    check(ellipsoid_overlaps_walls(&model, &around, x, q, &cuts));
 
     if (cuts || !model.options.contact)
     {
@@ -79,6 +103,7 @@ bool Foam::cellInjection::newCell::overlaps
     ellipsoid_contact contact;
     ellipsoid_facet_cache_clear(&cache);
 
+    // Where the core cannot tell, another pose is drawn
     return
         ellipsoid_contact_evaluate
         (
@@ -88,12 +113,19 @@ bool Foam::cellInjection::newCell::overlaps
 }
 
 
-void Foam::cellInjection::draw(newCell& cell) const
+Foam::cellInjection::newCell Foam::cellInjection::drawn
+(
+    const Tuple2<scalar, label>& planned
+) const
 {
-    const label maxAttempts = drawn() ? 1000 : 1;
+    newCell cell;
+    cell.time = planned.first();
+    cell.id = planned.second();
+
+    const label maxAttempts = isRandom() ? 1000 : 1;
     const ellipsoid_model model
     (
-        population_.made(population_.drawn(cell.id))
+        from_.population.made(from_.population.drawn(cell.id))
     );
 
     for (label attempt = 0; attempt < maxAttempts; ++attempt)
@@ -101,31 +133,34 @@ void Foam::cellInjection::draw(newCell& cell) const
         scalar uniform[6];
         ellipsoid_random_uniform
         (
-            seed_, cell.id, rsPose, attempt, 6, uniform
+            from_.seed, cell.id, rsPose, attempt, 6, uniform
         );
 
-        point x(Zero);
-        const bool inside = position(cell.id - firstId_, uniform, x, cell.at);
+        const point x(position(cell.id - firstId_, pointOf(uniform)));
+        const bool inside = from_.flow.find(x, cell.at);
         std::copy_n(x.v_, 3, cell.x);
 
         orientation_.set(uniform + 3, cell.q);
         orientation(cell.id - firstId_, cell.q);
 
-        if (inside && !cell.overlaps(model, flow_, walls_))
+        if (inside && !cell.overlaps(model, from_.flow, from_.walls))
         {
-            return;
+            return cell;
         }
     }
 
     OStringStream x;
     x.precision(6);
-    x << point(cell.x[0], cell.x[1], cell.x[2]);
+    x << pointOf(cell.x);
 
     FatalIOErrorInFunction(dict_)
         << "cell " << cell.id << " of injection " << dict_.dictName()
-        << " at " << x.str().c_str() << " lies outside the mesh or overlaps a wall" << nl
+        << " at " << x.str().c_str()
+        << " lies outside the mesh or overlaps a wall" << nl
         << "    " << maxAttempts << " position(s) tried"
         << exit(FatalIOError);
+
+    return cell;
 }
 
 
@@ -149,23 +184,16 @@ void Foam::cellInjection::setTimes(const label number)
     forAll(times_, i)
     {
         scalar uniform;
-        ellipsoid_random_uniform(seed_, firstId_ + i, rsTime, 0, 1, &uniform);
+        ellipsoid_random_uniform
+        (
+            from_.seed, firstId_ + i, rsTime, 0, 1, &uniform
+        );
 
         times_[i].first() = start + duration*uniform;
         times_[i].second() = firstId_ + i;
     }
 
-    std::sort
-    (
-        times_.begin(),
-        times_.end(),
-        [](const Tuple2<scalar, label>& a, const Tuple2<scalar, label>& b)
-        {
-            return
-                a.first() < b.first()
-             || (a.first() == b.first() && a.second() < b.second());
-        }
-    );
+    sort(times_);
 }
 
 
@@ -224,47 +252,49 @@ Foam::cellInjection::cellInjection
     firstId_(firstId),
     times_(),
     dict_(dict),
-    flow_(from.flow),
-    walls_(from.walls),
-    population_(from.population),
-    seed_(from.seed)
+    from_(from)
 {}
 
+
+Foam::autoPtr<Foam::cellInjection> Foam::cellInjection::New
+(
+    const dictionary& dict,
+    const setting& from,
+    const label firstId
+)
+{
+    checkEntries(dict);
+
+    return (*dictionaryConstructorTablePtr_)[dict.get<word>("type")]
+    (
+        dict, from, firstId
+    );
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::cellInjection::checkEntries(const dictionary& dict)
 {
     const word type(dict.get<word>("type"));
 
-    if (!dictionaryConstructorTablePtr_->found(type))
+    if (!keywords().found(type))
     {
         FatalIOErrorInFunction
         (
             dict.lookupEntry("type", keyType::LITERAL).stream()
         )   << "unknown injection type " << type << nl
-            << "    allowed: "
-            << flatOutput(dictionaryConstructorTablePtr_->sortedToc())
+            << "    allowed: " << flatOutput(keywords().sortedToc())
             << exit(FatalIOError);
     }
 
-    // Those of all injections, of a number, and of each type
-    static const wordList common
+    wordList allowed
     ({
         "type", "start", "duration",
         "orientation", "axis", "quaternion", "eulerAngles"
     });
-    static const HashTable<wordList> more
-    ({
-        {"patch", {"number", "rate", "concentration", "patch"}},
-        {"box", {"number", "rate", "min", "max"}},
-        {"positions", {"positions", "orientations"}}
-    });
-
-    if (more.found(type))
-    {
-        wordList allowed(common);
-        allowed.append(more[type]);
-        ellipsoidProperties::checkKeywords(dict, allowed);
-    }
+    allowed.append(keywords()[type]);
+    ellipsoidProperties::checkKeywords(dict, allowed);
 }
 
 
@@ -290,33 +320,13 @@ Foam::word Foam::cellInjection::findPatch
 }
 
 
-Foam::autoPtr<Foam::cellInjection> Foam::cellInjection::New
-(
-    const dictionary& dict,
-    const setting& from,
-    const label firstId
-)
-{
-    checkEntries(dict);
-
-    const auto found =
-        dictionaryConstructorTablePtr_->cfind(dict.get<word>("type"));
-
-    return (*found)(dict, from, firstId);
-}
-
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
 void Foam::cellInjection::check() const
 {
-    if (!drawn())
+    if (!isRandom())
     {
-        for (const Tuple2<scalar, label>& time : times_)
+        for (const Tuple2<scalar, label>& cell : times_)
         {
-            newCell cell;
-            cell.id = time.second();
-            draw(cell);
+            drawn(cell);
         }
     }
 }
@@ -343,24 +353,19 @@ void Foam::cellInjection::append
     DynamicList<newCell>& cells
 ) const
 {
-    auto next = std::lower_bound
+    for
     (
-        times_.begin(),
-        times_.end(),
-        start,
-        [](const Tuple2<scalar, label>& a, const scalar t)
-        {
-            return a.first() < t;
-        }
-    );
-
-    for (; next != times_.end() && next->first() < end; ++next)
+        auto next = std::lower_bound
+        (
+            times_.begin(),
+            times_.end(),
+            Tuple2<scalar, label>(start, labelMin)
+        );
+        next != times_.end() && next->first() < end;
+        ++next
+    )
     {
-        newCell cell;
-        cell.time = next->first();
-        cell.id = next->second();
-        draw(cell);
-        cells.append(cell);
+        cells.append(drawn(*next));
     }
 }
 

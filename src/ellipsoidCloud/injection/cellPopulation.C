@@ -55,22 +55,22 @@ Foam::cellPopulation::setting::setting
 
     if (type == dtLogNormal)
     {
+        const auto read =
+            [&](const word& key, const scalar min, const scalar max, scalar off)
+            {
+                return ellipsoidProperties::getWithinOrDefault
+                (
+                    dict, key, min, max, off
+                );
+            };
+
         ellipsoidProperties::checkKeywords
         (
             dict, {"type", "lengthDeviation", "widthDeviation", "truncation"}
         );
-        lengthDeviation = ellipsoidProperties::getWithinOrDefault
-        (
-            dict, "lengthDeviation", 0, 1, 0
-        );
-        widthDeviation = ellipsoidProperties::getWithinOrDefault
-        (
-            dict, "widthDeviation", 0, 1, 0
-        );
-        truncation = ellipsoidProperties::getWithinOrDefault
-        (
-            dict, "truncation", 1, 5, 3
-        );
+        lengthDeviation = read("lengthDeviation", 0, 1, 0);
+        widthDeviation = read("widthDeviation", 0, 1, 0);
+        truncation = read("truncation", 1, 5, 3);
     }
     else
     {
@@ -85,6 +85,16 @@ Foam::cellPopulation::setting::setting
         }
     }
 
+    checkExtremes(dict, options);
+}
+
+
+void Foam::cellPopulation::setting::checkExtremes
+(
+    const dictionary& dict,
+    const ellipsoid_options& options
+) const
+{
     for (const cellSize& size : extremes(options))
     {
         const string complaint
@@ -131,21 +141,21 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
 
     // The ranges of the core that a size can leave are monotonic in both
     const cellSize middle(medianSize(options));
-    for (const scalar l : {-truncation, truncation})
+    for (const label corner : {0, 1, 2, 3})
     {
-        for (const scalar w : {-truncation, truncation})
+        const scalar l = corner & 2 ? truncation : -truncation;
+        const scalar w = corner & 1 ? truncation : -truncation;
+
+        if (type == dtLogNormal)
         {
-            if (type == dtLogNormal)
-            {
-                sizes.append
-                (
-                    cellSize
-                    {
-                        middle.length*exp(l*lengthDeviation),
-                        middle.width*exp(w*widthDeviation)
-                    }
-                );
-            }
+            sizes.append
+            (
+                cellSize
+                {
+                    middle.length*exp(l*lengthDeviation),
+                    middle.width*exp(w*widthDeviation)
+                }
+            );
         }
     }
 

@@ -10,77 +10,65 @@ License
 #include "patchInflow.H"
 #include "masterGate.H"
 #include "triPointRef.H"
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-void Foam::patchInflow::triangulate
-(
-    const undecomposedFlow& whole,
-    const word& patch
-)
-{
-    const fvMesh& mesh = whole.mesh();
-    const label patchi = mesh.boundaryMesh().findPatchID(patch);
-    const polyPatch& pp = mesh.boundaryMesh()[patchi];
-    const fvPatchVectorField& U = whole.U().boundaryField()[patchi];
-
-    DynamicList<point> corners;
-    DynamicList<point> behind;
-    DynamicList<scalar> inflow;
-    scalar sum = 0;
-
-    forAll(pp, i)
-    {
-        const face& f = pp[i];
-
-        for (label trii = 1; trii < f.size() - 1; ++trii)
-        {
-            const point& a = mesh.points()[f[0]];
-            const point& b = mesh.points()[f[trii]];
-            const point& c = mesh.points()[f[trii + 1]];
-
-            // Outward normal; what flows out carries no cell in
-            sum += max(-(U[i] & triPointRef(a, b, c).areaNormal()), scalar(0));
-
-            corners.append(a);
-            corners.append(b);
-            corners.append(c);
-            behind.append(mesh.cellCentres()[pp.faceCells()[i]]);
-            inflow.append(sum);
-        }
-    }
-
-    corners_.transfer(corners);
-    behind_.transfer(behind);
-    inflow_.transfer(inflow);
-}
-
+#include "undecomposedFlow.H"
+#include "volFields.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::patchInflow::patchInflow
 (
     const dictionary& dict,
-    const undecomposedFlow& whole
+    const undecomposedFlow& undecomposed
 )
 {
-    const word patch(dict.get<word>("patch"));
+    const word name(dict.get<word>("patch"));
 
     if (Pstream::master())
     {
-        triangulate(whole, patch);
+        const fvMesh& mesh = undecomposed.mesh();
+        const polyPatch& pp = mesh.boundaryMesh()[name];
+        const vectorField& U = undecomposed.U().boundaryField()[pp.index()];
+        DynamicList<point> vertices;
+        DynamicList<point> centres;
+        DynamicList<scalar> sums;
+        scalar sum = 0;
+
+        forAll(pp, i)
+        {
+            const face& f = pp[i];
+
+            for (label trii = 1; trii < f.size() - 1; ++trii)
+            {
+                const triPointRef triangle
+                (
+                    mesh.points()[f[0]],
+                    mesh.points()[f[trii]],
+                    mesh.points()[f[trii + 1]]
+                );
+
+                // Outward normal; what flows out carries no cell in
+                sum += max(-(U[i] & triangle.areaNormal()), scalar(0));
+
+                vertices.append({triangle.a(), triangle.b(), triangle.c()});
+                centres.append(mesh.cellCentres()[pp.faceCells()[i]]);
+                sums.append(sum);
+            }
+        }
+
+        corners.transfer(vertices);
+        behind.transfer(centres);
+        upTo.transfer(sums);
     }
-    Pstream::scatter(corners_);
-    Pstream::scatter(behind_);
-    Pstream::scatter(inflow_);
+    Pstream::scatter(corners);
+    Pstream::scatter(behind);
+    Pstream::scatter(upTo);
 
     const masterGate once;
 
-    if (inflow_.empty() || inflow_.last() <= 0)
+    if (upTo.empty() || upTo.last() <= 0)
     {
         FatalIOErrorInFunction(dict)
-            << "nothing flows in through patch " << patch
-            << exit(FatalIOError);
+            << "nothing flows in through patch " << name << exit(FatalIOError);
     }
 }
 

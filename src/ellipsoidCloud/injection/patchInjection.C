@@ -6,70 +6,104 @@ License
     SPDX-License-Identifier: GPL-3.0-or-later
     See COPYING at the top of the source tree.
 
+Class
+    Foam::patchInjection
+
+Description
+    Cells that enter with the flow through a patch: the more flows in through a
+    part of it, the more cells start there.
+
+Usage
+    \verbatim
+    inlet
+    {
+        type        patch;
+        patch       inlet;
+        number      1000;
+        duration    30;
+    }
+    \endverbatim
+
 \*---------------------------------------------------------------------------*/
-#include "patchInjection.H"
-#include "addToRunTimeSelectionTable.H"
+
+#include "cellInjection.H"
+#include "patchInflow.H"
 
 #include <algorithm>
 
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * * Declarations * * * * * * * * * * * * * * * //
 
 namespace Foam
 {
-    defineTypeNameAndDebug(patchInjection, 0);
-    addToRunTimeSelectionTable(cellInjection, patchInjection, dictionary);
-}
 
-
-// * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
-
-bool Foam::patchInjection::position
-(
-    const label,
-    const scalar uniform[3],
-    point& x,
-    frozenFlow::probe& at
-) const
-{
-    const scalarList& inflow = inflow_.upTo();
-    const auto found = std::upper_bound
-    (
-        inflow.begin(), inflow.end(), uniform[0]*inflow.last()
-    );
-    const label trii = min
-    (
-        label(found - inflow.begin()), inflow.size() - 1
-    );
-
-    const point* corner = &inflow_.corners()[3*trii];
-    const scalar s = sqrt(uniform[1]);
-
-    x =
-        (1 - s)*corner[0]
-      + s*(1 - uniform[2])*corner[1]
-      + s*uniform[2]*corner[2];
-
-    // Just inside, so that the search finds it
-    x += 1e-3*(inflow_.behind()[trii] - x);
-
-    return flow_.find(x, at);
-}
-
-
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
-
-Foam::patchInjection::patchInjection
-(
-    const dictionary& dict,
-    const setting& from,
-    const label firstId
-)
+class patchInjection
 :
-    cellInjection(dict, from, firstId),
-    inflow_(dict, from.whole)
+    public cellInjection
 {
-    setTimes(readNumber(inflow_.upTo().last()));
-}
+    // Private Data
+
+        const patchInflow inflow_;
+
+
+    // Private Member Functions
+
+        virtual point position(const label, const vector& uniform) const
+        {
+            const scalarField& upTo = inflow_.upTo;
+            const label trii = std::upper_bound
+            (
+                upTo.begin(), upTo.end() - 1, uniform[0]*upTo.last()
+            ) - upTo.begin();
+
+            // The root makes positions uniform in the triangle
+            const point* corner = &inflow_.corners[3*trii];
+            const scalar s = sqrt(uniform[1]);
+            const point x
+            (
+                (1 - s)*corner[0]
+              + s*(1 - uniform[2])*corner[1]
+              + s*uniform[2]*corner[2]
+            );
+
+            // Just inside, so that the search finds it
+            return x + 1e-3*(inflow_.behind[trii] - x);
+        }
+
+
+public:
+
+    //- Runtime type information
+    TypeName("patch");
+
+
+    // Constructors
+
+        //- Construct from its dictionary; collective
+        patchInjection
+        (
+            const dictionary& dict,
+            const setting& from,
+            const label firstId
+        )
+        :
+            cellInjection(dict, from, firstId),
+            inflow_(dict, from.undecomposed)
+        {
+            setTimes(readNumber(inflow_.upTo.last()));
+        }
+};
+
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+defineTypeNameAndDebug(patchInjection, 0);
+
+static const cellInjection::addType<patchInjection> addPatchInjection
+({
+    "number", "rate", "concentration", "patch"
+});
+
+} // End namespace Foam
 
 
 // ************************************************************************* //

@@ -6,74 +6,114 @@ License
     SPDX-License-Identifier: GPL-3.0-or-later
     See COPYING at the top of the source tree.
 
-\*---------------------------------------------------------------------------*/
-#include "positionsInjection.H"
-#include "addToRunTimeSelectionTable.H"
+Class
+    Foam::positionsInjection
 
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+Description
+    Cells at given positions and, if given, with given orientations.
+
+Usage
+    \verbatim
+    listed
+    {
+        type         positions;
+        positions    ((0 0 5e-6) (1e-6 0 5e-6));
+        orientations ((0 0 0 1) (0 0 0.6 0.8));     // optional quaternions
+    }
+    \endverbatim
+
+\*---------------------------------------------------------------------------*/
+
+#include "cellInjection.H"
+
+// * * * * * * * * * * * * * * * * Declarations * * * * * * * * * * * * * * * //
 
 namespace Foam
 {
-    defineTypeNameAndDebug(positionsInjection, 0);
-    addToRunTimeSelectionTable(cellInjection, positionsInjection, dictionary);
-}
 
-
-// * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
-
-bool Foam::positionsInjection::position
-(
-    const label i,
-    const scalar[3],
-    point& x,
-    frozenFlow::probe& at
-) const
-{
-    x = positions_[i];
-
-    return flow_.find(x, at);
-}
-
-
-bool Foam::positionsInjection::orientation(const label i, scalar q[4]) const
-{
-    if (orientations_.empty())
-    {
-        return false;
-    }
-
-    cellOrientation::setQuaternion(dict_, orientations_[i], q);
-
-    return true;
-}
-
-
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
-
-Foam::positionsInjection::positionsInjection
-(
-    const dictionary& dict,
-    const setting& from,
-    const label firstId
-)
+class positionsInjection
 :
-    cellInjection(dict, from, firstId),
-    positions_(dict.get<pointField>("positions")),
-    orientations_
-    (
-        dict.getOrDefault<List<FixedList<scalar, 4>>>("orientations", {})
-    )
+    public cellInjection
 {
-    if (orientations_.size() && orientations_.size() != positions_.size())
-    {
-        FatalIOErrorInFunction(dict_)
-            << positions_.size() << " positions but " << orientations_.size()
-            << " orientations"
-            << exit(FatalIOError);
-    }
+    // Private Data
 
-    setTimes(positions_.size());
-}
+        const pointField positions_;
+
+        //- As many quaternions, or none
+        const List<FixedList<scalar, 4>> orientations_;
+
+
+    // Private Member Functions
+
+        virtual bool isRandom() const
+        {
+            return false;
+        }
+
+        virtual point position(const label i, const vector&) const
+        {
+            return positions_[i];
+        }
+
+        virtual void orientation(const label i, scalar q[4]) const
+        {
+            if (orientations_.size())
+            {
+                cellOrientation::setQuaternion(dict_, orientations_[i], q);
+            }
+        }
+
+
+public:
+
+    //- Runtime type information
+    TypeName("positions");
+
+
+    // Constructors
+
+        //- Construct from its dictionary
+        positionsInjection
+        (
+            const dictionary& dict,
+            const setting& from,
+            const label firstId
+        )
+        :
+            cellInjection(dict, from, firstId),
+            positions_(dict.get<pointField>("positions")),
+            orientations_
+            (
+                dict.getOrDefault<List<FixedList<scalar, 4>>>
+                (
+                    "orientations", {}
+                )
+            )
+        {
+            const label n = orientations_.size();
+
+            if (n && n != positions_.size())
+            {
+                FatalIOErrorInFunction(dict_)
+                    << positions_.size() << " positions but " << n
+                    << " orientations" << exit(FatalIOError);
+            }
+
+            setTimes(positions_.size());
+        }
+};
+
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+defineTypeNameAndDebug(positionsInjection, 0);
+
+static const cellInjection::addType<positionsInjection> addPositionsInjection
+({
+    "positions", "orientations"
+});
+
+} // End namespace Foam
 
 
 // ************************************************************************* //

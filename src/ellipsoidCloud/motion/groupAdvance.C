@@ -34,7 +34,7 @@ struct Foam::groupAdvance::member
     const bool sweeping;
     DynamicList<segment>& path;
     cellSurroundings here;
-    frozenFlow::placeType place;
+    frozenFlow::locationType location;
     ellipsoid_step last;
     ellipsoid_surroundings around;
 };
@@ -60,7 +60,7 @@ int Foam::groupAdvance::observe(void* context, const ellipsoid_step* step)
     cellState& state = m.cell.state;
 
     m.last = *step;
-    m.place = m.here.settle(pointOf(step->after.x));
+    m.location = m.here.settle(pointOf(step->after.x));
     state.deepest = max(state.deepest, step->contact.deepest);
     state.deepestCell = max(state.deepestCell, step->contact.cell_deepest);
 
@@ -77,7 +77,7 @@ int Foam::groupAdvance::observe(void* context, const ellipsoid_step* step)
         m.cell.sweep(body, m.model);
     }
 
-    if (m.place != frozenFlow::pInside)
+    if (m.location != frozenFlow::pInside)
     {
         return 1;
     }
@@ -98,8 +98,8 @@ bool Foam::groupAdvance::fits
     {
         FatalErrorInFunction
             << group.size() << " cells near one another, cell "
-            << cells[group[0]].state.id << " among them, are one group; at most "
-            << largestGroup << " can be moved together" << nl
+            << cells[group[0]].state.id << " among them, are one group; at most"
+            << ' ' << largestGroup << " can be moved together" << nl
             << "    let fewer enter, or set contact/cells off"
             << exit(FatalError);
     }
@@ -151,7 +151,7 @@ bool Foam::groupAdvance::integrate
             m.cell.state.time = t;
             m.cell.state.tet = m.here.home().tet;
 
-            if (failed ? i == which : m.place != frozenFlow::pInside)
+            if (failed ? i == which : m.location != frozenFlow::pInside)
             {
                 remove(m, status);
             }
@@ -224,7 +224,7 @@ void Foam::groupAdvance::remove
     const ellipsoid_status status
 ) const
 {
-    if (m.place == frozenFlow::pBeyondOpen)
+    if (m.location == frozenFlow::pBeyondOpen)
     {
         stopAtPatch(m);
         m.cell.state.fate = cellState::escaped;
@@ -253,7 +253,7 @@ void Foam::groupAdvance::stopAtPatch(member& m) const
         const scalar middle = 0.5*(inside + beyond);
         ellipsoid_step_state(&m.last, middle, &cell.body);
 
-        if (flow_.place(pointOf(cell.body.x), at) == frozenFlow::pInside)
+        if (flow_.locate(pointOf(cell.body.x), at) == frozenFlow::pInside)
         {
             inside = middle;
         }
@@ -352,7 +352,8 @@ bool Foam::groupAdvance::advance
     // would end the run
     std::fenv_t traps;
     std::feholdexcept(&traps);
-    const bool done = integrate(members, cells[group[0]].state.time, end, mayFail);
+    const scalar start = cells[group[0]].state.time;
+    const bool done = integrate(members, start, end, mayFail);
     std::fesetenv(&traps);
 
     const scalar spent = timer.elapsedTime();

@@ -94,8 +94,8 @@ Foam::labelHashSet Foam::groupScheduler::blocked
     // By cells that are there, then by cells that enter and have a lower id
     for (const nearPair& near : pairs)
     {
-        const label a = near.places.first();
-        const label b = near.places.second();
+        const label a = near.positions.first();
+        const label b = near.positions.second();
 
         if (near.gap < 0 && waits(cells[a]) != waits(cells[b]))
         {
@@ -104,11 +104,11 @@ Foam::labelHashSet Foam::groupScheduler::blocked
     }
     for (const nearPair& near : pairs)
     {
-        const label a = near.places.first();
+        const label a = near.positions.first();
 
         if (near.gap < 0 && waits(cells[a]) && !found.found(a))
         {
-            found.insert(near.places.second());
+            found.insert(near.positions.second());
         }
     }
 
@@ -154,9 +154,11 @@ Foam::List<Foam::groupScheduler::unit> Foam::groupScheduler::unitsOf
     DynamicList<labelPair> bonds;
     for (const nearPair& near : pairs)
     {
-        if (!stay.found(near.places.first()) && !stay.found(near.places.second()))
+        const labelPair& pair = near.positions;
+
+        if (!stay.found(pair.first()) && !stay.found(pair.second()))
         {
-            bonds.append(near.places);
+            bonds.append(pair);
         }
     }
 
@@ -218,8 +220,8 @@ Foam::labelList Foam::groupScheduler::join
       : nearPairs(cells, indices, unitOf, unseenGap*beadRadius_)
     )
     {
-        const label a = near.places.first();
-        const label b = near.places.second();
+        const label a = near.positions.first();
+        const label b = near.positions.second();
         scalar& longest = travel[unitOf[a]];
 
         longest = max(longest, cells[indices[a]].travel);
@@ -228,7 +230,7 @@ Foam::labelList Foam::groupScheduler::join
     }
 
     const labelList lowest(overlapGroups::connected(units.size(), bonds));
-    labelList place(units.size(), -1);
+    labelList merged(units.size(), -1);
     DynamicList<label> again;
     label nUnits = 0;
 
@@ -240,26 +242,26 @@ Foam::labelList Foam::groupScheduler::join
 
         if (isFirst)
         {
-            place[first] = nUnits++;
-            if (place[first] != unitI)
+            merged[first] = nUnits++;
+            if (merged[first] != unitI)
             {
-                units[place[first]] = std::move(units[unitI]);
+                units[merged[first]] = std::move(units[unitI]);
             }
         }
         else
         {
-            units[place[first]].cells.append(units[unitI].cells);
+            units[merged[first]].cells.append(units[unitI].cells);
         }
     }
-    forAll(place, unitI)
+    forAll(merged, unitI)
     {
-        if (place[unitI] >= 0 && travel[unitI] >= 0)
+        if (merged[unitI] >= 0 && travel[unitI] >= 0)
         {
-            unit& joined = units[place[unitI]];
+            unit& joined = units[merged[unitI]];
             sort(joined.cells);
             joined.inParts = travel[unitI] > longTravel;
             joined.rows.clear();
-            again.append(place[unitI]);
+            again.append(merged[unitI]);
         }
     }
 
@@ -436,7 +438,8 @@ void Foam::groupScheduler::exchange
     {
         if (ranks[k] == Pstream::myProcNo())
         {
-            mine.append(UIndirectList<cellSweep>(cells, units[listed[k]].cells));
+            const labelList& members = units[listed[k]].cells;
+            mine.append(UIndirectList<cellSweep>(cells, members));
         }
     }
 

@@ -9,7 +9,9 @@ License
 \*---------------------------------------------------------------------------*/
 #include "independentCells.H"
 #include "electricField.H"
+#include "fvMesh.H"
 #include "inletFlux.H"
+#include "undecomposedFlow.H"
 
 #include <cmath>
 
@@ -91,7 +93,7 @@ Foam::independentCells::independentCells
 (
     const ellipsoidProperties& properties,
     const fvMesh& mesh,
-    const undecomposedFlow& whole
+    const undecomposedFlow& undecomposed
 )
 :
     properties_(properties),
@@ -100,18 +102,19 @@ Foam::independentCells::independentCells
     population_(properties),
     flow_
     (
-        whole,
+        undecomposed,
         properties.options().fluid_density,
         properties.scheme(),
-        electricField(properties.section("forces"), mesh).onWhole(whole)
+        electricField(properties.section("forces"), mesh)
+       .onUndecomposed(undecomposed)
     ),
     walls_
     (
-        Pstream::master() ? &whole.mesh() : nullptr,
+        Pstream::master() ? &undecomposed.mesh() : nullptr,
         longestSemiAxis(properties.options())
     )
 {
-    criterion_.setInletSpeed(inletFlux::speedOf(whole));
+    criterion_.setInletSpeed(inletFlux::speedOf(undecomposed));
 }
 
 

@@ -8,9 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "overlapGroups.H"
-
-#include <algorithm>
-#include <numeric>
+#include "ListOps.H"
 
 // * * * * * * * * * * * * * Static Member Functions * * * * * * * * * * * * //
 
@@ -29,7 +27,7 @@ Foam::DynamicList<Foam::labelPair> Foam::overlapGroups::overlapping
 
     // Along the direction in which they are spread most
     direction axis = 0;
-    for (direction d = 1; d < 3 && boxes.size(); ++d)
+    for (const direction d : {1, 2})
     {
         if (all.span()[d] > all.span()[axis])
         {
@@ -37,47 +35,30 @@ Foam::DynamicList<Foam::labelPair> Foam::overlapGroups::overlapping
         }
     }
 
-    labelList order(boxes.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort
-    (
-        order.begin(),
-        order.end(),
-        [&](const label a, const label b)
-        {
-            return
-                boxes[a].min()[axis] < boxes[b].min()[axis]
-             || (boxes[a].min()[axis] == boxes[b].min()[axis] && a < b);
-        }
-    );
+    scalarList low(boxes.size());
+    forAll(low, i)
+    {
+        low[i] = boxes[i].min()[axis];
+    }
+    const labelList order(sortedOrder(low));
 
     forAll(order, i)
     {
         const boundBox& box = boxes[order[i]];
+        const scalar high = box.max()[axis];
 
-        for
-        (
-            label j = i + 1;
-            j < order.size()
-         && boxes[order[j]].min()[axis] <= box.max()[axis];
-            ++j
-        )
+        for (label j = i + 1; j < order.size() && low[order[j]] <= high; ++j)
         {
             if (box.overlaps(boxes[order[j]]))
             {
-                pairs.append
-                (
-                    labelPair
-                    (
-                        std::min(order[i], order[j]),
-                        std::max(order[i], order[j])
-                    )
-                );
+                const label a = order[i];
+                const label b = order[j];
+                pairs.append(labelPair(min(a, b), max(a, b)));
             }
         }
     }
 
-    std::sort(pairs.begin(), pairs.end());
+    sort(pairs);
 
     return pairs;
 }
@@ -89,8 +70,7 @@ Foam::labelList Foam::overlapGroups::connected
     const UList<labelPair>& pairs
 )
 {
-    labelList lowest(n);
-    std::iota(lowest.begin(), lowest.end(), 0);
+    labelList lowest(identity(n));
 
     const auto root =
         [&](label i)
@@ -108,7 +88,7 @@ Foam::labelList Foam::overlapGroups::connected
         const label a = root(pair.first());
         const label b = root(pair.second());
 
-        lowest[std::max(a, b)] = std::min(a, b);
+        lowest[max(a, b)] = min(a, b);
     }
 
     forAll(lowest, i)

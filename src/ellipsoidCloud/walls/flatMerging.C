@@ -9,8 +9,6 @@ License
 \*---------------------------------------------------------------------------*/
 #include "flatMerging.H"
 
-#include <algorithm>
-
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -19,19 +17,11 @@ namespace Foam
     static const scalar flatAngle = 1e-8;
 
     //- More triangles than this at a point would make a hub
-    static const std::size_t maxTriangles = 24;
+    static const label maxTriangles = 24;
 }
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-bool Foam::flatMerging::has(const label trii, const label pointi) const
-{
-    const labelledTri& t = triangles_[trii];
-
-    return t[0] == pointi || t[1] == pointi || t[2] == pointi;
-}
-
 
 bool Foam::flatMerging::flat(const label a, const label b) const
 {
@@ -42,64 +32,99 @@ bool Foam::flatMerging::flat(const label a, const label b) const
 }
 
 
-void Foam::flatMerging::targets
+Foam::DynamicList<Foam::label> Foam::flatMerging::around
 (
-    const label pointi,
-    DynamicList<label>& points
+    const label pointi
 ) const
 {
-    DynamicList<label> creases;
-    points.clear();
+    DynamicList<label> points;
 
     for (const label trii : pointTriangles_[pointi])
     {
         for (const label other : triangles_[trii])
         {
-            if (other == pointi || points.found(other))
+            if (other != pointi && !points.found(other))
             {
-                continue;
-            }
-            points.append(other);
-
-            DynamicList<label> sharing;
-            for (const label t : pointTriangles_[pointi])
-            {
-                if (has(t, other))
-                {
-                    sharing.append(t);
-                }
-            }
-
-            if (sharing.size() > 2)
-            {
-                points.clear();
-                return;
-            }
-            if (sharing.size() == 1 || !flat(sharing[0], sharing[1]))
-            {
-                creases.append(other);
+                points.append(other);
             }
         }
     }
 
-    if (creases.empty())
-    {
-        return;
-    }
+    return points;
+}
 
-    // Along a straight crease, or not at all
-    points.clear();
+
+Foam::DynamicList<Foam::label> Foam::flatMerging::targets
+(
+    const label pointi
+) const
+{
+    const DynamicList<label> points(around(pointi));
+    DynamicList<label> creases;
+
+    for (const label other : points)
+    {
+        DynamicList<label> sharing;
+        for (const label trii : pointTriangles_[pointi])
+        {
+            if (triangles_[trii].found(other))
+            {
+                sharing.append(trii);
+            }
+        }
+
+        if (sharing.size() > 2)
+        {
+            return DynamicList<label>();
+        }
+        if (sharing.size() == 1 || !flat(sharing[0], sharing[1]))
+        {
+            creases.append(other);
+        }
+    }
 
     if (creases.size() == 2)
     {
         const vector a(normalised(points_[creases[0]] - points_[pointi]));
         const vector b(normalised(points_[creases[1]] - points_[pointi]));
 
+        // Along a straight crease
         if ((a & b) < 0 && mag(a ^ b) < flatAngle)
         {
-            points = creases;
+            return creases;
         }
     }
+
+    return creases.empty() ? points : DynamicList<label>();
+}
+
+
+Foam::scalar Foam::flatMerging::movedEdge
+(
+    const label trii,
+    const label pointi,
+    const label target
+) const
+{
+    // A triangle's height over its longest edge at the least
+    const scalar thinnest = 1e-3;
+
+    FixedList<point, 3> x;
+    for (label k = 0; k < 3; ++k)
+    {
+        const label corner = triangles_[trii][k];
+        x[k] = points_[corner == pointi ? target : corner];
+    }
+
+    const scalar edge =
+        max(max(mag(x[1] - x[0]), mag(x[2] - x[1])), mag(x[0] - x[2]));
+    const vector area((x[1] - x[0]) ^ (x[2] - x[0]));
+    const bool alike =
+        edge <= maxEdge_
+     && (area & normals_[trii]) >= thinnest*sqr(edge)
+     && mag(area ^ normals_[trii]) <= flatAngle*mag(area);
+
+    return alike ? edge : GREAT;
 }
 
 
@@ -109,95 +134,36 @@ Foam::scalar Foam::flatMerging::cost
     const label target
 ) const
 {
-    // A triangle's height over its longest edge at the least
-    const scalar thinnest = 1e-3;
-
+    scalar longest = 0;
     label nShared = 0;
     label nCommon = 0;
-    scalar longest = 0;
-    DynamicList<label> around;
 
     for (const label trii : pointTriangles_[pointi])
     {
-        nShared += has(trii, target);
-
-        for (const label other : triangles_[trii])
+        if (triangles_[trii].found(target))
         {
-            if (other != pointi && other != target && !around.found(other))
-            {
-                around.append(other);
-            }
+            ++nShared;
         }
-    }
-
-    if
-    (
-        pointTriangles_[pointi].size() + pointTriangles_[target].size()
-      > maxTriangles + 2*nShared
-    )
-    {
-        return GREAT;
+        else
+        {
+            longest = max(longest, movedEdge(trii, pointi, target));
+        }
     }
 
     // Points next to both are those of the shared triangles, or the surface
     // would fold onto itself
-    for (const label other : around)
+    const DynamicList<label> aroundTarget(around(target));
+    for (const label other : around(pointi))
     {
-        for (const label trii : pointTriangles_[target])
-        {
-            if (has(trii, other))
-            {
-                ++nCommon;
-                break;
-            }
-        }
-    }
-    if (nCommon != nShared)
-    {
-        return GREAT;
+        nCommon += aroundTarget.found(other);
     }
 
-    for (const label trii : pointTriangles_[pointi])
-    {
-        if (has(trii, target))
-        {
-            continue;
-        }
+    const label nTriangles =
+        pointTriangles_[pointi].size() + pointTriangles_[target].size();
 
-        labelledTri t(triangles_[trii]);
-        scalar edge = 0;
-
-        for (label k = 0; k < 3; ++k)
-        {
-            if (t[k] == pointi)
-            {
-                t[k] = target;
-            }
-        }
-        for (label k = 0; k < 3; ++k)
-        {
-            edge = max(edge, mag(points_[t[(k + 1) % 3]] - points_[t[k]]));
-        }
-
-        const vector area
-        (
-            (points_[t[1]] - points_[t[0]]) ^ (points_[t[2]] - points_[t[0]])
-        );
-
-        if
-        (
-            edge > maxEdge_
-         || (area & normals_[trii]) < thinnest*sqr(edge)
-         || mag(area ^ normals_[trii]) > flatAngle*mag(area)
-        )
-        {
-            return GREAT;
-        }
-
-        longest = max(longest, edge);
-    }
-
-    return longest;
+    return
+        nTriangles > maxTriangles + 2*nShared || nCommon != nShared
+      ? GREAT : longest;
 }
 
 
@@ -211,7 +177,7 @@ void Foam::flatMerging::collapse
     for (const label trii : pointTriangles_[pointi])
     {
         labelledTri& t = triangles_[trii];
-        const bool shared = has(trii, target);
+        const bool shared = triangles_[trii].found(target);
 
         for (label& other : t)
         {
@@ -225,8 +191,8 @@ void Foam::flatMerging::collapse
 
             if (shared)
             {
-                auto& list = pointTriangles_[other];
-                list.erase(std::find(list.begin(), list.end(), trii));
+                DynamicList<label>& list = pointTriangles_[other];
+                list.remove(list.find(trii));
             }
         }
 
@@ -236,7 +202,7 @@ void Foam::flatMerging::collapse
         }
         else
         {
-            pointTriangles_[target].push_back(trii);
+            pointTriangles_[target].append(trii);
         }
     }
 
@@ -253,19 +219,22 @@ Foam::flatMerging::flatMerging
     const scalar maxEdge
 )
 :
-    points_(surface.points()),
+    points_(surface.localPoints()),
     maxEdge_(maxEdge),
-    triangles_(surface),
+    triangles_(surface.size()),
     normals_(surface.size()),
-    pointTriangles_(surface.points().size())
+    pointTriangles_(surface.nPoints())
 {
     forAll(triangles_, trii)
     {
+        const triFace& f = surface.localFaces()[trii];
+        const label region = surface[trii].region();
+        triangles_[trii] = labelledTri(f[0], f[1], f[2], region);
         normals_[trii] = normalised(triangles_[trii].areaNormal(points_));
 
         for (const label pointi : triangles_[trii])
         {
-            pointTriangles_[pointi].push_back(trii);
+            pointTriangles_[pointi].append(trii);
         }
     }
 }
@@ -276,7 +245,6 @@ Foam::flatMerging::flatMerging
 Foam::triSurface Foam::flatMerging::merged()
 {
     DynamicList<label> queue(identity(points_.size()));
-    DynamicList<label> candidates;
 
     for (label i = 0; i < queue.size(); ++i)
     {
@@ -284,9 +252,7 @@ Foam::triSurface Foam::flatMerging::merged()
         scalar best = GREAT;
         label bestTarget = -1;
 
-        targets(pointi, candidates);
-
-        for (const label target : candidates)
+        for (const label target : targets(pointi))
         {
             const scalar c = cost(pointi, target);
 

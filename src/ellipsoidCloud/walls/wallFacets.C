@@ -9,23 +9,14 @@ License
 \*---------------------------------------------------------------------------*/
 #include "wallFacets.H"
 #include "flatMerging.H"
-#include "wallPolyPatch.H"
+#include "polyMesh.H"
 #include "treeBoundBox.H"
+#include "treeDataTriSurface.H"
+#include "wallPolyPatch.H"
 #include "Pstream.H"
 
 #include <algorithm>
 #include <cmath>
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-    static inline void copyTo(scalar to[3], const vector& from)
-    {
-        std::copy_n(from.v_, 3, to);
-    }
-}
-
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -126,35 +117,20 @@ Foam::triSurface Foam::wallFacets::triangulate(const polyMesh& mesh)
 }
 
 
-Foam::triSurface Foam::wallFacets::compacted(const triSurface& surface)
-{
-    List<labelledTri> triangles(surface.size());
-
-    forAll(surface, faceti)
-    {
-        const triFace& f = surface.localFaces()[faceti];
-
-        triangles[faceti] =
-            labelledTri(f[0], f[1], f[2], surface[faceti].region());
-    }
-
-    return triSurface(triangles, surface.localPoints());
-}
-
-
 void Foam::wallFacets::setFacets()
 {
     facets_.setSize(surface_.size());
+    spheres_.setSize(surface_.size());
 
     forAll(facets_, faceti)
     {
         ellipsoid_facet& f = facets_[faceti];
-        const labelledTri& triangle = surface_[faceti];
         double vertex[3][3];
 
         for (label k = 0; k < 3; ++k)
         {
-            copyTo(vertex[k], surface_.points()[triangle[k]]);
+            const point& x = surface_.points()[surface_[faceti][k]];
+            std::copy_n(x.v_, 3, vertex[k]);
         }
 
         if (!ellipsoid_facet_set(&f, vertex))
@@ -165,39 +141,35 @@ void Foam::wallFacets::setFacets()
                 << exit(FatalError);
         }
 
-        f.surface = triangle.region();
+        f.surface = surface_[faceti].region();
+        spheres_[faceti] = sphere{pointOf(f.middle), f.radius};
     }
 }
 
 
 void Foam::wallFacets::setEdges()
 {
-    // Where the wall ends at an open patch the edge stays a free rim
-    const labelListList& edgeFaces = surface_.edgeFaces();
-
-    forAll(surface_, faceti)
+    // Where the wall ends at an open patch the edge stays free. More than two
+    // facets share one where baffles join.
+    forAll(surface_.edgeFaces(), edgei)
     {
-        ellipsoid_facet& f = facets_[faceti];
-        const triFace& local = surface_.localFaces()[faceti];
+        const labelList& sharing = surface_.edgeFaces()[edgei];
 
-        for (label k = 0; k < 3; ++k)
+        for (const label faceti : sharing)
         {
-            const edge e(local[k], local[(k + 1) % 3]);
-
-            for (const label edgei : surface_.faceEdges()[faceti])
+            const triFace& local = surface_.localFaces()[faceti];
+            const edge& e = surface_.edges()[edgei];
+            label k = 0;
+            while (edge(local[k], local[(k + 1) % 3]) != e)
             {
-                if (surface_.edges()[edgei] != e)
-                {
-                    continue;
-                }
+                ++k;
+            }
 
-                // More than one other where baffles meet
-                for (const label otheri : edgeFaces[edgei])
+            for (const label otheri : sharing)
+            {
+                if (otheri != faceti)
                 {
-                    if (otheri != faceti)
-                    {
-                        ellipsoid_facet_join(&f, k, &facets_[otheri]);
-                    }
+                    ellipsoid_facet_join(&facets_[faceti], k, &facets_[otheri]);
                 }
             }
         }
@@ -208,30 +180,22 @@ void Foam::wallFacets::setEdges()
 void Foam::wallFacets::setStars()
 {
     const labelListList& pointEdges = surface_.pointEdges();
-    const edgeList& edges = surface_.edges();
     const pointField& points = surface_.localPoints();
-
-    labelList start(points.size() + 1, Zero);
-    forAll(pointEdges, pointi)
-    {
-        start[pointi + 1] = start[pointi] + pointEdges[pointi].size();
-    }
-
-    stars_.setSize(start.last());
+    DynamicList<vector> stars(2*surface_.nEdges());
+    labelList start(points.size());
 
     forAll(pointEdges, pointi)
     {
-        forAll(pointEdges[pointi], i)
+        start[pointi] = stars.size();
+
+        for (const label edgei : pointEdges[pointi])
         {
-            const edge& e = edges[pointEdges[pointi][i]];
-
-            copyTo
-            (
-                stars_[start[pointi] + i].data(),
-                normalised(points[e.otherVertex(pointi)] - points[pointi])
-            );
+            const label other = surface_.edges()[edgei].otherVertex(pointi);
+            stars.append(normalised(points[other] - points[pointi]));
         }
     }
+
+    stars_.transfer(stars);
 
     forAll(facets_, faceti)
     {
@@ -240,24 +204,8 @@ void Foam::wallFacets::setStars()
             const label pointi = surface_.localFaces()[faceti][k];
 
             facets_[faceti].star_count[k] = pointEdges[pointi].size();
-            facets_[faceti].star[k] =
-                reinterpret_cast<const double (*)[3]>
-                (
-                    stars_.cdata() + start[pointi]
-                );
+            facets_[faceti].star[k] = &stars_.cdata()[start[pointi]].v_;
         }
-    }
-}
-
-
-void Foam::wallFacets::setBalls()
-{
-    balls_.setSize(facets_.size());
-
-    forAll(balls_, faceti)
-    {
-        balls_[faceti].middle = pointOf(facets_[faceti].middle);
-        balls_[faceti].radius = facets_[faceti].radius;
     }
 }
 
@@ -308,19 +256,15 @@ Foam::wallFacets::wallFacets(const polyMesh* wholeMesh, const scalar length)
 
     if (Pstream::master())
     {
-        const triSurface faces(compacted(triangulate(*wholeMesh)));
-        const triSurface merged
-        (
-            compacted(flatMerging(faces, 2*length).merged())
-        );
+        const triSurface faces(triangulate(*wholeMesh));
+        const triSurface merged(flatMerging(faces, 2*length).merged());
 
         triangles = merged;
         points = merged.points();
         span_ = boundBox(wholeMesh->points(), false);
     }
 
-    Pstream::scatter(span_.min());
-    Pstream::scatter(span_.max());
+    Pstream::scatter(span_);
     Pstream::scatter(triangles);
     Pstream::scatter(points);
 
@@ -329,7 +273,6 @@ Foam::wallFacets::wallFacets(const polyMesh* wholeMesh, const scalar length)
     setFacets();
     setEdges();
     setStars();
-    setBalls();
 
     if (surface_.size())
     {
@@ -348,6 +291,11 @@ Foam::wallFacets::wallFacets(const polyMesh* wholeMesh, const scalar length)
         );
     }
 }
+
+
+// * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
+
+Foam::wallFacets::~wallFacets() = default;
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
@@ -377,9 +325,9 @@ int Foam::wallFacets::list
     {
         for (const label faceti : regionAt(c, reach).facets)
         {
-            const ball& b = balls_[faceti];
+            const sphere& b = spheres_[faceti];
 
-            if (magSqr(c - b.middle) <= sqr(reach + b.radius))
+            if (magSqr(c - b.centre) <= sqr(reach + b.radius))
             {
                 listed.append(faceti);
             }

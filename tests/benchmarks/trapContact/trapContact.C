@@ -31,6 +31,9 @@ Usage
 #include "cellInjection.H"
 #include "cellSurroundings.H"
 #include "inletFlux.H"
+#include "surfaceFields.H"
+#include "undecomposedFlow.H"
+#include "volFields.H"
 
 #include <algorithm>
 #include <cfenv>
@@ -389,7 +392,7 @@ int main(int argc, char *argv[])
         (
             properties.section("capture"), "speedFraction", 0, 0.01
         )
-       *inletFlux(U, phi).speed();
+       *inletFlux(U, phi).speed;
 
     const cellInjection::setting from
     {
