@@ -12,6 +12,7 @@ License
 #include "fvMesh.H"
 #include "inletFlux.H"
 #include "undecomposedFlow.H"
+#include "volFields.H"
 
 #include <cmath>
 
