@@ -302,9 +302,8 @@ ellipsoid_status ellipsoid_contact_evaluate(
     stiffness = 4/3 E* sqrt(r_b) [N/m^1.5]. Returns the number of contacts.
 */
 int ellipsoid_bead_force(const double centre[3], double radius,
-                         double stiffness, const ellipsoid_facet *facets,
-                         const int *index, int count, double force[3],
-                         double force_x[3][3]);
+                         double stiffness, const ellipsoid_facet_list *facets,
+                         double force[3], double force_x[3][3]);
 
 /*
     Bead centres of a layout on an ellipsoid (body frame) into bead[][3];

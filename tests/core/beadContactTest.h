@@ -17,8 +17,9 @@ static const double r = 1;
 static inline int touch(const wall_mesh *wall, const double x[3],
                         double force[3])
 {
-    return ellipsoid_bead_force(x, r, 1, wall->facets, wall->index, wall->count,
-                                force, NULL);
+    const ellipsoid_facet_list facets = wall_mesh_all(wall);
+
+    return ellipsoid_bead_force(x, r, 1, &facets, force, NULL);
 }
 
 static inline double distance(const double a[3], const double b[3])

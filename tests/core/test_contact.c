@@ -120,6 +120,7 @@ static void assert_sum(const ellipsoid_model *model, const wall_mesh *mesh,
     const double radius = model->options.bead_radius;
     const double stiffness =
         4.0 / 3 * model->options.contact_modulus * sqrt(radius);
+    const ellipsoid_facet_list facets = wall_mesh_all(mesh);
     double rotation[3][3], force[3] = {0, 0, 0}, torque[3] = {0, 0, 0};
     double lab_torque[3];
 
@@ -133,8 +134,7 @@ static void assert_sum(const ellipsoid_model *model, const wall_mesh *mesh,
             arm[i] = ellipsoid_dot(rotation[i], model->bead[b]);
             centre[i] = x[i] + arm[i];
         }
-        ellipsoid_bead_force(centre, radius, stiffness, mesh->facets,
-                             mesh->index, mesh->count, f, NULL);
+        ellipsoid_bead_force(centre, radius, stiffness, &facets, f, NULL);
         ellipsoid_cross(arm, f, t);
         for (int i = 0; i < 3; i++)
         {

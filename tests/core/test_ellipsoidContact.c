@@ -75,6 +75,7 @@ static void test_sphere_is_a_bead(void **unused)
                        : ground == 1 ? terrain_of(0.5, &seed)
                                      : box_of(1.5, 1, 0);
         const ellipsoid_surroundings surroundings = inside(&wall);
+        const ellipsoid_facet_list facets = wall_mesh_all(&wall);
         ellipsoid_options options = exact_options(r, r, r);
         static ellipsoid_facet_cache cache;
 
@@ -99,8 +100,7 @@ static void test_sphere_is_a_bead(void **unused)
             test_orientation(&seed, q);
             assert_ok(evaluate_pose(&model, &surroundings, x, q,
                                                  &cache, &contact, &jacobian));
-            ellipsoid_bead_force(x, r, 1, wall.facets, wall.index, wall.count,
-                                 force, force_x);
+            ellipsoid_bead_force(x, r, 1, &facets, force, force_x);
             count_kinds(&model, &wall, x, q, &found);
             touching += contact.touching_beads;
             for (int i = 0; i < 3; i++)

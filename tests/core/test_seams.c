@@ -298,12 +298,11 @@ static void test_random_ground(void **unused)
                     .laws = &laws};
                 const ellipsoid_candidates from = {wall.facets, index,
                                                    list.count};
-                ellipsoid_point_force push = {.force = {0, 0, 0}}, pull;
-                const double *force = push.force;
+                ellipsoid_bead_forces forces = {.repulsion = {.force = {0}}};
+                const double *force = forces.repulsion.force;
                 double gap = 4;
 
-                ellipsoid_bead_contact(&bead, &from, &gap, 0, &push, &pull,
-                                     NULL);
+                ellipsoid_bead_contact(&bead, &from, &gap, 0, &forces, NULL);
 
                 /* settles first, then follows the ground */
                 const double rise = aim - gap;

@@ -14,7 +14,7 @@
 typedef struct wall_mesh
 {
     ellipsoid_facet *facets;
-    int *index; /* 0, 1, ...: all of them, for ellipsoid_bead_force() */
+    int *index; /* 0, 1, ...: all of them */
     int count;
 
     /* implementation */
@@ -22,6 +22,14 @@ typedef struct wall_mesh
     double (*stars)[3];
     int *listed;
 } wall_mesh;
+
+/* All facets, for ellipsoid_bead_force(). */
+static inline ellipsoid_facet_list wall_mesh_all(const wall_mesh *mesh)
+{
+    return (ellipsoid_facet_list){.facets = mesh->facets,
+                                  .index = mesh->index,
+                                  .count = mesh->count};
+}
 
 /* A point to a point: a grid point to its place. */
 typedef void (*wall_mesh_map)(const double *uv, double point[3], void *context);

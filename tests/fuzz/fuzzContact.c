@@ -89,6 +89,7 @@ void fuzz_check_bead(const fuzz_scene *scene, fuzz_input *in)
 {
     double centre[3], force[3], force_x[3][3], again[3];
     const double radius = scene->length * fuzz_scaled(in, 1e-2, 1);
+    const ellipsoid_facet_list facets = wall_mesh_all(&scene->mesh);
     int count;
 
     fuzz_vector(in, 4 * scene->length, 3, centre);
@@ -96,13 +97,10 @@ void fuzz_check_bead(const fuzz_scene *scene, fuzz_input *in)
     {
         centre[fuzz_choice(in, 3)] = fuzz_wild(in);
     }
-    count = ellipsoid_bead_force(centre, radius, 1, scene->mesh.facets,
-                                 scene->mesh.index, scene->mesh.count, force,
-                                 force_x);
+    count = ellipsoid_bead_force(centre, radius, 1, &facets, force, force_x);
     require(count >= 0 && count <= scene->mesh.count);
-    require(count == ellipsoid_bead_force(centre, radius, 1,
-                                          scene->mesh.facets, scene->mesh.index,
-                                          scene->mesh.count, again, NULL));
+    require(count == ellipsoid_bead_force(centre, radius, 1, &facets, again,
+                                          NULL));
     require_same(force, again);
     if (scene->sound && fuzz_all_finite(centre, sizeof centre))
     {

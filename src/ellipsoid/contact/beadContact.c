@@ -6,9 +6,8 @@
     beadContact.c - the wall's force on one bead.
 
     A contact is a local minimum of the distance from the bead's centre to the
-    wall (facets.c), at height h along the normal n; Hertz: f = k (r - h)^1.5.
-    Adhesion pulls by a second law, at heights a little beyond r too. The
-    contacts add up law by law (contactBlending.h).
+    wall (facets.c), at height h along the normal n: the gap is h - r. The
+    contacts add up law by law (contactLaw.h, contactBlending.h).
 */
 #define BLENDING_VARIABLES 3 /* the bead's centre */
 
@@ -19,16 +18,16 @@ typedef ellipsoid_nearest contact;
 #include "contact/contactBlending.h"
 
 /*
-    All contacts of a bead. *gap is lowered to the smallest height less radius.
-    Those felt reach as far as the adhesion. A facet seen from behind counts
-    only if nothing is nearer: then the centre has been pushed into the wall.
-    Otherwise it is the far side of a thin one.
+    All contacts of a bead within the range of a law. *gap is lowered to the
+    smallest height less the radius. A facet seen from behind counts only if
+    nothing is nearer: then the centre has been pushed into the wall. Otherwise
+    it is the far side of a thin one.
 */
 static void find_contacts(const ellipsoid_bead *bead,
                           const ellipsoid_candidates *from, contacts *all,
                           double *gap, ellipsoid_contact *report)
 {
-    const double r = bead->radius, felt = r + bead->laws->range;
+    const double r = bead->radius, range = r + bead->laws->range;
     contact found, behind = {.height = -r};
     double clear = r;
     int surface = 0, inside = 0;
@@ -38,7 +37,7 @@ static void find_contacts(const ellipsoid_bead *bead,
     {
         const ellipsoid_facet *facet =
             &from->facets[from->index[k]];
-        const double reach = r + *gap > felt ? r + *gap : felt;
+        const double reach = r + *gap > range ? r + *gap : range;
 
         if (!ellipsoid_facet_nearest(facet, bead->centre, reach, &found))
         {
@@ -56,28 +55,28 @@ static void find_contacts(const ellipsoid_bead *bead,
         }
         clear = fmin(clear, found.height);
         *gap = fmin(*gap, found.height - r);
-        if (found.height < felt)
+        if (found.height < range)
         {
-            add(all, &found, r);
+            add_contact(all, &found, r);
             if (report)
             {
-                note_surface(report, facet->surface);
+                list_surface(report, facet->surface);
             }
         }
     }
-    if (inside && -behind.height < (1 - same) * clear)
+    if (inside && -behind.height < (1 - coincidence) * clear)
     {
-        add(all, &behind, r);
+        add_contact(all, &behind, r);
         *gap = fmin(*gap, behind.height - r);
         if (report)
         {
-            note_surface(report, surface);
+            list_surface(report, surface);
         }
     }
 }
 
-/* How a contact's normal turns as the centre moves: (I - nn - tt)/h. */
-static void set_turning(const contact *c, double turn[3][3])
+/* Derivatives of a contact's normal by the centre: (I - nn - tt)/h. */
+static void set_normal_slope(const contact *c, double slope[3][3])
 {
     for (int i = 0; i < 3; i++)
     {
@@ -85,20 +84,20 @@ static void set_turning(const contact *c, double turn[3][3])
         {
             if (c->feature == ELLIPSOID_ON_FACE)
             {
-                turn[i][j] = 0;
+                slope[i][j] = 0;
                 continue;
             }
-            turn[i][j] = (i == j) - c->normal[i] * c->normal[j];
+            slope[i][j] = (i == j) - c->normal[i] * c->normal[j];
             if (c->feature == ELLIPSOID_ON_EDGE)
             {
-                turn[i][j] -= c->edge[i] * c->edge[j];
+                slope[i][j] -= c->edge[i] * c->edge[j];
             }
-            turn[i][j] /= c->height;
+            slope[i][j] /= c->height;
         }
     }
 }
 
-static scalar rise(const contacts *all, const mix *m, const scalar *c, int i,
+static scalar elevation(const contacts *all, const blend *m, const scalar *c, int i,
                    int j)
 {
     const contact *a = &all->at[i], *b = &all->at[j];
@@ -113,45 +112,45 @@ static scalar rise(const contacts *all, const mix *m, const scalar *c, int i,
     return s;
 }
 
-static scalar shadow(const contacts *all, const mix *m, int i, int j)
+static scalar redundancy(const contacts *all, const blend *m, int i, int j)
 {
     return cosine(all, m, i, j);
 }
 
 /* Adds the forces of one law along the normals (sign 1) or against. */
-static void add_mixed(const contacts *all, const mix *m, double sign,
-                      int derivatives, ellipsoid_point_force *felt)
+static void add_blended(const contacts *all, const blend *m, double sign,
+                        int derivatives, ellipsoid_point_force *sum)
 {
     scalar size[MAX_CONTACTS];
 
-    mix_forces(all, m, size);
+    blend_forces(all, m, size);
     for (int c = 0; c < m->count; c++)
     {
         for (int i = 0; i < 3; i++)
         {
             const double n = sign * all->at[c].normal[i];
 
-            felt->force[i] += size[c].value * n;
+            sum->force[i] += size[c].value * n;
             for (int j = 0; derivatives && j < 3; j++)
             {
-                felt->force_x[i][j] += n * size[c].gradient[j]
-                                     + sign * size[c].value
-                                           * m->turn[c][i][j];
+                sum->force_x[i][j] += n * size[c].gradient[j]
+                                    + sign * size[c].value
+                                          * m->normal_slope[c][i][j];
             }
         }
     }
 }
 
-static void combine(const ellipsoid_bead *bead, contacts *all, int derivatives,
-                    ellipsoid_point_force *push, ellipsoid_point_force *pull)
+static void add_laws(const ellipsoid_bead *bead, contacts *all, int derivatives,
+                     ellipsoid_bead_forces *sum)
 {
     int count[ELLIPSOID_LAW_COUNT];
-    mix m; /* large: set where it is read */
+    blend m; /* large: set where it is read */
 
     order_by_range(all, bead->laws, bead->radius, count);
     for (int i = 0; i < all->count; i++)
     {
-        set_turning(&all->at[i], m.turn[i]);
+        set_normal_slope(&all->at[i], m.normal_slope[i]);
     }
     for (int n = 0; n < bead->laws->count; n++)
     {
@@ -173,49 +172,50 @@ static void combine(const ellipsoid_bead *bead, contacts *all, int derivatives,
         }
         if (m.count > 0)
         {
-            add_mixed(all, &m, sign, derivatives,
-                      law->attractive ? pull : push);
+            add_blended(all, &m, sign, derivatives,
+                        law->attractive ? &sum->attraction
+                                        : &sum->repulsion);
         }
     }
 }
 
 int ellipsoid_bead_contact(const ellipsoid_bead *bead,
                          const ellipsoid_candidates *from, double *gap,
-                         int derivatives, ellipsoid_point_force *push,
-                         ellipsoid_point_force *pull, ellipsoid_contact *report)
+                         int derivatives, ellipsoid_bead_forces *forces,
+                         ellipsoid_contact *report)
 {
     contacts all;
 
     find_contacts(bead, from, &all, gap, report);
     if (all.count > 0)
     {
-        memset(push, 0, sizeof *push);
-        memset(pull, 0, sizeof *pull);
-        combine(bead, &all, derivatives, push, pull);
+        memset(forces, 0, sizeof *forces);
+        add_laws(bead, &all, derivatives, forces);
     }
     return all.count;
 }
 
 int ellipsoid_bead_force(const double centre[3], double radius,
-                         double stiffness, const ellipsoid_facet *facets,
-                         const int *index, int count, double force[3],
-                         double force_x[3][3])
+                         double stiffness, const ellipsoid_facet_list *facets,
+                         double force[3], double force_x[3][3])
 {
-    const ellipsoid_candidates from = {facets, index, count};
+    const ellipsoid_candidates from = {facets->facets, facets->index,
+                                       facets->count};
     const ellipsoid_wall_laws laws = {
         .count = 1, .law = {ellipsoid_hertz_law(stiffness)}};
     ellipsoid_bead bead = {.radius = radius, .laws = &laws};
-    ellipsoid_point_force push = {.force = {0, 0, 0}}, pull;
+    ellipsoid_bead_forces forces = {.repulsion = {.force = {0, 0, 0}}};
     double gap = 0;
     int contacts;
 
     ellipsoid_copy(centre, bead.centre);
-    contacts = ellipsoid_bead_contact(&bead, &from, &gap, force_x != NULL, &push,
-                                    &pull, NULL);
-    ellipsoid_copy(push.force, force);
+    contacts = ellipsoid_bead_contact(&bead, &from, &gap, force_x != NULL,
+                                      &forces, NULL);
+    ellipsoid_copy(forces.repulsion.force, force);
     if (force_x)
     {
-        memcpy(force_x, push.force_x, sizeof push.force_x);
+        memcpy(force_x, forces.repulsion.force_x,
+               sizeof forces.repulsion.force_x);
     }
     return contacts;
 }

@@ -3,7 +3,7 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    beadPairs.c - which beads of two bodies may touch.
+    beadPairs.c - which beads of two bodies may come into contact.
 */
 #include "contact/contact.h"
 

@@ -13,7 +13,7 @@
 #include "contact/contactLaw.h"
 #include "walls/walls.h"
 
-/* Does a cell touch anything there? */
+/* Is a cell in contact with anything? */
 static inline int ellipsoid_in_contact(const ellipsoid_contact *contact)
 {
     return contact->touching_beads > 0 || contact->touched_cell_count > 0;
@@ -35,18 +35,24 @@ typedef struct ellipsoid_point_force
     double force[3], force_x[3][3];
 } ellipsoid_point_force;
 
+/* Those of laws that repel, on which friction and damping depend, and those of
+   laws that attract. */
+typedef struct ellipsoid_bead_forces
+{
+    ellipsoid_point_force repulsion, attraction;
+} ellipsoid_bead_forces;
+
 /*
-    The wall's force on one bead (beadContact.c), set only where it is felt: that of
-    overlap, which pushes, and that of adhesion, which pulls; returns the number
-    of contacts. *gap [m] is how far beyond the bead to look and is lowered to
-    the smallest gap found (minus the depth of an overlap). Surfaces touched are
-    noted in *report, which may be NULL.
+    The wall's forces on one bead (beadContact.c), set only where it is within
+    the range of a law; returns the number of contacts. *gap [m] is how far
+    beyond the bead to look and is lowered to the smallest gap found (minus the
+    depth of an overlap). The surfaces in contact are listed in *report, which
+    may be NULL.
 */
 int ellipsoid_bead_contact(const ellipsoid_bead *bead,
-                         const ellipsoid_candidates *from, double *gap,
-                         int derivatives, ellipsoid_point_force *push,
-                         ellipsoid_point_force *pull,
-                         ellipsoid_contact *report);
+                           const ellipsoid_candidates *from, double *gap,
+                           int derivatives, ellipsoid_bead_forces *forces,
+                           ellipsoid_contact *report);
 
 /* --------------------------------------------- derivatives of a wrench */
 
@@ -79,66 +85,77 @@ ellipsoid_friction_law ellipsoid_friction_law_of(const ellipsoid_model *model);
 ellipsoid_friction_law ellipsoid_friction_law_between(const ellipsoid_model *a,
                                             const ellipsoid_model *b);
 
-/* The force where surfaces touch, and its derivatives. */
+/* The force at a contact point, and its derivatives. */
 typedef struct ellipsoid_traction
 {
     double normal[3];
     double force[3];          /* [N] lab */
-    double by_push[3][3];     /* [-] by the elastic force, v being held */
+    double by_elastic[3][3];  /* [-] by the elastic force at constant velocity */
     double by_velocity[3][3]; /* [N s/m] */
 } ellipsoid_traction;
 
 /* From the elastic force [N] and the velocity of the material there [m/s], both
-   lab; 0 where there is no push (friction.c). */
+   lab; 0 where there is no elastic force (friction.c). */
 int ellipsoid_contact_traction(const ellipsoid_friction_law *law,
-                               const double push[3], const double velocity[3],
-                               int derivatives, ellipsoid_traction *traction);
+                               const double elastic[3],
+                               const double velocity[3], int derivatives,
+                               ellipsoid_traction *traction);
 
-/* Where a body is held by one of its beads. */
+/* One body at a contact of one of its beads. */
 typedef struct ellipsoid_attachment
 {
     const ellipsoid_state *state;
-    const double *arm;  /* [m] body, the bead's centre */
-    double (*r)[3];     /* R(q) */
-    double spin[3];     /* [rad/s] lab, R omega */
-    double point[3];    /* [m] lab, the contact point, from the body's centre */
+    const double *arm; /* [m] body, the bead's centre */
+    double (*r)[3];    /* R(q) */
+    double spin[3];    /* [rad/s] lab, R omega */
+    double point[3];   /* [m] lab, the contact point, from the body's centre */
 } ellipsoid_attachment;
 
-/* Its point is the bead's centre. */
-ellipsoid_attachment ellipsoid_attachment_of(const ellipsoid_state *state, double r[3][3],
-                                 const double arm[3]);
+/* With the bead's centre as the contact point. */
+ellipsoid_attachment ellipsoid_attachment_of(const ellipsoid_state *state,
+                                             double r[3][3],
+                                             const double arm[3]);
 
-/* A body and a wall, or two bodies, that rub at one point. */
+/* Friction at one point between a body and a wall, or between two bodies. */
 typedef struct ellipsoid_friction
 {
     int bodies;
-    ellipsoid_attachment grip[2];
-    double push[3];         /* [N] elastic force on the first */
-    double push_c[2][3][3]; /* [N/m] derivative by the centre of each's bead */
-    double point_c[2][3][3]; /* [-] likewise, of the contact point */
+    ellipsoid_attachment attachment[2];
+    double elastic[3];         /* [N] elastic force on the first */
+    double elastic_c[2][3][3]; /* [N/m] derivative by each bead's centre */
+    double point_c[2][3][3];   /* [-] likewise, of the contact point */
     ellipsoid_traction traction; /* on the first */
 } ellipsoid_friction;
 
 /* Sets the traction; 0 where there is none. */
-int ellipsoid_friction_traction(const ellipsoid_friction_law *law, ellipsoid_friction *rub,
-                           int derivatives);
+int ellipsoid_friction_traction(const ellipsoid_friction_law *law,
+                                ellipsoid_friction *friction, int derivatives);
 
-/* Adds what a body feels: force [N, lab] and torque [N m, body]. */
-void ellipsoid_add_friction(const ellipsoid_friction *rub, int body, double force[3],
-                       double torque[3]);
+/* Adds force [N, lab] and torque [N m, body] on a body. */
+void ellipsoid_add_friction(const ellipsoid_friction *friction, int body,
+                            double force[3], double torque[3]);
 
-/* Adds to jacobian[i][k] the derivatives of what body i feels by the state of
-   body k (wrenchJacobian.c). */
+/* Adds to jacobian[i][k] the derivatives of the wrench on body i by the state
+   of body k (wrenchJacobian.c). */
 void ellipsoid_add_friction_jacobian(
-    ellipsoid_friction *rub, ellipsoid_contact_jacobian *const jacobian[2][2]);
+    ellipsoid_friction *friction,
+    ellipsoid_contact_jacobian *const jacobian[2][2]);
 
-/* A wall's push on a bead becomes force and torque with friction and damping;
-   jacobian may be NULL. */
-void ellipsoid_add_wall_friction(const ellipsoid_model *model,
-                        const ellipsoid_state *state, double r[3][3],
-                        const double arm[3], ellipsoid_point_force *push,
-                        ellipsoid_contact *contact,
-                        ellipsoid_contact_jacobian *jacobian);
+/* A cell in contact with walls, and the sums that its beads add to. */
+typedef struct ellipsoid_wall_contact
+{
+    const ellipsoid_model *model;
+    const ellipsoid_state *state;
+    double r[3][3]; /* R(q) */
+    ellipsoid_wall_laws laws;
+    ellipsoid_contact *contact;
+    ellipsoid_contact_jacobian *jacobian; /* may be NULL */
+} ellipsoid_wall_contact;
+
+/* Adds the elastic force on the bead at `arm`, with friction and damping. */
+void ellipsoid_add_wall_friction(ellipsoid_wall_contact *at,
+                                 const double arm[3],
+                                 const ellipsoid_point_force *elastic);
 
 /* -------------------------------------------- the ellipsoid and walls */
 
@@ -157,7 +174,8 @@ ellipsoid_surface_contact_add(const ellipsoid_model *model,
    all in the lab. */
 #define ELLIPSOID_PAIR_VARIABLES 9
 
-/* Where two ellipsoids are nearest, or deepest in one another (ellipsoidPair.c). */
+/* Where two ellipsoids are nearest, or deepest in one another
+   (ellipsoidPair.c). */
 typedef struct ellipsoid_surface_pair
 {
     double depth;      /* [m] minus the distance where they are apart */
@@ -176,25 +194,26 @@ void ellipsoid_surface_pair_set(const ellipsoid_surface *a,
                               const ellipsoid_surface *b, int derivatives,
                               ellipsoid_surface_pair *pair);
 
-/* Derivatives of a force of exact contact are by those nine, by u_a - u_b in
+/* Derivatives of the wrench on an ellipsoid are by those nine, by u_a - u_b in
    the lab, and by omega of a and of b, each in its body. */
 #define ELLIPSOID_WRENCH_VARIABLES 18
 
-/* What pushes an ellipsoid off a wall, or off another one, at one place. */
-typedef struct ellipsoid_surface_push
+/* The elastic force between an ellipsoid and a wall, or between two ellipsoids,
+   at one contact. */
+typedef struct ellipsoid_surface_force
 {
     int bodies;                     /* 1 at a wall: no variables of b */
     ellipsoid_surface *body[2];
     const ellipsoid_state *state[2];
-    double push[3];                 /* [N] lab, elastic, on the first */
+    double force[3];                /* [N] lab, on the first */
     double point[2][3];             /* [m] lab, from each one's centre */
 
     /* read where derivatives are asked for */
-    double push_slope[ELLIPSOID_PAIR_VARIABLES][3];
+    double force_slope[ELLIPSOID_PAIR_VARIABLES][3];
     double point_slope[2][ELLIPSOID_PAIR_VARIABLES][3];
-} ellipsoid_surface_push;
+} ellipsoid_surface_force;
 
-/* Sums over such places: the force on the first, torques about the centres. */
+/* Sums over contacts: the force on the first, torques about the centres. */
 typedef struct ellipsoid_wrench
 {
     double force[3], torque[2][3]; /* [N], [N m] lab */
@@ -202,15 +221,16 @@ typedef struct ellipsoid_wrench
     double torque_slope[2][ELLIPSOID_WRENCH_VARIABLES][3];
 } ellipsoid_wrench;
 
-/* Adds a push, with friction and damping unless law is NULL (ellipsoidWrench.c). */
-void ellipsoid_wrench_add(const ellipsoid_surface_push *push,
-                              const ellipsoid_friction_law *law, int derivatives,
-                              ellipsoid_wrench *sum);
+/* Adds a force, with friction and damping unless law is NULL
+   (ellipsoidWrench.c). */
+void ellipsoid_wrench_add(const ellipsoid_surface_force *at,
+                          const ellipsoid_friction_law *law, int derivatives,
+                          ellipsoid_wrench *sum);
 
-/* What body b feels: force [N, lab], torque [N m, body] and, unless `by` is
+/* The wrench on body b: force [N, lab], torque [N m, body] and, unless `by` is
    NULL, their derivatives by the states of the first body and the second. Of
-   the push, bodies and states are read. */
-void ellipsoid_wrench_report(const ellipsoid_surface_push *push,
+   `at`, bodies and states are read. */
+void ellipsoid_wrench_report(const ellipsoid_surface_force *at,
                             const ellipsoid_wrench *sum, int b,
                             double force[3], double torque[3],
                             ellipsoid_contact_jacobian *const by[2]);
@@ -228,7 +248,7 @@ typedef struct ellipsoid_body
 
 #define ELLIPSOID_NEAR_BEADS 200
 
-/* Two cells of a group, a < b, and the beads that may touch. */
+/* Two cells of a group, a < b, and the beads that may come into contact. */
 typedef struct ellipsoid_near_pair
 {
     int a, b;
@@ -240,7 +260,7 @@ typedef struct ellipsoid_near_pair
 double ellipsoid_pair_horizon(const ellipsoid_model *a,
                               const ellipsoid_model *b);
 
-/* Do two cells touch with their ellipsoids, not with their beads? */
+/* Are the ellipsoids of two cells in contact, not their beads? */
 static inline int ellipsoid_pair_is_exact(const ellipsoid_model *a,
                                           const ellipsoid_model *b)
 {
@@ -264,7 +284,7 @@ void ellipsoid_list_beads(ellipsoid_body *a, ellipsoid_body *b, double far,
 /* The gap between the ellipsoids themselves [m] (ellipsoidPairContact.c). */
 double ellipsoid_surface_gap(const ellipsoid_body *a, const ellipsoid_body *b);
 
-/* What one cell feels of the other, and its derivatives. */
+/* The wrench on one cell, and its derivatives by its state and the other's. */
 typedef struct ellipsoid_pair_wrench
 {
     double force[3], torque[3];
@@ -274,13 +294,13 @@ typedef struct ellipsoid_pair_wrench
 typedef struct ellipsoid_pair_contact
 {
     const ellipsoid_body *a, *b;
-    const ellipsoid_state *state_a, *state_b; /* read where they rub, and for
-                                                 derivatives of exact contact */
+    const ellipsoid_state *state_a, *state_b; /* read with friction, and for
+                                                 derivatives of ellipsoids */
     ellipsoid_contact_law normal_law;
     ellipsoid_friction_law law;
-    int rubs;
-    double gap;   /* [m] the smallest found */
-    int touching; /* beads */
+    int dissipative; /* does friction or damping act? */
+    double gap;      /* [m] the smallest found */
+    int contacts;    /* of beads, or of the ellipsoids */
     int derivatives;
     ellipsoid_pair_wrench *of_a, *of_b;
 } ellipsoid_pair_contact;

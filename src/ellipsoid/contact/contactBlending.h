@@ -3,24 +3,25 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    contactBlending.h - how the contacts of one body with the wall add up. Included by
-    beadContact.c for beads and by ellipsoidContact.c for ellipsoids, each with its own
-    number of variables, by which forces have gradients, as a constant.
+    contactBlending.h - the sum of the contacts of one body with the wall.
+    beadContact.c includes it for beads and ellipsoidContact.c for ellipsoids,
+    each with the number of variables of its gradients as a constant.
 
     The contacts of a body, at heights h along the normals n, add up as
-        F = sum w_i f_i n_i,   w_i = g_i / sum_j g_j max(0, n_i.n_j),
-    so that contacts along one normal count once and perpendicular ones fully.
+        F = sum w_i f_i n_i,   w_i = g_i / sum_j g_j max(0, r_ij),
+    r_ij = n_i.n_j: contacts along one normal count once, and those along
+    perpendicular normals count fully (docs/theory.md, "Contact").
     g_i = f_i phi_i. The share phi_i is 1 where normals differ by more than 60
     degrees. Between contacts less than 37 degrees apart it is
-        phi_i = s_i f_i / (s_i f_i + s_j f_j),   s_i = max(0, rise_ij)
-    with rise_ij the height of i's contact point above j's tangent plane. Where
-    the body leaves a facet over a gently concave seam or a low step, that point
-    lies on the next facet: s_i, and with it the contact's weight, is zero
+        phi_i = e_i f_i / (e_i f_i + e_j f_j),   e_i = max(0, elevation_ij)
+    with elevation_ij the height of i's contact point above j's tangent plane.
+    Where the body leaves a facet over a gently concave seam or a low step, that
+    point lies on the next facet: e_i, and with it the contact's weight, is zero
     before the contact ends, and the force stays continuous.
-    The rule for w_i is docs/theory.md's, "Contact"; the shares add to it.
 
     Before the inclusion: BLENDING_VARIABLES and a type `contact` with feature,
-    height and normal as in ellipsoid_nearest. After it: rise() and shadow().
+    height and normal as in ellipsoid_nearest. After it: elevation() and
+    redundancy().
 */
 #ifndef ELLIPSOID_CONTACT_BLENDING_H
 #define ELLIPSOID_CONTACT_BLENDING_H
@@ -36,14 +37,17 @@ enum
     MAX_CONTACTS = 16 /* distinct ones; of more, the deepest are kept */
 };
 
-/* Contacts closer than this in normal and height are one, seen twice. */
-static const double same = 1e-8;
+/* Relative tolerance in normal and height within which two contacts are one
+   that was found on two facets. */
+static const double coincidence = 1e-8;
 
-/* Cosines between which contacts share fully (near 1) or not at all. */
-static const double share_all = 0.8, share_none = 0.5;
+/* Cosines of the angle between normals: contacts share fully above the first,
+   and not at all below the second. */
+static const double full_sharing = 0.8, no_sharing = 0.5;
 
-/* The part of a common claim beyond which a contact is about to end. */
-static const double spared_first = 0.75;
+/* The other contact's fraction of the elevations beyond which the first round
+   reduces a share: such a contact is about to end. */
+static const double first_threshold = 0.75;
 
 typedef struct contacts
 {
@@ -51,17 +55,17 @@ typedef struct contacts
     contact at[MAX_CONTACTS];
 } contacts;
 
-static int is_same(const contact *a, const contact *b,
-                   double size)
+static int is_same(const contact *a, const contact *b, double size)
 {
     double d[3];
 
     ellipsoid_difference(a->normal, b->normal, d);
-    return ellipsoid_dot(d, d) < same * same
-        && fabs(a->height - b->height) < same * size;
+    return ellipsoid_dot(d, d) < coincidence * coincidence
+        && fabs(a->height - b->height) < coincidence * size;
 }
 
-static void add(contacts *all, const contact *found, double size)
+/* Adds a contact unless it is there already. */
+static void add_contact(contacts *all, const contact *found, double size)
 {
     int shallowest = 0;
 
@@ -69,7 +73,7 @@ static void add(contacts *all, const contact *found, double size)
     {
         if (is_same(&all->at[i], found, size))
         {
-            /* a face knows its normal best */
+            /* the normal of a face has the smallest rounding error */
             if (found->feature < all->at[i].feature)
             {
                 all->at[i] = *found;
@@ -91,7 +95,7 @@ static void add(contacts *all, const contact *found, double size)
     }
 }
 
-static void note_surface(ellipsoid_contact *report, int surface)
+static void list_surface(ellipsoid_contact *report, int surface)
 {
     for (int i = 0; i < report->touched_count; i++)
     {
@@ -112,26 +116,27 @@ typedef struct scalar
     double value, gradient[VARIABLES];
 } scalar;
 
-typedef struct mix
+/* The contacts that one law acts at. */
+typedef struct blend
 {
-    int count; /* the first of the contacts */
-    double width, apart; /* [m] for shadow() */
-    double turn[MAX_CONTACTS][3][VARIABLES]; /* derivatives of normals */
-    scalar force[MAX_CONTACTS];              /* f_i */
-} mix;
+    int count; /* the first of all contacts */
+    double radius, separation; /* [m] for redundancy() of ellipsoids */
+    double normal_slope[MAX_CONTACTS][3][VARIABLES];
+    scalar force[MAX_CONTACTS]; /* f_i */
+} blend;
 
 static const scalar unity = {.value = 1};
 
 /* Height of i's contact point above j's tangent plane; c = n_i.n_j. */
-static scalar rise(const contacts *all, const mix *m, const scalar *c, int i,
+static scalar elevation(const contacts *all, const blend *m, const scalar *c, int i,
                    int j);
 
-/* How much of i's part j takes over where both bear fully, 1 if they are one
-   contact; n_i.n_j, or less where they are far apart. */
-static scalar shadow(const contacts *all, const mix *m, int i, int j);
+/* r_ij: 1 if they are one contact, n_i.n_j in general, and less where their
+   points are far apart. */
+static scalar redundancy(const contacts *all, const blend *m, int i, int j);
 
 /* n_i.n_j */
-static scalar cosine(const contacts *all, const mix *m, int i, int j)
+static scalar cosine(const contacts *all, const blend *m, int i, int j)
 {
     const double *a = all->at[i].normal, *b = all->at[j].normal;
     scalar c = {.value = ellipsoid_dot(a, b)};
@@ -142,17 +147,18 @@ static scalar cosine(const contacts *all, const mix *m, int i, int j)
         for (int l = 0; l < 3; l++)
         {
             c.gradient[k] +=
-                m->turn[i][l][k] * b[l] + m->turn[j][l][k] * a[l];
+                m->normal_slope[i][l][k] * b[l] + m->normal_slope[j][l][k] * a[l];
         }
     }
     return c;
 }
 
-/* s_i times i's weight, see above */
-static scalar claim(const contacts *all, const mix *m, const scalar *weight,
-                    const scalar *c, int i, int j)
+/* e_i times the weight of i */
+static scalar weighted_elevation(const contacts *all, const blend *m,
+                                 const scalar *weight, const scalar *c, int i,
+                                 int j)
 {
-    const scalar s = rise(all, m, c, i, j);
+    const scalar s = elevation(all, m, c, i, j);
     scalar result = {.value = 0};
 
     if (s.value > 0)
@@ -167,17 +173,19 @@ static scalar claim(const contacts *all, const mix *m, const scalar *weight,
     return result;
 }
 
-/* Takes from phi what of another's claim exceeds a part `spared` of both:
-   phi *= 1 - degree (other/total - spared)/(1 - spared). */
-static void concede(scalar *phi, const scalar *degree, const scalar *other,
-                    const scalar *own, double spared)
+/* Reduces a share by what the other's fraction of both weighted elevations
+   exceeds a threshold by:
+   phi *= 1 - degree (other/total - threshold)/(1 - threshold). */
+static void reduce_share(scalar *phi, const scalar *degree,
+                         const scalar *other, const scalar *own,
+                         double threshold)
 {
     const double total = other->value + own->value;
     const double part = other->value / total;
-    const double taken = (part - spared) / (1 - spared);
-    const double factor = 1 - degree->value * taken;
+    const double excess = (part - threshold) / (1 - threshold);
+    const double factor = 1 - degree->value * excess;
 
-    if (!(taken > 0))
+    if (!(excess > 0))
     {
         return;
     }
@@ -187,23 +195,24 @@ static void concede(scalar *phi, const scalar *degree, const scalar *other,
             ((1 - part) * other->gradient[k] - part * own->gradient[k]) / total;
 
         phi->gradient[k] = phi->gradient[k] * factor
-            - phi->value * (degree->gradient[k] * taken
-                            + degree->value * part_gradient / (1 - spared));
+            - phi->value
+                  * (degree->gradient[k] * excess
+                     + degree->value * part_gradient / (1 - threshold));
     }
     phi->value *= factor;
 }
 
-/* Every two contacts share out what they cover both. */
-static void share_out(const contacts *all, const mix *m, const scalar *weight,
-                      double spared, scalar *share)
+/* The shares of every two contacts with normals of similar direction. */
+static void set_shares(const contacts *all, const blend *m,
+                       const scalar *weight, double threshold, scalar *share)
 {
     for (int i = 0; i < m->count; i++)
     {
         for (int j = 0; j < i; j++)
         {
             const scalar c = cosine(all, m, i, j);
-            const double ramp = (c.value - share_none)
-                              / (share_all - share_none);
+            const double ramp = (c.value - no_sharing)
+                              / (full_sharing - no_sharing);
             scalar degree = {.value = fmin(ramp, 1)};
 
             if (!(ramp > 0))
@@ -211,19 +220,19 @@ static void share_out(const contacts *all, const mix *m, const scalar *weight,
                 continue;
             }
 
-            const scalar mine = claim(all, m, weight, &c, i, j);
-            const scalar other = claim(all, m, weight, &c, j, i);
+            const scalar own = weighted_elevation(all, m, weight, &c, i, j);
+            const scalar other = weighted_elevation(all, m, weight, &c, j, i);
 
-            if (!(mine.value + other.value > 0))
+            if (!(own.value + other.value > 0))
             {
                 continue;
             }
             for (int k = 0; k < VARIABLES && ramp < 1; k++)
             {
-                degree.gradient[k] = c.gradient[k] / (share_all - share_none);
+                degree.gradient[k] = c.gradient[k] / (full_sharing - no_sharing);
             }
-            concede(&share[i], &degree, &other, &mine, spared);
-            concede(&share[j], &degree, &mine, &other, spared);
+            reduce_share(&share[i], &degree, &other, &own, threshold);
+            reduce_share(&share[j], &degree, &own, &other, threshold);
         }
     }
 }
@@ -241,41 +250,42 @@ static scalar product(const scalar *a, const scalar *b)
 }
 
 /*
-    g_i = f_i phi_i in two rounds. The first, by heights alone, lets go of those
-    about to end, so that in the second they claim nothing from third ones.
+    g_i = f_i phi_i in two rounds. The first, by elevations alone, takes the
+    weight from contacts about to end, so that they do not reduce the shares of
+    others in the second.
 */
-static void weigh(const contacts *all, const mix *m, scalar *weight)
+static void set_weights(const contacts *all, const blend *m, scalar *weight)
 {
     scalar one[MAX_CONTACTS], share[MAX_CONTACTS];
 
-    /* all, lest compilers fear for those beyond the count */
+    /* all of them: compilers warn of those beyond the count otherwise */
     for (int i = 0; i < MAX_CONTACTS; i++)
     {
         one[i] = share[i] = unity;
     }
-    share_out(all, m, one, spared_first, share);
+    set_shares(all, m, one, first_threshold, share);
     for (int i = 0; i < m->count; i++)
     {
         weight[i] = product(&m->force[i], &share[i]);
         share[i] = unity;
     }
     memcpy(one, weight, m->count * sizeof *one);
-    share_out(all, m, one, 0, share);
+    set_shares(all, m, one, 0, share);
     for (int i = 0; i < m->count; i++)
     {
         weight[i] = product(&one[i], &share[i]);
     }
 }
 
-/* sum_j g_j max(0, shadow_ij) */
-static scalar covered(const contacts *all, const mix *m, const scalar *weight,
-                      int i)
+/* sum_j g_j max(0, r_ij) */
+static scalar weight_sum(const contacts *all, const blend *m,
+                         const scalar *weight, int i)
 {
     scalar sum = weight[i];
 
     for (int j = 0; j < m->count; j++)
     {
-        const scalar c = shadow(all, m, i, j);
+        const scalar c = redundancy(all, m, i, j);
 
         if (j == i || !(c.value > 0))
         {
@@ -291,9 +301,9 @@ static scalar covered(const contacts *all, const mix *m, const scalar *weight,
     return sum;
 }
 
-/* w_i f_i of all contacts, 0 where nothing is left of one. */
-static void mix_forces(const contacts *all, const mix *m,
-                       scalar size[MAX_CONTACTS])
+/* w_i f_i of all contacts. */
+static void blend_forces(const contacts *all, const blend *m,
+                         scalar size[MAX_CONTACTS])
 {
     scalar weight[MAX_CONTACTS];
 
@@ -303,7 +313,7 @@ static void mix_forces(const contacts *all, const mix *m,
         return;
     }
 
-    weigh(all, m, weight);
+    set_weights(all, m, weight);
     for (int i = 0; i < m->count; i++)
     {
         const scalar *f = &m->force[i], *g = &weight[i];
@@ -311,7 +321,7 @@ static void mix_forces(const contacts *all, const mix *m,
         size[i] = (scalar){.value = 0};
         if (g->value > 0)
         {
-            const scalar sum = covered(all, m, weight, i);
+            const scalar sum = weight_sum(all, m, weight, i);
             const double w = g->value / sum.value;
 
             size[i].value = w * f->value;

@@ -33,13 +33,14 @@ static void add(ellipsoid_wall_laws *laws, ellipsoid_contact_law law)
     }
     laws->law[n] = law;
     laws->range = laws->law[laws->count++].range;
+    laws->attractive = laws->attractive || law.attractive;
 }
 
 #define ADD_WALL_LAW(name) add(laws, ellipsoid_##name##_at_wall(o));
 void ellipsoid_wall_laws_set(ellipsoid_wall_laws *laws,
                              const ellipsoid_options *o)
 {
-    laws->count = 0;
+    laws->count = laws->attractive = 0;
     laws->range = 0;
     ELLIPSOID_CONTACT_LAWS(ADD_WALL_LAW)
 }

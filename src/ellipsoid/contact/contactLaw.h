@@ -139,7 +139,8 @@ typedef struct ellipsoid_wall_laws
 {
     int count;
     ellipsoid_contact_law law[ELLIPSOID_LAW_COUNT];
-    double range; /* [m] the largest of them */
+    double range;   /* [m] the largest of them */
+    int attractive; /* is one of them? */
 } ellipsoid_wall_laws;
 
 /* Those that a cell's options ask for. */

@@ -6,14 +6,14 @@
     ellipsoidContact.c - the walls' force and torque on an ellipsoid.
 
     Contacts are local minima of the ellipsoid's distance to the wall
-    (ellipsoidFacets.c). Law and sum are those of a bead (beadContact.c, contactBlending.h), the
-    force acts at the contact point on the ellipsoid: one contact is
-    conservative, with the potential 2/5 k d^2.5.
+    (ellipsoidFacets.c). Law and sum are those of a bead (contactLaw.h,
+    contactBlending.h), the force acts at the contact point on the ellipsoid:
+    one contact is conservative, with the potential of the law.
 
-    Contacts of a bead along one normal are at one place, those of a long body
-    need not be: a rod across a slit rests on both its edges. So contacts count
-    each on its own where their places differ by a bead's radius more than a
-    sphere's would, unless one is about to end: shadow().
+    Contacts of a bead along one normal are at one point, those of a long body
+    need not be: a rod across a slit rests on both its edges. So contacts are
+    independent where their points are farther apart, by a bead's radius, than
+    those of a sphere would be, unless one is about to end: redundancy().
 */
 #include "contact/contact.h"
 
@@ -23,19 +23,19 @@ typedef ellipsoid_surface_contact contact;
 
 #include "contact/contactBlending.h"
 
-static void take(contacts *all, const contact *found, double felt, double size,
-                 int surface, ellipsoid_contact *report)
+static void record(contacts *all, const contact *found, double range,
+                   double size, int surface, ellipsoid_contact *report)
 {
     report->gap = fmin(report->gap, found->height);
-    if (found->height < felt)
+    if (found->height < range)
     {
-        add(all, found, size);
-        note_surface(report, surface);
+        add_contact(all, found, size);
+        list_surface(report, surface);
     }
 }
 
-/* Has the centre been pushed into the wall, no farther than `reach`? Then what
-   is nearest to it is a face seen from behind. */
+/* Is the centre inside the wall, no deeper than `reach`? Then the nearest facet
+   to it is a face seen from behind. */
 static int is_inside(const ellipsoid_surface *body,
                      const ellipsoid_candidates *from, double reach)
 {
@@ -49,13 +49,12 @@ static int is_inside(const ellipsoid_surface *body,
         if (ellipsoid_facet_nearest(&from->facets[from->index[k]], body->centre,
                                     reach, &found))
         {
-            const double away = fabs(found.height) / (found.height < 0
-                                                          ? 1 - same
-                                                          : 1);
+            const double distance =
+                fabs(found.height) / (found.height < 0 ? 1 - coincidence : 1);
 
-            if (away < clear)
+            if (distance < clear)
             {
-                clear = away;
+                clear = distance;
                 inside = found.height < 0;
             }
         }
@@ -65,17 +64,16 @@ static int is_inside(const ellipsoid_surface *body,
 
 /*
     Deeper in a corner than its radius of curvature, an ellipsoid may have no
-    contact: every face that it cuts has its deepest point in it beside the
-    face. The least deep pushes it out then, so that it is neither lost in the
-    wall nor taken to be clear of it.
+    contact: of every face that it cuts, the point deepest in it lies beside the
+    face. Then the plane of the face that it is least deep behind is a contact.
 */
-static void find_deepest(const ellipsoid_surface *body,
+static void add_cut_plane(const ellipsoid_surface *body,
                          const ellipsoid_candidates *from, double range,
                          contacts *all, ellipsoid_contact *report)
 {
     const double *a = body->axes;
-    const double sharpest = body->smallest * body->smallest
-                          / fmax(a[0], fmax(a[1], a[2]));
+    const double curvature_radius = body->smallest * body->smallest
+                                  / fmax(a[0], fmax(a[1], a[2]));
     contact found, least = {.height = -HUGE_VAL};
     int surface = -1, deep = 0;
 
@@ -83,9 +81,10 @@ static void find_deepest(const ellipsoid_surface *body,
     {
         const ellipsoid_facet *facet = &from->facets[from->index[k]];
 
-        if (ellipsoid_surface_pushed_out(facet, body, &found))
+        if (ellipsoid_surface_cut_plane(facet, body, &found))
         {
-            deep = deep || -found.height > sharpest * (1 + same);
+            deep = deep
+                || -found.height > curvature_radius * (1 + coincidence);
             if (found.height > least.height)
             {
                 least = found;
@@ -95,14 +94,14 @@ static void find_deepest(const ellipsoid_surface *body,
     }
     if (deep)
     {
-        take(all, &least, range, body->smallest, surface, report);
+        record(all, &least, range, body->smallest, surface, report);
     }
 }
 
 /*
     All contacts. report->gap is lowered to the smallest height. A face seen
-    from behind counts only if the centre has been pushed into the wall, and of
-    several the nearest. Otherwise it is the far side of a thin wall.
+    from behind counts only if the centre is inside the wall, and of several the
+    nearest. Otherwise it is the far side of a thin wall.
 */
 static void find_contacts(const ellipsoid_surface *body,
                           const ellipsoid_candidates *from, double range,
@@ -126,7 +125,7 @@ static void find_contacts(const ellipsoid_surface *body,
         }
         if (side == 1)
         {
-            take(all, &found, range, body->smallest, facet->surface, report);
+            record(all, &found, range, body->smallest, facet->surface, report);
         }
         else if (found.height + found.support > nearest)
         {
@@ -138,15 +137,15 @@ static void find_contacts(const ellipsoid_surface *body,
     }
     if (seen && is_inside(body, from, body->smallest))
     {
-        take(all, &behind, range, body->smallest, surface, report);
+        record(all, &behind, range, body->smallest, surface, report);
     }
     if (report->gap >= 0)
     {
-        find_deepest(body, from, range, all, report);
+        add_cut_plane(body, from, range, all, report);
     }
 }
 
-static scalar rise(const contacts *all, const mix *m, const scalar *c, int i,
+static scalar elevation(const contacts *all, const blend *m, const scalar *c, int i,
                    int j)
 {
     const contact *a = &all->at[i], *b = &all->at[j];
@@ -162,7 +161,7 @@ static scalar rise(const contacts *all, const mix *m, const scalar *c, int i,
                       - c->gradient[k] * a->height;
         for (int l = 0; l < 3; l++)
         {
-            s.gradient[k] += m->turn[j][l][k] * apart[l]
+            s.gradient[k] += m->normal_slope[j][l][k] * apart[l]
                 + b->normal[l] * (b->arm_slope[l][k] - a->arm_slope[l][k]);
         }
     }
@@ -182,14 +181,13 @@ static scalar smooth(scalar t)
     return t;
 }
 
-/* i's height above j's tangent plane on the wall, by that on the ellipsoid: 0
-   where the contact ends, 1 but for the depths where the wall has only the two
-   points. */
-static scalar standing(const contacts *all, const mix *m, const scalar *c,
-                       int i, int j)
+/* i's height above j's tangent plane on the wall, divided by that on the
+   ellipsoid, smoothed: 0 where the contact ends, and near 1 elsewhere. */
+static scalar relative_elevation(const contacts *all, const blend *m,
+                                 const scalar *c, int i, int j)
 {
     const contact *a = &all->at[i], *b = &all->at[j];
-    const scalar s = rise(all, m, c, i, j);
+    const scalar s = elevation(all, m, c, i, j);
     double apart[3], above;
     scalar part = {.value = 0};
 
@@ -204,7 +202,7 @@ static scalar standing(const contacts *all, const mix *m, const scalar *c,
 
             for (int l = 0; l < 3; l++)
             {
-                change += m->turn[j][l][k] * apart[l]
+                change += m->normal_slope[j][l][k] * apart[l]
                     + b->normal[l] * (b->arm_slope[l][k] - a->arm_slope[l][k]);
             }
             part.gradient[k] = (s.gradient[k] - part.value * change) / above;
@@ -213,10 +211,11 @@ static scalar standing(const contacts *all, const mix *m, const scalar *c,
     return smooth(part);
 }
 
-static scalar shadow(const contacts *all, const mix *m, int i, int j)
+static scalar redundancy(const contacts *all, const blend *m, int i, int j)
 {
     const contact *a = &all->at[i], *b = &all->at[j];
-    const double width = m->width * m->width, apart = m->apart * m->apart;
+    const double radius = m->radius * m->radius;
+    const double separation = m->separation * m->separation;
     const scalar c = cosine(all, m, i, j);
     scalar far = {.value = 0};
     double arms[3], normals[3];
@@ -224,7 +223,7 @@ static scalar shadow(const contacts *all, const mix *m, int i, int j)
     ellipsoid_difference(a->arm, b->arm, arms);
     ellipsoid_difference(a->normal, b->normal, normals);
     far.value = (ellipsoid_dot(arms, arms)
-                 - width * ellipsoid_dot(normals, normals)) / apart;
+                 - radius * ellipsoid_dot(normals, normals)) / separation;
     if (!(far.value > 0 && c.value > 0))
     {
         return c;
@@ -234,16 +233,16 @@ static scalar shadow(const contacts *all, const mix *m, int i, int j)
         for (int l = 0; l < 3; l++)
         {
             const double arm = a->arm_slope[l][k] - b->arm_slope[l][k];
-            const double turn = m->turn[i][l][k] - m->turn[j][l][k];
+            const double turn = m->normal_slope[i][l][k] - m->normal_slope[j][l][k];
 
             far.gradient[k] +=
-                2 / apart * (arms[l] * arm - width * normals[l] * turn);
+                2 / separation * (arms[l] * arm - radius * normals[l] * turn);
         }
     }
     far = smooth(far);
 
-    const scalar one = standing(all, m, &c, i, j);
-    const scalar other = standing(all, m, &c, j, i);
+    const scalar one = relative_elevation(all, m, &c, i, j);
+    const scalar other = relative_elevation(all, m, &c, j, i);
     const scalar both = product(&one, &other);
     scalar kept = product(&far, &both);
 
@@ -256,14 +255,14 @@ static scalar shadow(const contacts *all, const mix *m, int i, int j)
 }
 
 /* Adds the forces of one law along the normals (sign 1) or against; with
-   friction and damping unless `rubs` is NULL. */
-static void add_mixed(const contacts *all, const mix *m, double sign,
-                      const ellipsoid_friction_law *rubs, int derivatives,
-                      ellipsoid_surface_push *push, ellipsoid_wrench *sum)
+   friction and damping unless `friction` is NULL. */
+static void add_blended(const contacts *all, const blend *m, double sign,
+                        const ellipsoid_friction_law *friction, int derivatives,
+                        ellipsoid_surface_force *at, ellipsoid_wrench *sum)
 {
     scalar size[MAX_CONTACTS];
 
-    mix_forces(all, m, size);
+    blend_forces(all, m, size);
     for (int n = 0; n < m->count; n++)
     {
         const contact *c = &all->at[n];
@@ -271,38 +270,38 @@ static void add_mixed(const contacts *all, const mix *m, double sign,
 
         for (int i = 0; i < 3; i++)
         {
-            push->push[i] = f * c->normal[i];
-            push->point[0][i] = -c->arm[i];
+            at->force[i] = f * c->normal[i];
+            at->point[0][i] = -c->arm[i];
             for (int k = 0; derivatives && k < VARIABLES; k++)
             {
-                push->push_slope[k][i] = sign * size[n].gradient[k]
-                                           * c->normal[i]
-                                       + f * c->normal_slope[i][k];
-                push->point_slope[0][k][i] = -c->arm_slope[i][k];
+                at->force_slope[k][i] = sign * size[n].gradient[k]
+                                          * c->normal[i]
+                                      + f * c->normal_slope[i][k];
+                at->point_slope[0][k][i] = -c->arm_slope[i][k];
             }
         }
-        ellipsoid_wrench_add(push, rubs, derivatives, sum);
+        ellipsoid_wrench_add(at, friction, derivatives, sum);
     }
 }
 
-/* Friction and damping go with the push: adhesion pulls as it does. */
-static void combine(const ellipsoid_model *model,
-                    const ellipsoid_wall_laws *laws, contacts *all,
-                    int derivatives, ellipsoid_surface_push *push,
-                    ellipsoid_wrench *sum)
+static void add_laws(const ellipsoid_model *model,
+                     const ellipsoid_wall_laws *laws, contacts *all,
+                     int derivatives, ellipsoid_surface_force *at,
+                     ellipsoid_wrench *sum)
 {
-    const ellipsoid_surface *body = push->body[0];
-    const ellipsoid_friction_law rough = ellipsoid_friction_law_of(model);
+    const ellipsoid_surface *body = at->body[0];
+    const ellipsoid_friction_law friction = ellipsoid_friction_law_of(model);
     int count[ELLIPSOID_LAW_COUNT];
-    mix m; /* large: set where it is read */
+    blend m; /* large: set where it is read */
 
     order_by_range(all, laws, 0, count);
-    m.width = body->smallest;
-    m.apart = model->options.bead_radius;
+    m.radius = body->smallest;
+    m.separation = model->options.bead_radius;
     for (int i = 0; i < all->count && (derivatives || all->count > 1); i++)
     {
         ellipsoid_surface_derivatives(body, &all->at[i]);
-        memcpy(m.turn[i], all->at[i].normal_slope, sizeof m.turn[i]);
+        memcpy(m.normal_slope[i], all->at[i].normal_slope,
+               sizeof m.normal_slope[i]);
     }
     for (int n = 0; n < laws->count; n++)
     {
@@ -325,9 +324,10 @@ static void combine(const ellipsoid_model *model,
         }
         if (m.count > 0)
         {
-            add_mixed(all, &m, sign,
-                      !law->attractive && model->dissipative ? &rough : NULL,
-                      derivatives, push, sum);
+            add_blended(all, &m, sign,
+                        !law->attractive && model->dissipative ? &friction
+                                                               : NULL,
+                        derivatives, at, sum);
         }
     }
 }
@@ -363,12 +363,12 @@ ellipsoid_surface_contact_add(const ellipsoid_model *model,
         contact->touching_beads = all.count > 0;
         if (all.count > 0)
         {
-            ellipsoid_surface_push push = {
+            ellipsoid_surface_force at = {
                 .bodies = 1, .body = {&body}, .state = {state}};
             ellipsoid_wrench sum = {.force = {0, 0, 0}};
 
-            combine(model, &laws, &all, jacobian != NULL, &push, &sum);
-            ellipsoid_wrench_report(&push, &sum, 0, contact->force,
+            add_laws(model, &laws, &all, jacobian != NULL, &at, &sum);
+            ellipsoid_wrench_report(&at, &sum, 0, contact->force,
                                    contact->torque, jacobian ? by : NULL);
         }
     }

@@ -9,7 +9,7 @@
     the least over unit vectors n of
         phi(n) = h_a(n) + h_b(n) - n.(x_a - x_b),
     the way that a has to be moved along n until they part; where they are
-   apart, minus the distance. At the minimum w = p_a + p_b - (x_a - x_b) is
+    apart, minus the distance. At the minimum w = p_a + p_b - (x_a - x_b) is
    along n, p = R A^2 R^T n/h being the points of support: the surfaces are
    nearest, or deepest, at x_a - p_a and x_b + p_b, phi apart along n.
 
@@ -23,12 +23,12 @@
 /* Steps that Newton's method may take; five are usual. */
 #define MAX_NEWTON 60
 
-/* What one body has in a direction. */
+/* The support function of one body in a direction. */
 typedef struct support
 {
     double height;     /* [m] h(n) */
     double point[3];   /* [m] p, from the centre */
-    double bend[3][3]; /* [m] dp/dn = (S - p p^T)/h */
+    double curvature[3][3]; /* [m] dp/dn = (S - p p^T)/h */
 } support;
 
 static void set_support(const ellipsoid_surface *body, const double n[3],
@@ -50,14 +50,14 @@ static void set_support(const ellipsoid_surface *body, const double n[3],
     {
         for (int j = 0; j < 3; j++)
         {
-            s->bend[i][j] =
+            s->curvature[i][j] =
                 (shape[i][j] - s->point[i] * s->point[j]) / s->height;
         }
     }
 }
 
 /* Two unit vectors that span the plane across n. */
-static void span(const double n[3], double e[2][3])
+static void set_tangents(const double n[3], double e[2][3])
 {
     const int least = fabs(n[0]) < fabs(n[1])
                         ? (fabs(n[0]) < fabs(n[2]) ? 0 : 2)
@@ -71,17 +71,17 @@ static void span(const double n[3], double e[2][3])
     ellipsoid_cross(n, e[0], e[1]);
 }
 
-/* phi, what it is made of, and its slope and second derivatives across n. */
-typedef struct landscape
+/* phi, the support functions in it, and its derivatives across n. */
+typedef struct objective
 {
     support a, b;
     double phi;
     double across[2][3];
-    double slope[2], bend[3]; /* 11, 12, 22 */
-} landscape;
+    double slope[2], curvature[3]; /* 11, 12, 22 */
+} objective;
 
-static void look(const ellipsoid_surface *a, const ellipsoid_surface *b,
-                 const double line[3], const double n[3], landscape *at)
+static void evaluate(const ellipsoid_surface *a, const ellipsoid_surface *b,
+                     const double line[3], const double n[3], objective *at)
 {
     double w[3], both[3];
 
@@ -92,7 +92,7 @@ static void look(const ellipsoid_surface *a, const ellipsoid_surface *b,
         w[i] = at->a.point[i] + at->b.point[i] - line[i];
     }
     at->phi = at->a.height + at->b.height - ellipsoid_dot(n, line);
-    span(n, at->across);
+    set_tangents(n, at->across);
     for (int k = 0; k < 2; k++)
     {
         at->slope[k] = ellipsoid_dot(at->across[k], w);
@@ -100,10 +100,10 @@ static void look(const ellipsoid_surface *a, const ellipsoid_surface *b,
         {
             for (int i = 0; i < 3; i++)
             {
-                both[i] = ellipsoid_dot(at->a.bend[i], at->across[l])
-                        + ellipsoid_dot(at->b.bend[i], at->across[l]);
+                both[i] = ellipsoid_dot(at->a.curvature[i], at->across[l])
+                        + ellipsoid_dot(at->b.curvature[i], at->across[l]);
             }
-            at->bend[k + l] =
+            at->curvature[k + l] =
                 ellipsoid_dot(at->across[k], both) - (k == l ? at->phi : 0);
         }
     }
@@ -119,8 +119,8 @@ static int solve2(const double m[3], const double r[2], double d[2])
     return m[0] > 0 && determinant > 0;
 }
 
-/* n moved by d in the plane across it */
-static void move(const double n[3], double across[2][3], const double d[2],
+/* The unit vector along n + d, with d in the plane across n. */
+static void retract(const double n[3], double across[2][3], const double d[2],
                  double moved[3])
 {
     double length;
@@ -162,51 +162,52 @@ static void first_direction(const ellipsoid_surface *a,
     }
 }
 
-static double steepness(const landscape *at)
+static double gradient_norm(const objective *at)
 {
     return hypot(at->slope[0], at->slope[1]);
 }
 
 static void minimise(const ellipsoid_surface *a,
                      const ellipsoid_surface *b, const double line[3],
-                     double n[3], landscape *at)
+                     double n[3], objective *at)
 {
-    look(a, b, line, n, at);
+    evaluate(a, b, line, n, at);
     for (int step = 0; step < MAX_NEWTON; step++)
     {
         const double down[2] = {-at->slope[0], -at->slope[1]};
-        double d[2], moved[3], way;
-        landscape there;
+        double d[2], moved[3], length;
+        objective there;
 
-        if (!solve2(at->bend, down, d))
+        if (!solve2(at->curvature, down, d))
         {
             const double scale =
-                fabs(at->bend[0]) + fabs(at->bend[1]) + fabs(at->bend[2]);
+                fabs(at->curvature[0]) + fabs(at->curvature[1])
+                + fabs(at->curvature[2]);
 
             d[0] = down[0] / scale;
             d[1] = down[1] / scale;
         }
-        way = hypot(d[0], d[1]);
-        if (!(way > 1e-15))
+        length = hypot(d[0], d[1]);
+        if (!(length > 1e-15))
         {
             return;
         }
-        if (way > 0.5)
+        if (length > 0.5)
         {
-            d[0] *= 0.5 / way;
-            d[1] *= 0.5 / way;
+            d[0] *= 0.5 / length;
+            d[1] *= 0.5 / length;
         }
         for (int halved = 0;; halved++)
         {
-            move(n, at->across, d, moved);
-            look(a, b, line, moved, &there);
+            retract(n, at->across, d, moved);
+            evaluate(a, b, line, moved, &there);
             /* close to the minimum phi is flat to rounding, its slope is not */
-            if (way < 1e-3 ? steepness(&there) < steepness(at)
+            if (length < 1e-3 ? gradient_norm(&there) < gradient_norm(at)
                            : there.phi <= at->phi)
             {
                 break;
             }
-            if (halved == 30 || way < 1e-7)
+            if (halved == 30 || length < 1e-7)
             {
                 return;
             }
@@ -223,7 +224,7 @@ void ellipsoid_surface_pair_set(const ellipsoid_surface *a,
                               ellipsoid_surface_pair *pair)
 {
     double line[3];
-    landscape at;
+    objective at;
 
     ellipsoid_difference(a->centre, b->centre, line);
     first_direction(a, b, line, pair->normal);
@@ -260,13 +261,13 @@ void ellipsoid_surface_pair_set(const ellipsoid_surface *a,
             ellipsoid_cross(unit, n, turned);
             for (int i = 0; i < 3; i++)
             {
-                fixed[i] -= ellipsoid_dot(s->bend[i], turned);
+                fixed[i] -= ellipsoid_dot(s->curvature[i], turned);
             }
             ellipsoid_copy(fixed, w);
         }
         down[0] = -ellipsoid_dot(at.across[0], w);
         down[1] = -ellipsoid_dot(at.across[1], w);
-        if (!solve2(at.bend, down, d))
+        if (!solve2(at.curvature, down, d))
         {
             d[0] = d[1] = 0; /* deeper than the bodies' curvature: no minimum */
         }
@@ -277,10 +278,10 @@ void ellipsoid_surface_pair_set(const ellipsoid_surface *a,
         for (int i = 0; i < 3; i++)
         {
             pair->normal_slope[i][k] = dn[i];
-            pair->point_a_slope[i][k] =
-                -ellipsoid_dot(at.a.bend[i], dn) - (k / 3 == 1 ? fixed[i] : 0);
-            pair->point_b_slope[i][k] =
-                ellipsoid_dot(at.b.bend[i], dn) + (k / 3 == 2 ? fixed[i] : 0);
+            pair->point_a_slope[i][k] = -ellipsoid_dot(at.a.curvature[i], dn)
+                                      - (k / 3 == 1 ? fixed[i] : 0);
+            pair->point_b_slope[i][k] = ellipsoid_dot(at.b.curvature[i], dn)
+                                      + (k / 3 == 2 ? fixed[i] : 0);
         }
     }
 }

@@ -5,15 +5,15 @@
 
     ellipsoidPairContact.c - force and torque of two ellipsoids on one another.
 
-    One contact, where they are deepest (ellipsoidPair.c), with the law and the
-    stiffness of two beads. The points on either surface lie on the line of the
-    push; between them is the one where both are held.
+    One contact, where they are deepest (ellipsoidPair.c), with the law of two
+    beads. The points on either surface lie on the line of action of the force;
+    it acts on both in the middle between them.
 */
 #include "contact/contact.h"
 
 #include <math.h>
 
-static ellipsoid_surface itself(const ellipsoid_body *body)
+static ellipsoid_surface surface_of(const ellipsoid_body *body)
 {
     ellipsoid_surface result;
 
@@ -24,17 +24,16 @@ static ellipsoid_surface itself(const ellipsoid_body *body)
 
 double ellipsoid_surface_gap(const ellipsoid_body *a, const ellipsoid_body *b)
 {
-    const ellipsoid_surface of_a = itself(a), of_b = itself(b);
+    const ellipsoid_surface of_a = surface_of(a), of_b = surface_of(b);
     ellipsoid_surface_pair pair;
 
     ellipsoid_surface_pair_set(&of_a, &of_b, 0, &pair);
     return -pair.depth;
 }
 
-/* Both are held in the middle between the points on their surfaces. */
-static void set_push(const ellipsoid_surface_pair *pair,
-                     const ellipsoid_contact_law *law, int derivatives,
-                     ellipsoid_surface_push *p)
+static void set_force(const ellipsoid_surface_pair *pair,
+                      const ellipsoid_contact_law *law, int derivatives,
+                      ellipsoid_surface_force *p)
 {
     const ellipsoid_normal_force f =
         ellipsoid_contact_normal_force(law, -pair->depth);
@@ -45,7 +44,7 @@ static void set_push(const ellipsoid_surface_pair *pair,
     {
         const double sum = pair->point_a[i] + pair->point_b[i];
 
-        p->push[i] = f.force * pair->normal[i];
+        p->force[i] = f.force * pair->normal[i];
         p->point[0][i] = 0.5 * (sum - line[i]);
         p->point[1][i] = 0.5 * (sum + line[i]);
         for (int k = 0; derivatives && k < ELLIPSOID_PAIR_VARIABLES; k++)
@@ -53,7 +52,7 @@ static void set_push(const ellipsoid_surface_pair *pair,
             const double change =
                 pair->point_a_slope[i][k] + pair->point_b_slope[i][k];
 
-            p->push_slope[k][i] =
+            p->force_slope[k][i] =
                 f.secant
                 * (f.exponent * pair->depth_slope[k] * pair->normal[i]
                    + pair->depth * pair->normal_slope[i][k]);
@@ -68,7 +67,7 @@ void ellipsoid_surface_pair_contact(ellipsoid_pair_contact *m)
     ellipsoid_pair_wrench *const side[2] = {m->of_a, m->of_b};
     ellipsoid_contact_jacobian *const by[2][2] = {
         {&m->of_a->own, &m->of_a->other}, {&m->of_b->other, &m->of_b->own}};
-    ellipsoid_surface a = itself(m->a), b = itself(m->b);
+    ellipsoid_surface a = surface_of(m->a), b = surface_of(m->b);
     ellipsoid_surface_pair pair;
 
     ellipsoid_surface_pair_set(&a, &b, m->derivatives, &pair);
@@ -78,18 +77,18 @@ void ellipsoid_surface_pair_contact(ellipsoid_pair_contact *m)
         return;
     }
 
-    ellipsoid_surface_push push = {.bodies = 2,
-                                 .body = {&a, &b},
-                                 .state = {m->state_a, m->state_b}};
+    ellipsoid_surface_force at = {.bodies = 2,
+                                  .body = {&a, &b},
+                                  .state = {m->state_a, m->state_b}};
     ellipsoid_wrench sum = {.force = {0, 0, 0}};
 
-    m->touching = 1;
-    set_push(&pair, &m->normal_law, m->derivatives, &push);
-    ellipsoid_wrench_add(&push, m->rubs ? &m->law : NULL, m->derivatives,
-                             &sum);
+    m->contacts = 1;
+    set_force(&pair, &m->normal_law, m->derivatives, &at);
+    ellipsoid_wrench_add(&at, m->dissipative ? &m->law : NULL, m->derivatives,
+                         &sum);
     for (int k = 0; k < 2; k++)
     {
-        ellipsoid_wrench_report(&push, &sum, k, side[k]->force, side[k]->torque,
-                               m->derivatives ? by[k] : NULL);
+        ellipsoid_wrench_report(&at, &sum, k, side[k]->force, side[k]->torque,
+                                m->derivatives ? by[k] : NULL);
     }
 }

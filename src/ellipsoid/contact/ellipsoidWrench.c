@@ -3,11 +3,12 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    ellipsoidWrench.c - force and torque where an ellipsoid touches a wall or another
-    one, with friction and damping, and their derivatives.
+    ellipsoidWrench.c - force and torque of a contact between an ellipsoid and a
+    wall, or between two ellipsoids, with friction and damping, and their
+    derivatives.
 
-    Both bodies are held at one point, so that momentum and its moment are kept.
-    A wall is a second body that does not move.
+    The force acts on both bodies at one point, so that momentum and its moment
+    are conserved. A wall is a second body that does not move.
 */
 #include "contact/contact.h"
 
@@ -15,10 +16,10 @@ enum
 {
     VARIABLES = ELLIPSOID_WRENCH_VARIABLES,
     POSE = ELLIPSOID_PAIR_VARIABLES,
-    LINE = 0,      /* x_a - x_b */
-    TURN = 3,      /* a small rotation of a, then one of b */
-    VELOCITY = 9,  /* u_a - u_b */
-    SPIN = 12      /* omega of a, then that of b */
+    POSITION = 0,         /* x_a - x_b */
+    ROTATION = 3,         /* a small rotation of a, then one of b */
+    VELOCITY = 9,         /* u_a - u_b */
+    ANGULAR_VELOCITY = 12 /* of a, then that of b */
 };
 
 /* The axis of the k-th variable if it belongs to body b, of those that begin at
@@ -30,8 +31,8 @@ static int own_axis(int k, int first, int b)
     return axis >= 0 && axis < 3 ? axis : -1;
 }
 
-/* The velocity of a's material against b's, where they touch; and R omega. */
-static void set_velocity(const ellipsoid_surface_push *p, double spin[2][3],
+/* The velocity of a's material relative to b's at the contact; and R omega. */
+static void set_velocity(const ellipsoid_surface_force *p, double spin[2][3],
                          double velocity[3])
 {
     double there[2][3] = {{0}};
@@ -45,19 +46,20 @@ static void set_velocity(const ellipsoid_surface_push *p, double spin[2][3],
     ellipsoid_difference(there[0], there[1], velocity);
 }
 
-/* How the k-th variable changes this velocity: omega turns with its body. */
-static void set_velocity_slope(const ellipsoid_surface_push *p,
+/* Derivative of this velocity by the k-th variable: omega turns with its
+   body. */
+static void set_velocity_slope(const ellipsoid_surface_force *p,
                                double spin[2][3], int k, double slope[3])
 {
     ellipsoid_set(slope, 0, 0, 0);
-    if (k >= VELOCITY && k < SPIN)
+    if (k >= VELOCITY && k < ANGULAR_VELOCITY)
     {
         slope[k - VELOCITY] = 1;
         return;
     }
     for (int b = 0; b < p->bodies; b++)
     {
-        const int turn = own_axis(k, TURN, b), turning = own_axis(k, SPIN, b);
+        const int turn = own_axis(k, ROTATION, b), turning = own_axis(k, ANGULAR_VELOCITY, b);
         double change[3] = {0, 0, 0}, moved[3] = {0, 0, 0}, part[3];
 
         if (turn >= 0)
@@ -86,7 +88,7 @@ static void set_velocity_slope(const ellipsoid_surface_push *p,
     }
 }
 
-static void set_force_slope(const ellipsoid_surface_push *p,
+static void set_force_slope(const ellipsoid_surface_force *p,
                             double spin[2][3], ellipsoid_traction *t, int k,
                             double slope[3])
 {
@@ -98,42 +100,42 @@ static void set_force_slope(const ellipsoid_surface_push *p,
     {
         double part[3];
 
-        ellipsoid_product(t->by_push, p->push_slope[k], part);
+        ellipsoid_product(t->by_elastic, p->force_slope[k], part);
         ellipsoid_add(slope, part);
     }
 }
 
-/* The torque of a force on the first body, or of its opposite on the other. */
-static void add_turning(const double point[3], const double force[3], int b,
+/* The moment of a force on the first body, or of its opposite on the other. */
+static void add_moment(const double point[3], const double force[3], int b,
                         double torque[3])
 {
-    double turning[3];
+    double moment[3];
 
     if (b == 0)
     {
-        ellipsoid_cross(point, force, turning);
+        ellipsoid_cross(point, force, moment);
     }
     else
     {
-        ellipsoid_cross(force, point, turning);
+        ellipsoid_cross(force, point, moment);
     }
-    ellipsoid_add(torque, turning);
+    ellipsoid_add(torque, moment);
 }
 
-void ellipsoid_wrench_add(const ellipsoid_surface_push *p,
-                              const ellipsoid_friction_law *law, int derivatives,
-                              ellipsoid_wrench *sum)
+void ellipsoid_wrench_add(const ellipsoid_surface_force *p,
+                          const ellipsoid_friction_law *law, int derivatives,
+                          ellipsoid_wrench *sum)
 {
     ellipsoid_traction traction;
     double spin[2][3];
 
-    ellipsoid_copy(p->push, traction.force);
+    ellipsoid_copy(p->force, traction.force);
     if (law)
     {
         double velocity[3];
 
         set_velocity(p, spin, velocity);
-        if (!ellipsoid_contact_traction(law, p->push, velocity, derivatives,
+        if (!ellipsoid_contact_traction(law, p->force, velocity, derivatives,
                                         &traction))
         {
             return;
@@ -142,14 +144,14 @@ void ellipsoid_wrench_add(const ellipsoid_surface_push *p,
     ellipsoid_add(sum->force, traction.force);
     for (int b = 0; b < p->bodies; b++)
     {
-        add_turning(p->point[b], traction.force, b, sum->torque[b]);
+        add_moment(p->point[b], traction.force, b, sum->torque[b]);
     }
     for (int k = 0; derivatives && k < (law ? VARIABLES : POSE); k++)
     {
         double slope[3];
 
         if (p->bodies == 1
-            && (own_axis(k, TURN, 1) >= 0 || own_axis(k, SPIN, 1) >= 0))
+            && (own_axis(k, ROTATION, 1) >= 0 || own_axis(k, ANGULAR_VELOCITY, 1) >= 0))
         {
             continue;
         }
@@ -159,15 +161,15 @@ void ellipsoid_wrench_add(const ellipsoid_surface_push *p,
         }
         else
         {
-            ellipsoid_copy(p->push_slope[k], slope);
+            ellipsoid_copy(p->force_slope[k], slope);
         }
         ellipsoid_add(sum->force_slope[k], slope);
         for (int b = 0; b < p->bodies; b++)
         {
-            add_turning(p->point[b], slope, b, sum->torque_slope[b][k]);
+            add_moment(p->point[b], slope, b, sum->torque_slope[b][k]);
             if (k < POSE)
             {
-                add_turning(p->point_slope[b][k], traction.force, b,
+                add_moment(p->point_slope[b][k], traction.force, b,
                             sum->torque_slope[b][k]);
             }
         }
@@ -204,8 +206,9 @@ static void by_components(const double q[4], double slope[3][3],
     }
 }
 
-/* Derivatives by the state of body `by`, of which the line has the sign. */
-static void spread(double slope[VARIABLES][3], int by, const double q[4],
+/* Derivatives by the state of body `by`: those of the relative position and
+   velocity with their sign. */
+static void set_state_derivatives(double slope[VARIABLES][3], int by, const double q[4],
                    double u[3][3], double x[3][3], double omega[3][3],
                    double of_q[3][4])
 {
@@ -216,16 +219,16 @@ static void spread(double slope[VARIABLES][3], int by, const double q[4],
         for (int i = 0; i < 3; i++)
         {
             u[i][k] = sign * slope[VELOCITY + k][i];
-            x[i][k] = sign * slope[LINE + k][i];
-            omega[i][k] = slope[SPIN + 3 * by + k][i];
+            x[i][k] = sign * slope[POSITION + k][i];
+            omega[i][k] = slope[ANGULAR_VELOCITY + 3 * by + k][i];
         }
     }
-    by_components(q, slope + TURN + 3 * by, of_q);
+    by_components(q, slope + ROTATION + 3 * by, of_q);
 }
 
-/* To torques in the body frame, which turns under them; the second body feels
-   the opposite force. */
-void ellipsoid_wrench_report(const ellipsoid_surface_push *p,
+/* Torques are in the body frame, which rotates with the body; the force on the
+   second body is the opposite one. */
+void ellipsoid_wrench_report(const ellipsoid_surface_force *p,
                             const ellipsoid_wrench *sum, int b,
                             double force[3], double torque[3],
                             ellipsoid_contact_jacobian *const by[2])
@@ -245,7 +248,7 @@ void ellipsoid_wrench_report(const ellipsoid_surface_push *p,
     }
     for (int k = 0; k < VARIABLES; k++)
     {
-        const int turn = own_axis(k, TURN, b);
+        const int turn = own_axis(k, ROTATION, b);
         double change[3];
 
         ellipsoid_copy(sum->torque_slope[b][k], change);
@@ -268,9 +271,9 @@ void ellipsoid_wrench_report(const ellipsoid_surface_push *p,
         const double *q = p->state[n]->q;
         ellipsoid_contact_jacobian *to = by[n];
 
-        spread(force_slope, n, q, to->force_u, to->force_x, to->force_omega,
+        set_state_derivatives(force_slope, n, q, to->force_u, to->force_x, to->force_omega,
                to->force_q);
-        spread(torque_slope, n, q, to->torque_u, to->torque_x,
+        set_state_derivatives(torque_slope, n, q, to->torque_u, to->torque_x,
                to->torque_omega, to->torque_q);
     }
 }

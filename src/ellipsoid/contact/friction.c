@@ -3,9 +3,9 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    friction.c - friction and damping where surfaces touch.
+    friction.c - friction and damping at a contact.
 
-    An elastic contact pushes with P = N n. With v the velocity of the body's
+    The elastic force of a contact is P = N n. With v the velocity of the body's
     material at the contact point against what it touches, v_n = v.n and
     v_t = v - v_n n,
         F = N max(0, 1 - 3/2 alpha v_n) (n - mu v_t / sqrt(v_t^2 + v_s^2)).
@@ -26,7 +26,7 @@ ellipsoid_friction_law ellipsoid_friction_law_of(const ellipsoid_model *model)
                                    o->contact_damping};
 }
 
-/* A cell without friction slides on any other; the rest is between the two. */
+/* The geometric mean of friction: a cell without any slides on any other. */
 ellipsoid_friction_law ellipsoid_friction_law_between(const ellipsoid_model *a,
                                             const ellipsoid_model *b)
 {
@@ -62,34 +62,35 @@ static void set_derivatives(const ellipsoid_friction_law *law, double size,
                             double damped, ellipsoid_traction *t)
 {
     const double *n = t->normal;
-    const double rubbing = law->friction * w, bent = rubbing * w * w;
+    const double rate = law->friction * w, curvature = rate * w * w;
     const double slope = damped > 0 ? 1.5 * law->damping : 0;
     double direction[3];
 
     for (int i = 0; i < 3; i++)
     {
-        direction[i] = n[i] - rubbing * slip[i];
+        direction[i] = n[i] - rate * slip[i];
         for (int j = 0; j < 3; j++)
         {
             const double across = (i == j) - n[i] * n[j];
 
-            t->by_velocity[i][j] = -size * damped * rubbing * across;
-            t->by_push[i][j] = damped * (1 + rubbing * along) * across;
+            t->by_velocity[i][j] = -size * damped * rate * across;
+            t->by_elastic[i][j] = damped * (1 + rate * along) * across;
         }
     }
-    add_outer(size * damped * bent, slip, slip, t->by_velocity);
+    add_outer(size * damped * curvature, slip, slip, t->by_velocity);
     add_outer(-size * slope, direction, n, t->by_velocity);
-    add_outer(damped, direction, n, t->by_push);
-    add_outer(damped * rubbing, n, slip, t->by_push);
-    add_outer(-damped * bent * along, slip, slip, t->by_push);
-    add_outer(-slope, direction, slip, t->by_push);
+    add_outer(damped, direction, n, t->by_elastic);
+    add_outer(damped * rate, n, slip, t->by_elastic);
+    add_outer(-damped * curvature * along, slip, slip, t->by_elastic);
+    add_outer(-slope, direction, slip, t->by_elastic);
 }
 
 int ellipsoid_contact_traction(const ellipsoid_friction_law *law,
-                               const double push[3], const double velocity[3],
-                               int derivatives, ellipsoid_traction *t)
+                               const double elastic[3],
+                               const double velocity[3], int derivatives,
+                               ellipsoid_traction *t)
 {
-    const double size = ellipsoid_length(push);
+    const double size = ellipsoid_length(elastic);
 
     if (!isnormal(size))
     {
@@ -97,7 +98,7 @@ int ellipsoid_contact_traction(const ellipsoid_friction_law *law,
     }
     for (int i = 0; i < 3; i++)
     {
-        t->normal[i] = push[i] / size;
+        t->normal[i] = elastic[i] / size;
     }
 
     const double along = ellipsoid_dot(t->normal, velocity);
@@ -121,100 +122,103 @@ int ellipsoid_contact_traction(const ellipsoid_friction_law *law,
     return 1;
 }
 
-/* ------------------------------------------------------ bodies that rub */
+/* ----------------------------------------- friction at one point of a bead */
 
-ellipsoid_attachment ellipsoid_attachment_of(const ellipsoid_state *state, double r[3][3],
-                                 const double arm[3])
+ellipsoid_attachment ellipsoid_attachment_of(const ellipsoid_state *state,
+                                             double r[3][3],
+                                             const double arm[3])
 {
-    ellipsoid_attachment grip = {.state = state, .arm = arm, .r = r};
+    ellipsoid_attachment at = {.state = state, .arm = arm, .r = r};
 
-    ellipsoid_product(r, state->omega, grip.spin);
-    ellipsoid_product(r, arm, grip.point);
-    return grip;
+    ellipsoid_product(r, state->omega, at.spin);
+    ellipsoid_product(r, arm, at.point);
+    return at;
 }
 
-int ellipsoid_friction_traction(const ellipsoid_friction_law *law, ellipsoid_friction *rub,
-                           int derivatives)
+int ellipsoid_friction_traction(const ellipsoid_friction_law *law,
+                                ellipsoid_friction *friction, int derivatives)
 {
-    double velocity[3] = {0, 0, 0}, spun[3];
+    double velocity[3] = {0, 0, 0}, there[3];
 
-    for (int k = rub->bodies - 1; k >= 0; k--)
+    for (int k = friction->bodies - 1; k >= 0; k--)
     {
-        const ellipsoid_attachment *grip = &rub->grip[k];
+        const ellipsoid_attachment *at = &friction->attachment[k];
 
-        ellipsoid_cross(grip->spin, grip->point, spun);
-        ellipsoid_add(spun, grip->state->u);
-        if (k == 0 && rub->bodies == 2)
+        ellipsoid_cross(at->spin, at->point, there);
+        ellipsoid_add(there, at->state->u);
+        if (k == 0 && friction->bodies == 2)
         {
-            ellipsoid_difference(spun, velocity, velocity);
+            ellipsoid_difference(there, velocity, velocity);
         }
         else
         {
-            ellipsoid_copy(spun, velocity);
+            ellipsoid_copy(there, velocity);
         }
     }
-    return ellipsoid_contact_traction(law, rub->push, velocity, derivatives,
-                                      &rub->traction);
+    return ellipsoid_contact_traction(law, friction->elastic, velocity,
+                                      derivatives, &friction->traction);
 }
 
-void ellipsoid_add_friction(const ellipsoid_friction *rub, int body, double force[3],
-                       double torque[3])
+void ellipsoid_add_friction(const ellipsoid_friction *friction, int body,
+                            double force[3], double torque[3])
 {
-    const ellipsoid_attachment *grip = &rub->grip[body];
-    const double *f = rub->traction.force, sign = body == 0 ? 1 : -1;
-    const double felt[3] = {sign * f[0], sign * f[1], sign * f[2]};
-    double turning[3], in_body[3];
+    const ellipsoid_attachment *at = &friction->attachment[body];
+    const double *f = friction->traction.force, sign = body == 0 ? 1 : -1;
+    const double on_body[3] = {sign * f[0], sign * f[1], sign * f[2]};
+    double moment[3], in_body[3];
 
-    ellipsoid_cross(grip->point, felt, turning);
-    ellipsoid_to_body(grip->r, turning, in_body);
-    ellipsoid_add(force, felt);
+    ellipsoid_cross(at->point, on_body, moment);
+    ellipsoid_to_body(at->r, moment, in_body);
+    ellipsoid_add(force, on_body);
     ellipsoid_add(torque, in_body);
 }
 
 /*
-    The point lies r_b below the bead's centre, along the normal, which turns as
-    the push does.
+    The contact point lies r_b below the bead's centre, along the normal, which
+    turns as the elastic force does.
 */
-void ellipsoid_add_wall_friction(const ellipsoid_model *model,
-                        const ellipsoid_state *state, double r[3][3],
-                        const double arm[3], ellipsoid_point_force *push,
-                        ellipsoid_contact *contact,
-                        ellipsoid_contact_jacobian *jacobian)
+void ellipsoid_add_wall_friction(ellipsoid_wall_contact *at,
+                                 const double arm[3],
+                                 const ellipsoid_point_force *elastic)
 {
-    const ellipsoid_friction_law law = ellipsoid_friction_law_of(model);
-    const double size = ellipsoid_length(push->force);
-    const double lever = size > 0 ? model->options.bead_radius / size : 0;
-    ellipsoid_contact_jacobian *const by_own[2][2] = {{jacobian, NULL},
+    const ellipsoid_friction_law law = ellipsoid_friction_law_of(at->model);
+    const double size = ellipsoid_length(elastic->force);
+    const double per_force =
+        size > 0 ? at->model->options.bead_radius / size : 0;
+    ellipsoid_contact_jacobian *const by_own[2][2] = {{at->jacobian, NULL},
                                                       {NULL, NULL}};
-    ellipsoid_friction rub = {.bodies = 1};
+    ellipsoid_friction friction = {.bodies = 1};
 
-    rub.grip[0] = ellipsoid_attachment_of(state, r, arm);
+    friction.attachment[0] = ellipsoid_attachment_of(at->state, at->r, arm);
     for (int i = 0; i < 3; i++)
     {
-        rub.push[i] = push->force[i];
-        rub.grip[0].point[i] -= lever * push->force[i];
+        friction.elastic[i] = elastic->force[i];
+        friction.attachment[0].point[i] -= per_force * elastic->force[i];
     }
-    if (!ellipsoid_friction_traction(&law, &rub, jacobian != NULL))
+    if (!ellipsoid_friction_traction(&law, &friction, at->jacobian != NULL))
     {
         return;
     }
-    ellipsoid_add_friction(&rub, 0, contact->force, contact->torque);
-    for (int j = 0; jacobian && j < 3; j++)
+    ellipsoid_add_friction(&friction, 0, at->contact->force,
+                           at->contact->torque);
+    if (!at->jacobian)
     {
-        const double *n = rub.traction.normal;
-        const double column[3] = {push->force_x[0][j], push->force_x[1][j],
-                                  push->force_x[2][j]};
+        return;
+    }
+    for (int j = 0; j < 3; j++)
+    {
+        const double *n = friction.traction.normal;
+        const double column[3] = {elastic->force_x[0][j],
+                                  elastic->force_x[1][j],
+                                  elastic->force_x[2][j]};
         const double along = ellipsoid_dot(n, column);
 
         for (int i = 0; i < 3; i++)
         {
-            rub.push_c[0][i][j] = column[i];
-            rub.point_c[0][i][j] =
-                (i == j) - lever * (column[i] - along * n[i]);
+            friction.elastic_c[0][i][j] = column[i];
+            friction.point_c[0][i][j] =
+                (i == j) - per_force * (column[i] - along * n[i]);
         }
     }
-    if (jacobian)
-    {
-        ellipsoid_add_friction_jacobian(&rub, by_own);
-    }
+    ellipsoid_add_friction_jacobian(&friction, by_own);
 }

@@ -5,16 +5,13 @@
 
     pairContact.c - the forces F_S between the cells of a group.
 
-    Beads against beads: Hertz, F = 4/3 E* sqrt(R) d^(3/2) along the line of
-    centres, with 1/R = 1/r_a + 1/r_b and 1/E* = 1/E_a + 1/E_b, as for two
-    spheres. One force acts on both, with opposite signs, at the beads' centres,
-    which lie on its line: momentum and its moment are kept.
+    Beads against beads: the law of two spheres (contactLaw.h) along the line of
+    centres. One force acts on both, with opposite signs, at the beads' centres,
+    which lie on its line: momentum and its moment are conserved.
 */
 #include "contact/contact.h"
 
 #include <math.h>
-
-/* ------------------------------------------------------- beads that touch */
 
 /* The force on a's bead, `line` from b's bead and `distance` long, and its
    derivative by the bead's centre; by that of b's it is the negative. */
@@ -41,7 +38,8 @@ static void set_normal_force(const ellipsoid_contact_law *law,
 }
 
 /* Before the first contact of a pair is added. */
-static void begin_side(const ellipsoid_pair_contact *m, ellipsoid_pair_wrench *s)
+static void clear_wrench(const ellipsoid_pair_contact *m,
+                         ellipsoid_pair_wrench *s)
 {
     memset(s->force, 0, sizeof(s->force));
     memset(s->torque, 0, sizeof(s->torque));
@@ -52,8 +50,8 @@ static void begin_side(const ellipsoid_pair_contact *m, ellipsoid_pair_wrench *s
     }
 }
 
-static void add_touch(ellipsoid_pair_contact *m, int bead_a, int bead_b,
-                      double force[3], double force_x[3][3])
+static void add_elastic(ellipsoid_pair_contact *m, int bead_a, int bead_b,
+                        double force[3], double force_x[3][3])
 {
     const double *arm_a = m->a->model->bead[bead_a];
     const double *arm_b = m->b->model->bead[bead_b];
@@ -71,8 +69,10 @@ static void add_touch(ellipsoid_pair_contact *m, int bead_a, int bead_b,
     {
         across[n / 3][n % 3] = -force_x[n / 3][n % 3];
     }
-    ellipsoid_add_wrench_jacobian(arm_a, a.q, a.r, force, force_x, &m->of_a->own);
-    ellipsoid_add_wrench_jacobian(arm_b, b.q, b.r, back, force_x, &m->of_b->own);
+    ellipsoid_add_wrench_jacobian(arm_a, a.q, a.r, force, force_x,
+                                  &m->of_a->own);
+    ellipsoid_add_wrench_jacobian(arm_b, b.q, b.r, back, force_x,
+                                  &m->of_b->own);
     ellipsoid_add_cross_jacobian(arm_a, a.r, arm_b, b.q, across,
                                     &m->of_a->other);
     ellipsoid_add_cross_jacobian(arm_b, b.r, arm_a, a.q, across,
@@ -80,9 +80,9 @@ static void add_touch(ellipsoid_pair_contact *m, int bead_a, int bead_b,
 }
 
 /* The contact point divides the line of centres as the radii do. */
-static void add_rub(ellipsoid_pair_contact *m, int bead_a, int bead_b,
-                    const double line[3], const double force[3],
-                    double force_x[3][3])
+static void add_with_friction(ellipsoid_pair_contact *m, int bead_a, int bead_b,
+                              const double line[3], const double force[3],
+                              double force_x[3][3])
 {
     const double r_a = m->a->model->options.bead_radius;
     const double r_b = m->b->model->options.bead_radius;
@@ -90,38 +90,40 @@ static void add_rub(ellipsoid_pair_contact *m, int bead_a, int bead_b,
     ellipsoid_contact_jacobian *const jacobian[2][2] = {
         {&m->of_a->own, &m->of_a->other}, {&m->of_b->other, &m->of_b->own}};
     ellipsoid_body a = *m->a, b = *m->b;
-    ellipsoid_friction rub = {.bodies = 2};
+    ellipsoid_friction friction = {.bodies = 2};
 
-    rub.grip[0] = ellipsoid_attachment_of(m->state_a, a.r, a.model->bead[bead_a]);
-    rub.grip[1] = ellipsoid_attachment_of(m->state_b, b.r, b.model->bead[bead_b]);
-    ellipsoid_copy(force, rub.push);
+    friction.attachment[0] =
+        ellipsoid_attachment_of(m->state_a, a.r, a.model->bead[bead_a]);
+    friction.attachment[1] =
+        ellipsoid_attachment_of(m->state_b, b.r, b.model->bead[bead_b]);
+    ellipsoid_copy(force, friction.elastic);
     for (int i = 0; i < 3; i++)
     {
-        rub.grip[0].point[i] -= part_a * line[i];
-        rub.grip[1].point[i] += part_b * line[i];
+        friction.attachment[0].point[i] -= part_a * line[i];
+        friction.attachment[1].point[i] += part_b * line[i];
         for (int j = 0; j < 3; j++)
         {
-            rub.push_c[0][i][j] = force_x[i][j];
-            rub.push_c[1][i][j] = -force_x[i][j];
-            rub.point_c[0][i][j] = i == j ? part_b : 0;
-            rub.point_c[1][i][j] = i == j ? part_a : 0;
+            friction.elastic_c[0][i][j] = force_x[i][j];
+            friction.elastic_c[1][i][j] = -force_x[i][j];
+            friction.point_c[0][i][j] = i == j ? part_b : 0;
+            friction.point_c[1][i][j] = i == j ? part_a : 0;
         }
     }
-    if (!ellipsoid_friction_traction(&m->law, &rub, m->derivatives))
+    if (!ellipsoid_friction_traction(&m->law, &friction, m->derivatives))
     {
         return;
     }
-    ellipsoid_add_friction(&rub, 0, m->of_a->force, m->of_a->torque);
-    ellipsoid_add_friction(&rub, 1, m->of_b->force, m->of_b->torque);
+    ellipsoid_add_friction(&friction, 0, m->of_a->force, m->of_a->torque);
+    ellipsoid_add_friction(&friction, 1, m->of_b->force, m->of_b->torque);
     if (m->derivatives)
     {
-        ellipsoid_add_friction_jacobian(&rub, jacobian);
+        ellipsoid_add_friction_jacobian(&friction, jacobian);
     }
 }
 
 /* A bead of each; `line` is between the centres of the cells. */
-static inline void meet(ellipsoid_pair_contact *m, const double line[3], int bead_a,
-                        int bead_b)
+static inline void add_bead_pair(ellipsoid_pair_contact *m,
+                                 const double line[3], int bead_a, int bead_b)
 {
     const double both =
         m->a->model->options.bead_radius + m->b->model->options.bead_radius;
@@ -143,18 +145,18 @@ static inline void meet(ellipsoid_pair_contact *m, const double line[3], int bea
 
         set_normal_force(&m->normal_law, between, distance, distance - both,
                          force, force_x);
-        if (m->touching++ == 0)
+        if (m->contacts++ == 0)
         {
-            begin_side(m, m->of_a);
-            begin_side(m, m->of_b);
+            clear_wrench(m, m->of_a);
+            clear_wrench(m, m->of_b);
         }
-        if (m->rubs)
+        if (m->dissipative)
         {
-            add_rub(m, bead_a, bead_b, between, force, force_x);
+            add_with_friction(m, bead_a, bead_b, between, force, force_x);
         }
         else
         {
-            add_touch(m, bead_a, bead_b, force, force_x);
+            add_elastic(m, bead_a, bead_b, force, force_x);
         }
     }
 }
@@ -177,11 +179,11 @@ void ellipsoid_pair_contact_evaluate(ellipsoid_pair_contact *m,
     {
         if (near->listed < 0)
         {
-            meet(m, line, n / all_b, n % all_b);
+            add_bead_pair(m, line, n / all_b, n % all_b);
         }
         else
         {
-            meet(m, line, near->bead[n][0], near->bead[n][1]);
+            add_bead_pair(m, line, near->bead[n][0], near->bead[n][1]);
         }
     }
 }
@@ -194,13 +196,14 @@ double ellipsoid_cell_gap(const ellipsoid_model *a, const double x_a[3],
     double bead_a[ELLIPSOID_MAX_BEADS][3], bead_b[ELLIPSOID_MAX_BEADS][3];
     ellipsoid_body of_a = {.bead = bead_a}, of_b = {.bead = bead_b};
     ellipsoid_near_pair near;
-    ellipsoid_pair_wrench felt_by_a, felt_by_b;
-    ellipsoid_pair_contact m = {.a = &of_a,
-                           .b = &of_b,
-                           .normal_law = ellipsoid_pair_law(&a->options, &b->options),
-                           .gap = horizon,
-                           .of_a = &felt_by_a,
-                           .of_b = &felt_by_b};
+    ellipsoid_pair_wrench on_a, on_b;
+    ellipsoid_pair_contact m = {
+        .a = &of_a,
+        .b = &of_b,
+        .normal_law = ellipsoid_pair_law(&a->options, &b->options),
+        .gap = horizon,
+        .of_a = &on_a,
+        .of_b = &on_b};
 
     if (ellipsoid_are_apart(a, x_a, b, x_b, horizon))
     {

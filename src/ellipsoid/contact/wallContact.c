@@ -10,98 +10,87 @@
 #include <math.h>
 #include <string.h>
 
-static void add_elastic(const ellipsoid_state *state, const double arm[3],
-                        double r[3][3], ellipsoid_point_force *felt,
-                        ellipsoid_contact *contact,
-                        ellipsoid_contact_jacobian *jacobian)
+static void add_elastic(ellipsoid_wall_contact *at, const double arm[3],
+                        ellipsoid_point_force *elastic)
 {
-    ellipsoid_add_force_at(arm, r, felt->force, contact->force,
-                           contact->torque);
-    if (jacobian)
+    ellipsoid_add_force_at(arm, at->r, elastic->force, at->contact->force,
+                           at->contact->torque);
+    if (at->jacobian)
     {
-        ellipsoid_add_wrench_jacobian(arm, state->q, r, felt->force, felt->force_x,
-                                  jacobian);
+        ellipsoid_add_wrench_jacobian(arm, at->state->q, at->r, elastic->force,
+                                      elastic->force_x, at->jacobian);
     }
 }
 
-static void add_bead(const ellipsoid_model *model, const ellipsoid_state *state,
-                     const double arm[3], double r[3][3],
-                     ellipsoid_point_force *push, ellipsoid_point_force *pull,
-                     ellipsoid_contact *contact,
-                     ellipsoid_contact_jacobian *jacobian)
+static void add_bead(ellipsoid_wall_contact *at, const double arm[3],
+                     ellipsoid_bead_forces *forces)
 {
-    contact->touching_beads++;
-    if (model->dissipative)
+    at->contact->touching_beads++;
+    if (at->model->dissipative)
     {
-        ellipsoid_add_wall_friction(model, state, r, arm, push, contact, jacobian);
+        ellipsoid_add_wall_friction(at, arm, &forces->repulsion);
     }
     else
     {
-        add_elastic(state, arm, r, push, contact, jacobian);
+        add_elastic(at, arm, &forces->repulsion);
     }
-    if (model->options.adhesion > 0)
+    if (at->laws.attractive)
     {
-        add_elastic(state, arm, r, pull, contact, jacobian);
+        add_elastic(at, arm, &forces->attraction);
     }
 }
 
-/* A bead in the pose (x, R) */
-static ellipsoid_bead placed(const ellipsoid_model *model, int b,
-                             const double x[3], double r[3][3],
-                             const ellipsoid_wall_laws *laws)
+static ellipsoid_bead bead_of(const ellipsoid_wall_contact *at, int b)
 {
-    ellipsoid_bead bead = {.radius = model->options.bead_radius, .laws = laws};
+    const ellipsoid_model *model = at->model;
+    ellipsoid_bead bead = {.radius = model->options.bead_radius, .laws = &at->laws};
 
     for (int i = 0; i < 3; i++)
     {
-        bead.centre[i] = x[i] + ellipsoid_dot(r[i], model->bead[b]);
+        bead.centre[i] =
+            at->state->x[i] + ellipsoid_dot(at->r[i], model->bead[b]);
     }
     return bead;
 }
 
 /*
-    Beads that have moved less than they were from any facet need no look. The
-    first round is of those that may feel a wall, in order; if none touches, the
-    second finds the gap.
+    A bead that has moved less than its distance from all facets needs no
+    evaluation. The first pass is over the beads that may be in range of a law,
+    in their order; if none overlaps, the second finds the gap.
 */
-static void sum_beads(const ellipsoid_model *model,
-                      const ellipsoid_facet_cache *cache,
-                      const ellipsoid_state *state, double moved,
-                      ellipsoid_contact *contact,
-                      ellipsoid_contact_jacobian *jacobian)
+static void add_beads(ellipsoid_wall_contact *at,
+                      const ellipsoid_facet_cache *cache, double moved)
 {
-    /* the bounds are rounded too */
-    const double away = moved + 1e-9 * model->options.bead_radius;
-    ellipsoid_wall_laws laws;
-    ellipsoid_point_force push, pull;
-    double r[3][3];
+    const ellipsoid_model *model = at->model;
+    /* the bounds are rounded, too */
+    const double bound = moved + 1e-9 * model->options.bead_radius;
+    ellipsoid_contact *contact = at->contact;
+    const double range = at->laws.range;
+    ellipsoid_bead_forces forces;
 
-    ellipsoid_wall_laws_set(&laws, &model->options);
-    ellipsoid_rotation_inline(state->q, r);
-    for (int round = 0; round < 2 && contact->gap > 0; round++)
+    for (int pass = 0; pass < 2 && contact->gap > 0; pass++)
     {
         for (int b = 0; b < model->bead_count; b++)
         {
             const double clear =
-                cache->nearest[b] - away - model->options.bead_radius;
+                cache->nearest[b] - bound - model->options.bead_radius;
             const ellipsoid_candidates from = {
                 cache->facets, cache->facet + cache->first[b],
                 cache->first[b + 1] - cache->first[b]};
 
-            if (round == 0 ? clear > laws.range
-                           : clear <= laws.range || clear >= contact->gap)
+            if (pass == 0 ? clear > range
+                          : clear <= range || clear >= contact->gap)
             {
                 continue;
             }
 
-            const ellipsoid_bead bead = placed(model, b, state->x, r, &laws);
+            const ellipsoid_bead bead = bead_of(at, b);
 
             if (ellipsoid_bead_contact(&bead, &from, &contact->gap,
-                                     jacobian != NULL, &push, &pull, contact)
+                                       at->jacobian != NULL, &forces, contact)
                 > 0)
             {
-                add_bead(model, state, model->bead[b], r, &push, &pull,
-                         contact, jacobian);
+                add_bead(at, model->bead[b], &forces);
             }
         }
     }
@@ -130,13 +119,13 @@ ellipsoid_status ellipsoid_contact_evaluate(
     contact->gap = ellipsoid_gap_horizon(model);
     if (model->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID)
     {
-        /* it turns by q of length one */
+        /* its rotation is by a q of length one */
         if (!isnormal(ellipsoid_square4(state->q)))
         {
             return ELLIPSOID_NON_FINITE;
         }
         return ellipsoid_surface_contact_add(model, surroundings, state, cache,
-                                           contact, jacobian);
+                                             contact, jacobian);
     }
 
     double moved;
@@ -145,7 +134,14 @@ ellipsoid_status ellipsoid_contact_evaluate(
 
     if (status == ELLIPSOID_OK && cache->clearance <= 0)
     {
-        sum_beads(model, cache, state, moved, contact, jacobian);
+        ellipsoid_wall_contact at = {.model = model,
+                                     .state = state,
+                                     .contact = contact,
+                                     .jacobian = jacobian};
+
+        ellipsoid_wall_laws_set(&at.laws, &model->options);
+        ellipsoid_rotation_inline(state->q, at.r);
+        add_beads(&at, cache, moved);
     }
     return status;
 }

@@ -3,12 +3,13 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    wrenchJacobian.c - derivatives of a force at a point of the body, and of its torque.
+    wrenchJacobian.c - derivatives of a force at a point of the body, and of its
+    torque.
 */
 #include "contact/contact.h"
 
 /* v = (dR/dq_n) body: derivative of the polynomial R(q), n = 0..3. */
-static void turned_by(const double q[4], int n, const double body[3],
+static void rotation_derivative(const double q[4], int n, const double body[3],
                       double v[3])
 {
     const double along = ellipsoid_dot(q, body);
@@ -59,7 +60,7 @@ void ellipsoid_add_wrench_jacobian(const double arm[3], const double q[4],
         }
         else
         {
-            turned_by(q, n - 3, arm, turned);
+            rotation_derivative(q, n - 3, arm, turned);
             for (int i = 0; i < 3; i++)
             {
                 column[i] = ellipsoid_dot(force_x[i], turned);
@@ -69,9 +70,9 @@ void ellipsoid_add_wrench_jacobian(const double arm[3], const double q[4],
         ellipsoid_to_body(r, column, body);
         if (n >= 3)
         {
-            /* the frame turns under the force: (dR/dq_n)^T F, and R^T(q) is
+            /* the frame rotates relative to the force: (dR/dq_n)^T F, and R^T(q) is
                R of the conjugate */
-            turned_by(conjugate, n - 3, force, turned);
+            rotation_derivative(conjugate, n - 3, force, turned);
             for (int i = 0; i < 3; i++)
             {
                 body[i] += n == 6 ? turned[i] : -turned[i];
@@ -108,7 +109,7 @@ void ellipsoid_add_cross_jacobian(const double arm[3], double r[3][3],
         }
         else
         {
-            turned_by(other_q, n - 3, other_arm, moved);
+            rotation_derivative(other_q, n - 3, other_arm, moved);
         }
         ellipsoid_product(force_x, moved, column);
         ellipsoid_to_body(r, column, body);
@@ -123,15 +124,15 @@ void ellipsoid_add_cross_jacobian(const double arm[3], double r[3][3],
     }
 }
 
-/* A change of one unknown of one body, in units of it. */
+/* Derivatives by one unknown of one body. */
 typedef struct change
 {
-    double bead[3];     /* how its bead's centre moves */
-    double centre[3];   /* how its own centre does */
+    double bead[3];     /* of its bead's centre */
+    double centre[3];   /* of its own centre */
     double velocity[3]; /* of its material, at the same point from its centre */
 } change;
 
-static change change_of(const ellipsoid_attachment *grip, int n)
+static change change_of(const ellipsoid_attachment *at, int n)
 {
     change c = {{0}, {0}, {0}};
     double spin[3] = {0};
@@ -148,15 +149,15 @@ static change change_of(const ellipsoid_attachment *grip, int n)
     }
     if (n < 9) /* omega */
     {
-        ellipsoid_set(spin, grip->r[0][n - 6], grip->r[1][n - 6],
-                      grip->r[2][n - 6]);
+        ellipsoid_set(spin, at->r[0][n - 6], at->r[1][n - 6],
+                      at->r[2][n - 6]);
     }
     else
     {
-        turned_by(grip->state->q, n - 9, grip->arm, c.bead);
-        turned_by(grip->state->q, n - 9, grip->state->omega, spin);
+        rotation_derivative(at->state->q, n - 9, at->arm, c.bead);
+        rotation_derivative(at->state->q, n - 9, at->state->omega, spin);
     }
-    ellipsoid_cross(spin, grip->point, c.velocity);
+    ellipsoid_cross(spin, at->point, c.velocity);
     return c;
 }
 
@@ -181,24 +182,24 @@ static void add_column(const double force[3], const double torque[3], int n,
     The torque R^T (p x F) of a body, p the contact point from its centre: n is
     the changed unknown, of this body itself if `own`.
 */
-static void add_felt(const ellipsoid_attachment *grip, const double force[3],
-                     const double force_n[3], const double point_n[3], int own,
-                     int n, ellipsoid_contact_jacobian *to)
+static void add_wrench(const ellipsoid_attachment *at, const double force[3],
+                       const double force_n[3], const double point_n[3],
+                       int own, int n, ellipsoid_contact_jacobian *to)
 {
-    const double *q = grip->state->q;
+    const double *q = at->state->q;
     const double conjugate[4] = {-q[0], -q[1], -q[2], q[3]};
     double torque_n[3], part[3], body[3];
 
-    ellipsoid_cross(grip->point, force_n, torque_n);
+    ellipsoid_cross(at->point, force_n, torque_n);
     ellipsoid_cross(point_n, force, part);
     ellipsoid_add(torque_n, part);
-    ellipsoid_to_body(grip->r, torque_n, body);
+    ellipsoid_to_body(at->r, torque_n, body);
     if (own && n >= 9)
     {
         double torque[3];
 
-        ellipsoid_cross(grip->point, force, torque);
-        turned_by(conjugate, n - 9, torque, part);
+        ellipsoid_cross(at->point, force, torque);
+        rotation_derivative(conjugate, n - 9, torque, part);
         for (int i = 0; i < 3; i++)
         {
             body[i] += n == 12 ? part[i] : -part[i];
@@ -207,59 +208,62 @@ static void add_felt(const ellipsoid_attachment *grip, const double force[3],
     add_column(force_n, body, n, to);
 }
 
-/* How the contact point moves from each body's centre, and the traction. */
-static void changed_rub(ellipsoid_friction *rub, int body, const change *c,
-                        double point[2][3], double force[3])
+/* Derivatives of the contact point, from each body's centre, and of the
+   traction. */
+static void change_friction(ellipsoid_friction *friction, int body,
+                            const change *c, double point[2][3],
+                            double force[3])
 {
-    double velocity[3], push[3], part[3];
+    double velocity[3], elastic[3], part[3];
 
     for (int i = 0; i < 3; i++)
     {
         velocity[i] = body == 0 ? c->velocity[i] : -c->velocity[i];
     }
-    for (int k = 0; k < rub->bodies; k++)
+    for (int k = 0; k < friction->bodies; k++)
     {
-        ellipsoid_product(rub->point_c[body], c->bead, point[k]);
+        ellipsoid_product(friction->point_c[body], c->bead, point[k]);
         if (k == body)
         {
             ellipsoid_difference(point[k], c->centre, point[k]);
         }
         if (k == 0)
         {
-            ellipsoid_cross(rub->grip[k].spin, point[k], part);
+            ellipsoid_cross(friction->attachment[k].spin, point[k], part);
         }
         else
         {
-            ellipsoid_cross(point[k], rub->grip[k].spin, part);
+            ellipsoid_cross(point[k], friction->attachment[k].spin, part);
         }
         ellipsoid_add(velocity, part);
     }
-    ellipsoid_product(rub->push_c[body], c->bead, push);
-    ellipsoid_product(rub->traction.by_push, push, force);
-    ellipsoid_product(rub->traction.by_velocity, velocity, part);
+    ellipsoid_product(friction->elastic_c[body], c->bead, elastic);
+    ellipsoid_product(friction->traction.by_elastic, elastic, force);
+    ellipsoid_product(friction->traction.by_velocity, velocity, part);
     ellipsoid_add(force, part);
 }
 
 void ellipsoid_add_friction_jacobian(
-    ellipsoid_friction *rub, ellipsoid_contact_jacobian *const jacobian[2][2])
+    ellipsoid_friction *friction,
+    ellipsoid_contact_jacobian *const jacobian[2][2])
 {
-    const double *f = rub->traction.force;
+    const double *f = friction->traction.force;
     const double back[3] = {-f[0], -f[1], -f[2]};
 
-    for (int body = 0; body < rub->bodies; body++)
+    for (int body = 0; body < friction->bodies; body++)
     {
         for (int n = 0; n < ELLIPSOID_STATE_SIZE; n++)
         {
-            const change c = change_of(&rub->grip[body], n);
+            const change c = change_of(&friction->attachment[body], n);
             double point[2][3], force_n[3];
 
-            changed_rub(rub, body, &c, point, force_n);
-            add_felt(&rub->grip[0], f, force_n, point[0], body == 0, n,
+            change_friction(friction, body, &c, point, force_n);
+            add_wrench(&friction->attachment[0], f, force_n, point[0], body == 0, n,
                      jacobian[0][body]);
-            if (rub->bodies == 2)
+            if (friction->bodies == 2)
             {
                 ellipsoid_set(force_n, -force_n[0], -force_n[1], -force_n[2]);
-                add_felt(&rub->grip[1], back, force_n, point[1], body == 1, n,
+                add_wrench(&friction->attachment[1], back, force_n, point[1], body == 1, n,
                          jacobian[1][body]);
             }
         }

@@ -85,7 +85,7 @@ static int place_at_vertex(const ellipsoid_wall_search *s, const corners *c,
     }
     ellipsoid_shrink(s, c->from[k], w);
     ellipsoid_combination(s->axis, w[0], w[1], w[2], lab);
-    return (ellipsoid_facet_answers(facet, k)
+    return (ellipsoid_facet_owns_vertex(facet, k)
             || bare >= (1 - 2 * slack) * nearest)
         && ellipsoid_facet_is_apex(facet, k, lab, slack * ellipsoid_length(w))
         && ellipsoid_dot(c->from[k], normal)
@@ -164,7 +164,7 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
     ellipsoid_difference(foot, facet->middle, from);
     far = facet->radius
         + ellipsoid_fading * s->longest * height / sqrt(support2);
-    if (!ellipsoid_facet_has_rim(facet)
+    if (!ellipsoid_facet_has_convex_edge(facet)
         && ellipsoid_dot(from, from) > far * far)
     {
         return 0; /* it has faded */

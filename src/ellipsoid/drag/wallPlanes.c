@@ -349,7 +349,7 @@ static int may_matter(const ellipsoid_facet *facet, const double x[3],
     {
         return 0;
     }
-    return ellipsoid_facet_has_rim(facet)
+    return ellipsoid_facet_has_convex_edge(facet)
         || cosine * (nearest - margin - beside) <= height + margin;
 }
 

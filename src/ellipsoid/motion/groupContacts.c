@@ -10,8 +10,9 @@
 
 #include <math.h>
 
-/* A force and torque more, at a point that has been evaluated. */
-static ellipsoid_status push(const ellipsoid_cell *p, ellipsoid_evaluation *at,
+/* Adds force and torque of the other cells at a point that has been evaluated
+   without. */
+static ellipsoid_status add_wrench(const ellipsoid_cell *p, ellipsoid_evaluation *at,
                              int balanced)
 {
     const ellipsoid_model *m = p->model;
@@ -61,7 +62,7 @@ static ellipsoid_status push(const ellipsoid_cell *p, ellipsoid_evaluation *at,
     return status;
 }
 
-static void note_cell(ellipsoid_contact *contact, uint32_t id)
+static void list_cell(ellipsoid_contact *contact, uint32_t id)
 {
     if (contact->touched_cell_count < ELLIPSOID_MAX_TOUCHED)
     {
@@ -69,10 +70,11 @@ static void note_cell(ellipsoid_contact *contact, uint32_t id)
     }
 }
 
-/* What a cell feels of another goes into its point and the couplings. */
-static void keep(ellipsoid_group *g, ellipsoid_evaluation *points,
-                 const ellipsoid_pair_contact *m, const ellipsoid_pair_wrench *felt,
-                 int row, int column)
+/* Adds the wrench of one cell on another to its point and the couplings. */
+static void add_to_point(ellipsoid_group *g, ellipsoid_evaluation *points,
+                         const ellipsoid_pair_contact *m,
+                         const ellipsoid_pair_wrench *wrench, int row,
+                         int column)
 {
     const ellipsoid_model *model = g->cell[row].model;
     ellipsoid_contact *contact = &points[row].contact;
@@ -83,13 +85,13 @@ static void keep(ellipsoid_group *g, ellipsoid_evaluation *points,
         contact->cell_gap = fmin(contact->cell_gap, m->gap);
     }
     contact->cell_deepest = fmax(0, -contact->cell_gap);
-    if (m->touching == 0)
+    if (m->contacts == 0)
     {
         return;
     }
-    ellipsoid_add(contact->cell_force, felt->force);
-    ellipsoid_add(contact->cell_torque, felt->torque);
-    note_cell(contact, g->cell[column].surroundings->id);
+    ellipsoid_add(contact->cell_force, wrench->force);
+    ellipsoid_add(contact->cell_torque, wrench->torque);
+    list_cell(contact, g->cell[column].surroundings->id);
     if (m->derivatives)
     {
         ellipsoid_coupling *c = &pairs->coupling[pairs->count++];
@@ -100,9 +102,9 @@ static void keep(ellipsoid_group *g, ellipsoid_evaluation *points,
         c->row = row;
         c->column = column;
         memset(&c->blocks, 0, sizeof(c->blocks));
-        ellipsoid_add_to_blocks(&felt->other, 1 / model->mass, of_torque,
+        ellipsoid_add_to_blocks(&wrench->other, 1 / model->mass, of_torque,
                                 &c->blocks);
-        ellipsoid_add_to_blocks(&felt->own, 1 / model->mass, of_torque,
+        ellipsoid_add_to_blocks(&wrench->own, 1 / model->mass, of_torque,
                                 &points[row].blocks);
     }
 }
@@ -116,7 +118,7 @@ static ellipsoid_status add_pair(ellipsoid_group *g, ellipsoid_evaluation *point
     const ellipsoid_options *of_b = &g->cell[b].model->options;
     const ellipsoid_friction_law law =
         ellipsoid_friction_law_between(g->cell[a].model, g->cell[b].model);
-    ellipsoid_pair_wrench felt_by_a, felt_by_b;
+    ellipsoid_pair_wrench on_a, on_b;
     ellipsoid_pair_contact m = {
         .a = ellipsoid_placed_body(g, points, a),
         .b = ellipsoid_placed_body(g, points, b),
@@ -124,22 +126,22 @@ static ellipsoid_status add_pair(ellipsoid_group *g, ellipsoid_evaluation *point
         .state_b = &points[b].state,
         .normal_law = ellipsoid_pair_law(of_a, of_b),
         .law = law,
-        .rubs = law.friction > 0 || law.damping > 0,
+        .dissipative = law.friction > 0 || law.damping > 0,
         .gap = ellipsoid_pair_horizon(g->cell[a].model, g->cell[b].model),
         .derivatives = with_blocks,
-        .of_a = &felt_by_a,
-        .of_b = &felt_by_b,
+        .of_a = &on_a,
+        .of_b = &on_b,
     };
 
     ellipsoid_pair_contact_evaluate(&m, near);
-    if (m.touching > 0 && with_blocks
+    if (m.contacts > 0 && with_blocks
         && g->pairs->count + 2 > g->pairs->capacity)
     {
         g->culprit = b;
         return ELLIPSOID_TOO_MANY_CELLS;
     }
-    keep(g, points, &m, &felt_by_a, a, b);
-    keep(g, points, &m, &felt_by_b, b, a);
+    add_to_point(g, points, &m, &on_a, a, b);
+    add_to_point(g, points, &m, &on_b, b, a);
     return ELLIPSOID_OK;
 }
 
@@ -170,7 +172,7 @@ ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *g,
     {
         if (points[cell].contact.touched_cell_count > 0)
         {
-            status = push(&g->cell[cell], &points[cell], balanced);
+            status = add_wrench(&g->cell[cell], &points[cell], balanced);
             g->culprit = status == ELLIPSOID_OK ? -1 : cell;
         }
     }

@@ -3,17 +3,18 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    nearPairs.c - which beads of which cells of a group may touch.
+    nearPairs.c - which beads of which cells of a group may come into
+    contact.
 
     The list holds all beads of two cells with gaps below the horizon and a
-    margin, and is good until a bead can have moved half the margin. What is
+    margin, and is valid until a bead can have moved half the margin. What is
     summed is then the same, in the same order, whenever it was made.
 */
 #include "motion/motion.h"
 
 #include <math.h>
 
-/* How far two beads may come nearer before the list is made anew, in radii. */
+/* How far two beads may approach before the list is made anew, in radii. */
 static const double margin = 0.5;
 
 const ellipsoid_body *ellipsoid_placed_body(ellipsoid_group *g,
@@ -30,8 +31,8 @@ const ellipsoid_body *ellipsoid_placed_body(ellipsoid_group *g,
     return b;
 }
 
-/* Has a bead of this cell moved so far that the list may lack something? */
-static int has_left(const ellipsoid_pairs *pairs, const ellipsoid_model *model,
+/* Has a bead of this cell moved so far that the list may lack a contact? */
+static int has_moved(const ellipsoid_pairs *pairs, const ellipsoid_model *model,
                     const ellipsoid_state *now, int cell)
 {
     const ellipsoid_state *then = &pairs->listed_at[cell];
@@ -110,7 +111,7 @@ ellipsoid_status ellipsoid_near_pairs_collect(ellipsoid_group *g,
     for (int cell = 0; current && cell < g->count; cell++)
     {
         current =
-            !has_left(pairs, g->cell[cell].model, &points[cell].state, cell);
+            !has_moved(pairs, g->cell[cell].model, &points[cell].state, cell);
     }
     if (current)
     {

@@ -16,7 +16,8 @@
     of its edges. There the contact point of the ellipsoid is x - p,
     p = M n/h, and that of the wall w = x - p - D n.
 
-    With several edges in question, w on an edge's line tells which way to go.
+    Where several edges may have it, w on the line of one tells on which side of
+    the edge to go on.
     A face takes D along its own normal. Deeper than its radius of
     curvature, an ellipsoid has other points nearer to w.
 */
@@ -27,12 +28,13 @@
 /* As in facets.c */
 static const double slack = 1e-9;
 
-/* Beside a flat edge by this, relative to the body, is no matter of rounding
-   nor of how flat it is. */
-static const double clearly = 1e-4;
+/* A contact point farther beside a flat edge, relative to the support, is there
+   neither by rounding nor because the edge is not quite flat. */
+static const double beside_edge = 1e-4;
 
-/* Relative bound from below of what vanishes at centres of curvature. */
-static const double tiny = 1e-18, least = 1e-9;
+/* Relative lower bounds of what vanishes at centres of curvature: of distances
+   from the axes, and of D + P below. */
+static const double smallest_offset = 1e-18, smallest_radius = 1e-9;
 
 /* h(n), and p; written so that it loses no digits in long ellipsoids. */
 static double support_at(const ellipsoid_surface *body, const double n[3],
@@ -73,7 +75,7 @@ static void nearest_normal(int dimension, const double *axes, const double *d,
     }
     for (int i = 0; i < dimension; i++)
     {
-        b[i] = axes[i] * fmax(fabs(d[i]), tiny * smallest);
+        b[i] = axes[i] * fmax(fabs(d[i]), smallest_offset * smallest);
         e[i] = (axes[i] - smallest) * (axes[i] + smallest);
         low = fmax(low, b[i] - e[i]);
     }
@@ -119,8 +121,8 @@ static void complete(const ellipsoid_surface *body, const double d[3],
 }
 
 /* The plane of normal n through a point; d: from there to the centre. */
-static void meet_plane(const ellipsoid_surface *body, const double n[3],
-                       const double d[3], ellipsoid_surface_contact *c)
+static void contact_plane(const ellipsoid_surface *body, const double n[3],
+                          const double d[3], ellipsoid_surface_contact *c)
 {
     c->feature = ELLIPSOID_ON_FACE;
     ellipsoid_copy(n, c->normal);
@@ -129,8 +131,8 @@ static void meet_plane(const ellipsoid_surface *body, const double n[3],
 }
 
 /* A vertex; d: from it to the centre. */
-static void meet_point(const ellipsoid_surface *body, const double d[3],
-                       ellipsoid_surface_contact *c)
+static void contact_point(const ellipsoid_surface *body, const double d[3],
+                          ellipsoid_surface_contact *c)
 {
     double along[3], v[3];
 
@@ -143,8 +145,8 @@ static void meet_point(const ellipsoid_surface *body, const double d[3],
 
 /* The line of direction c->edge; d: from it to the centre, across:
    perpendicular to it. Along it, the ellipsoid is an ellipse. */
-static void meet_line(const ellipsoid_surface *body, const double d[3],
-                      const double across[3], ellipsoid_surface_contact *c)
+static void contact_line(const ellipsoid_surface *body, const double d[3],
+                         const double across[3], ellipsoid_surface_contact *c)
 {
     double t[2][3], l[2][3], area[3], axes[2], in_axes[2], v[2];
 
@@ -194,7 +196,7 @@ static int at_vertex(const ellipsoid_facet *facet, int k, double reach,
     const double upright = ellipsoid_dot(c->normal, facet->normal);
 
     return c->height < reach && upright >= -slack
-        && (ellipsoid_facet_answers(facet, k) || upright >= 1 - slack)
+        && (ellipsoid_facet_owns_vertex(facet, k) || upright >= 1 - slack)
         && ellipsoid_facet_is_apex(facet, k, c->normal, slack);
 }
 
@@ -212,7 +214,7 @@ static int nearest_vertex(const ellipsoid_facet *facet,
 
         if (set >> k & 1)
         {
-            meet_point(body, from[k], &c);
+            contact_point(body, from[k], &c);
             if (closest < 0 || c.height < contact->height)
             {
                 *contact = c;
@@ -281,7 +283,7 @@ int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
 
         /* far over a flat edge the neighbour is nearer all along it */
         if (facet->edge[k] == ELLIPSOID_EDGE_FLAT
-            && ellipsoid_dot(inward, foot) < -clearly * support * size)
+            && ellipsoid_dot(inward, foot) < -beside_edge * support * size)
         {
             continue;
         }
@@ -289,7 +291,7 @@ int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
         {
             contact->edge[i] = along[i] / size;
         }
-        meet_line(body, from[k], n, contact);
+        contact_line(body, from[k], n, contact);
         if (!(contact->height < reach))
         {
             continue; /* nor are its ends */
@@ -312,18 +314,18 @@ int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
         return nearest_vertex(facet, body, from, candidates, reach, contact);
     }
 
-    meet_plane(body, n, from[0], contact);
+    contact_plane(body, n, from[0], contact);
     return side_of_face(body, contact);
 }
 
-int ellipsoid_surface_pushed_out(const ellipsoid_facet *facet,
+int ellipsoid_surface_cut_plane(const ellipsoid_facet *facet,
                                const ellipsoid_surface *body,
                                ellipsoid_surface_contact *contact)
 {
     double d[3];
 
     ellipsoid_difference(body->centre, facet->vertex[0], d);
-    meet_plane(body, facet->normal, d, contact);
+    contact_plane(body, facet->normal, d, contact);
     return contact->height < 0 && contact->height + contact->support >= 0
         && ellipsoid_surface_cuts(facet, body);
 }
@@ -343,7 +345,7 @@ int ellipsoid_surface_may_reach(const ellipsoid_facet *facet,
     }
     /* no distance changes by more than the way */
     ellipsoid_difference(body->centre, facet->middle, d);
-    meet_point(body, d, &c);
+    contact_point(body, d, &c);
     return !(c.height - facet->radius > reach);
 }
 
@@ -381,7 +383,7 @@ void ellipsoid_surface_derivatives(const ellipsoid_surface *body,
                                  ellipsoid_surface_contact *c)
 {
     const double *n = c->normal, *p = c->arm;
-    const double floor = least * body->smallest;
+    const double floor = smallest_radius * body->smallest;
     double bend[3][3], t[2][3] = {{0}}, bent[2][3], couple[3];
 
     for (int i = 0; i < 3; i++)

@@ -8,30 +8,30 @@
 
     It does inside the facet where the point projects into it, on an edge where
     neither of its two facets comes nearer, at a vertex where none of its edges
-    does. Each facet answers from what it knows of its neighbours; an edge is
-    answered for by both its facets, with the same result. Edges that are not
-    marked concave are treated as if they were convex: on a flat one the answer
-    is that of the facets beside it, so rounding leaves no gap between them.
+    does. Each facet decides from its own data on its neighbours; both facets of
+    an edge find the same minimum on it. Edges that are not marked concave are
+    treated as convex: on a flat one the result is that of the facets beside it,
+    so rounding leaves no gap between them.
 */
 #include "walls/walls.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Relative slack of 'not nearer': closes the gaps that rounding would leave. */
+/* Relative tolerance of 'not nearer': closes the gaps that rounding leaves. */
 static const double slack = 1e-9;
 
-/* A turn smaller than this [rad] is the mesh's rounding. */
+/* A smaller angle between facets [rad] is the mesh's rounding. */
 static const double flat = 1e-6;
 
-int ellipsoid_facet_has_rim(const ellipsoid_facet *facet)
+int ellipsoid_facet_has_convex_edge(const ellipsoid_facet *facet)
 {
     return facet->edge[0] == ELLIPSOID_EDGE_CONVEX
         || facet->edge[1] == ELLIPSOID_EDGE_CONVEX
         || facet->edge[2] == ELLIPSOID_EDGE_CONVEX;
 }
 
-int ellipsoid_facet_answers(const ellipsoid_facet *facet, int k)
+int ellipsoid_facet_owns_vertex(const ellipsoid_facet *facet, int k)
 {
     return facet->edge[k] == ELLIPSOID_EDGE_CONVEX
         || facet->edge[(k + 2) % 3] == ELLIPSOID_EDGE_CONVEX;
@@ -51,7 +51,7 @@ int ellipsoid_facet_is_apex(const ellipsoid_facet *facet, int k,
 }
 
 /* Fills *nearest from r, the vector from an edge or a vertex to the point. */
-static int from_rim(const ellipsoid_facet *facet, const double r[3],
+static int set_boundary_nearest(const ellipsoid_facet *facet, const double r[3],
                     double length, ellipsoid_nearest *nearest)
 {
     if (ellipsoid_dot(r, facet->normal) < -slack * length)
@@ -81,19 +81,19 @@ static int nearest_on_edge(const ellipsoid_facet *facet, int k, double foot,
         nearest->edge[i] = along[i] / size;
     }
 
-    /* once more: of a long edge the foot is rounded to more than r is */
-    const double left = ellipsoid_dot(r, nearest->edge);
+    /* once more: the rounding of the foot on a long edge exceeds that of r */
+    const double rest = ellipsoid_dot(r, nearest->edge);
 
     for (int i = 0; i < 3; i++)
     {
-        r[i] -= left * nearest->edge[i];
+        r[i] -= rest * nearest->edge[i];
     }
     length = sqrt(ellipsoid_dot(r, r));
 
     nearest->feature = length > 0 ? ELLIPSOID_ON_EDGE : ELLIPSOID_ON_FACE;
     return length < reach && facet->edge[k] != ELLIPSOID_EDGE_CONCAVE
         && ellipsoid_dot(r, facet->edge_inward[k]) <= slack * length
-        && from_rim(facet, r, length, nearest);
+        && set_boundary_nearest(facet, r, length, nearest);
 }
 
 int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
@@ -157,27 +157,37 @@ int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
     length = sqrt(squared);
     nearest->feature = length > 0 ? ELLIPSOID_ON_VERTEX : ELLIPSOID_ON_FACE;
     return length < reach
-        && (ellipsoid_facet_answers(facet, closest)
+        && (ellipsoid_facet_owns_vertex(facet, closest)
             || fabs(height) >= (1 - slack) * length)
         && ellipsoid_facet_is_apex(facet, closest, from[closest],
                                    slack * length)
-        && from_rim(facet, from[closest], length, nearest);
+        && set_boundary_nearest(facet, from[closest], length, nearest);
 }
+
+/* A point relative to an edge. */
+typedef struct edge_position
+{
+    double from[3]; /* [m] from the edge's first vertex to the point */
+    double length;  /* [m] of the edge */
+    double foot;    /* [m2] component of `from` along the edge, times length */
+    double inside;  /* [m2] likewise across it, into the facet */
+} edge_position;
 
 /* As nearest_on_edge(), for some point within `margin` of the given one. */
-static int edge_concerns(const ellipsoid_facet *facet, int k, double inside,
-                         double foot, double size, const double from[3],
-                         double reach, double margin)
+static int edge_may_be_nearest(const ellipsoid_facet *facet, int k,
+                               const edge_position *at, double reach,
+                               double margin)
 {
-    const double along = foot / size;
+    const double along = at->foot / at->length;
 
-    return facet->edge[k] != ELLIPSOID_EDGE_CONCAVE && inside <= margin * size
-        && along >= -margin && along <= size + margin
-        && ellipsoid_dot(from, from) - along * along <= reach * reach
-        && ellipsoid_dot(from, facet->edge_inward[k]) <= margin;
+    return facet->edge[k] != ELLIPSOID_EDGE_CONCAVE
+        && at->inside <= margin * at->length && along >= -margin
+        && along <= at->length + margin
+        && ellipsoid_dot(at->from, at->from) - along * along <= reach * reach
+        && ellipsoid_dot(at->from, facet->edge_inward[k]) <= margin;
 }
 
-int ellipsoid_facet_concerns(const ellipsoid_facet *facet,
+int ellipsoid_facet_may_be_nearest(const ellipsoid_facet *facet,
                              const double centre[3], double reach,
                              double margin)
 {
@@ -188,10 +198,11 @@ int ellipsoid_facet_concerns(const ellipsoid_facet *facet,
 
     for (int k = 0; k < 3; k++)
     {
-        double from[3], along[3], inward[3];
+        edge_position at;
+        double along[3], inward[3];
 
-        ellipsoid_difference(centre, facet->vertex[k], from);
-        if (k == 0 && !(fabs(ellipsoid_dot(from, facet->normal)) <= far))
+        ellipsoid_difference(centre, facet->vertex[k], at.from);
+        if (k == 0 && !(fabs(ellipsoid_dot(at.from, facet->normal)) <= far))
         {
             return 0;
         }
@@ -199,17 +210,16 @@ int ellipsoid_facet_concerns(const ellipsoid_facet *facet,
                              along);
         ellipsoid_cross(facet->normal, along, inward);
 
-        const double length = sqrt(ellipsoid_dot(along, along));
-        const double inside = ellipsoid_dot(inward, from);
-        const double foot = ellipsoid_dot(from, along);
-
-        if (edge_concerns(facet, k, inside, foot, length, from, far, wide)
-            || (ellipsoid_dot(from, from) <= far * far
-                && ellipsoid_facet_is_apex(facet, k, from, wide)))
+        at.length = sqrt(ellipsoid_dot(along, along));
+        at.inside = ellipsoid_dot(inward, at.from);
+        at.foot = ellipsoid_dot(at.from, along);
+        if (edge_may_be_nearest(facet, k, &at, far, wide)
+            || (ellipsoid_dot(at.from, at.from) <= far * far
+                && ellipsoid_facet_is_apex(facet, k, at.from, wide)))
         {
             return 1;
         }
-        face = face && inside >= -wide * length;
+        face = face && at.inside >= -wide * at.length;
     }
     return face;
 }

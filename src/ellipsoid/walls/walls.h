@@ -39,19 +39,19 @@ int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
                             const double centre[3], double reach,
                             ellipsoid_nearest *nearest);
 
-/* Could ellipsoid_facet_nearest() find one, were the point moved by up to
+/* Could ellipsoid_facet_nearest() find one if the point moved by up to
    margin [m]? Errs towards 1. Beside the facet's ball, by more than 1.5 times
    the margin as seen along its normal, only a convex edge can. */
-int ellipsoid_facet_concerns(const ellipsoid_facet *facet,
+int ellipsoid_facet_may_be_nearest(const ellipsoid_facet *facet,
                              const double centre[3], double reach,
                              double margin);
 
 /* Does it have a convex edge? (facets.c) */
-int ellipsoid_facet_has_rim(const ellipsoid_facet *facet);
+int ellipsoid_facet_has_convex_edge(const ellipsoid_facet *facet);
 
-/* A vertex is answered for by the facets that have a convex edge there and, for
-   the sake of rounding, by those that the point is right above. */
-int ellipsoid_facet_answers(const ellipsoid_facet *facet, int k);
+/* A minimum at a vertex is found by the facets that have a convex edge there
+   and, because of rounding, by those that the point is right above. */
+int ellipsoid_facet_owns_vertex(const ellipsoid_facet *facet, int k);
 
 /* Is the wall at this vertex nowhere nearer to the point? r: vertex to point */
 int ellipsoid_facet_is_apex(const ellipsoid_facet *facet, int k,
@@ -66,11 +66,10 @@ typedef struct ellipsoid_candidates
 } ellipsoid_candidates;
 
 /*
-    Sees to it that the cache holds all facets that beads can meet in this pose
-    with gaps of up to horizon [m] (facetCache.c); collects them anew only if
-    the cell has moved too far. *moved [m] is how far beads may have, since.
-    STEP_UNDERFLOW: the walls ask for a shorter step, WALLS_FAILED: they gave
-    up.
+    Makes the cache hold all facets within `horizon` [m] of a bead in this pose
+    (facetCache.c); they are searched again only if the cell has moved too far.
+    *moved [m] bounds how far beads have moved since. STEP_UNDERFLOW: the walls
+    ask for a shorter step, WALLS_FAILED: they gave up.
 */
 ellipsoid_status
 ellipsoid_facet_cache_update(ellipsoid_facet_cache *cache,
@@ -79,7 +78,17 @@ ellipsoid_facet_cache_update(ellipsoid_facet_cache *cache,
                           const double x[3], const double q[4], double horizon,
                           double *moved);
 
-/* The walls near a place, with what their answer means (facetCache.c). */
+/*
+    Fills the lists of a cache from facets near its pose, for gaps of up to
+    horizon [m] and beads that move by up to margin [m] (facetSearch.c). 0 if
+    there are too many.
+*/
+int ellipsoid_facet_search(const ellipsoid_model *model,
+                           const ellipsoid_facet_list *list, double horizon,
+                           double margin, ellipsoid_facet_cache *cache);
+
+/* The facets near a point, and the status of the walls callback
+   (facetCache.c). */
 ellipsoid_status
 ellipsoid_list_facets(const ellipsoid_surroundings *surroundings,
                       const double centre[3], double reach,
@@ -136,7 +145,7 @@ int ellipsoid_surface_cuts(const ellipsoid_facet *facet,
 
 /* As ellipsoid_surface_nearest() for the facet's plane in place of the facet, if
    that is cut; the centre is in front of it. */
-int ellipsoid_surface_pushed_out(const ellipsoid_facet *facet,
+int ellipsoid_surface_cut_plane(const ellipsoid_facet *facet,
                                const ellipsoid_surface *body,
                                ellipsoid_surface_contact *contact);
 
