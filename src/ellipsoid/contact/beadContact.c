@@ -97,8 +97,8 @@ static void set_normal_slope(const contact *c, double slope[3][3])
     }
 }
 
-static scalar elevation(const contacts *all, const blend *m, const scalar *c, int i,
-                   int j)
+static scalar elevation(const contacts *all, const blend *m, const scalar *c,
+                        int i, int j)
 {
     const contact *a = &all->at[i], *b = &all->at[j];
     scalar s = {.value = b->height - c->value * a->height};

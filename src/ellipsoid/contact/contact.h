@@ -58,7 +58,8 @@ int ellipsoid_bead_contact(const ellipsoid_bead *bead,
 
 /*
     Adds the derivatives of a force at x + R(q) arm, and of its torque, by the
-    body's own pose: force_x is that of the force by this point (wrenchJacobian.c).
+    body's own pose: force_x is that of the force by this point
+    (wrenchJacobian.c).
 */
 void ellipsoid_add_wrench_jacobian(const double arm[3], const double q[4],
                                double r[3][3], const double force[3],
@@ -90,7 +91,7 @@ typedef struct ellipsoid_traction
 {
     double normal[3];
     double force[3];          /* [N] lab */
-    double by_elastic[3][3];  /* [-] by the elastic force at constant velocity */
+    double by_elastic[3][3];  /* [-] by the elastic force, v being constant */
     double by_velocity[3][3]; /* [N s/m] */
 } ellipsoid_traction;
 
@@ -160,8 +161,8 @@ void ellipsoid_add_wall_friction(ellipsoid_wall_contact *at,
 /* -------------------------------------------- the ellipsoid and walls */
 
 /* The walls' force and torque on an ellipsoid: the part of
-   ellipsoid_contact_evaluate() for it (ellipsoidContact.c). contact->gap is how far
-   to look. */
+   ellipsoid_contact_evaluate() for it (ellipsoidContact.c). contact->gap is how
+   far to look. */
 ellipsoid_status
 ellipsoid_surface_contact_add(const ellipsoid_model *model,
                             const ellipsoid_surroundings *surroundings,

@@ -128,8 +128,8 @@ typedef struct blend
 static const scalar unity = {.value = 1};
 
 /* Height of i's contact point above j's tangent plane; c = n_i.n_j. */
-static scalar elevation(const contacts *all, const blend *m, const scalar *c, int i,
-                   int j);
+static scalar elevation(const contacts *all, const blend *m, const scalar *c,
+                        int i, int j);
 
 /* r_ij: 1 if they are one contact, n_i.n_j in general, and less where their
    points are far apart. */
@@ -146,8 +146,8 @@ static scalar cosine(const contacts *all, const blend *m, int i, int j)
         c.gradient[k] = 0;
         for (int l = 0; l < 3; l++)
         {
-            c.gradient[k] +=
-                m->normal_slope[i][l][k] * b[l] + m->normal_slope[j][l][k] * a[l];
+            c.gradient[k] += m->normal_slope[i][l][k] * b[l]
+                           + m->normal_slope[j][l][k] * a[l];
         }
     }
     return c;
@@ -229,7 +229,8 @@ static void set_shares(const contacts *all, const blend *m,
             }
             for (int k = 0; k < VARIABLES && ramp < 1; k++)
             {
-                degree.gradient[k] = c.gradient[k] / (full_sharing - no_sharing);
+                degree.gradient[k] =
+                    c.gradient[k] / (full_sharing - no_sharing);
             }
             reduce_share(&share[i], &degree, &other, &own, threshold);
             reduce_share(&share[j], &degree, &own, &other, threshold);

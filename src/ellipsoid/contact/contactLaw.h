@@ -4,7 +4,7 @@
     SPDX-License-Identifier: GPL-3.0-or-later
 
     contactLaw.h - the normal force between two surfaces as a function of the
-    gap between them. Beads, ellipsoids and pairs of cells all take it from here;
+    gap between them. Beads, ellipsoids and pairs of cells take it from here;
     friction and damping (friction.c) follow from it.
 
     A law NAME is two functions, ellipsoid_NAME_force() of the gap and
@@ -98,7 +98,8 @@ ellipsoid_adhesion_force(const ellipsoid_contact_law *law, double gap)
     return (ellipsoid_normal_force){
         .force = -(pull * left * left * (1 + 2 * t)),
         .slope = 6 * pull / range * t * left,
-        .energy = -pull * (overlap + 0.5 * range * left * left * left * (1 + t))};
+        .energy =
+            -pull * (overlap + 0.5 * range * left * left * left * (1 + t))};
 }
 
 static inline ellipsoid_contact_law

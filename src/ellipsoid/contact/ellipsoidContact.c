@@ -145,8 +145,8 @@ static void find_contacts(const ellipsoid_surface *body,
     }
 }
 
-static scalar elevation(const contacts *all, const blend *m, const scalar *c, int i,
-                   int j)
+static scalar elevation(const contacts *all, const blend *m, const scalar *c,
+                        int i, int j)
 {
     const contact *a = &all->at[i], *b = &all->at[j];
     scalar s = {.value = b->height - c->value * a->height};
@@ -233,7 +233,8 @@ static scalar redundancy(const contacts *all, const blend *m, int i, int j)
         for (int l = 0; l < 3; l++)
         {
             const double arm = a->arm_slope[l][k] - b->arm_slope[l][k];
-            const double turn = m->normal_slope[i][l][k] - m->normal_slope[j][l][k];
+            const double turn =
+                m->normal_slope[i][l][k] - m->normal_slope[j][l][k];
 
             far.gradient[k] +=
                 2 / separation * (arms[l] * arm - radius * normals[l] * turn);

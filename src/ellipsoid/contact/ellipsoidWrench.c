@@ -59,7 +59,8 @@ static void set_velocity_slope(const ellipsoid_surface_force *p,
     }
     for (int b = 0; b < p->bodies; b++)
     {
-        const int turn = own_axis(k, ROTATION, b), turning = own_axis(k, ANGULAR_VELOCITY, b);
+        const int turn = own_axis(k, ROTATION, b);
+        const int turning = own_axis(k, ANGULAR_VELOCITY, b);
         double change[3] = {0, 0, 0}, moved[3] = {0, 0, 0}, part[3];
 
         if (turn >= 0)
@@ -151,7 +152,8 @@ void ellipsoid_wrench_add(const ellipsoid_surface_force *p,
         double slope[3];
 
         if (p->bodies == 1
-            && (own_axis(k, ROTATION, 1) >= 0 || own_axis(k, ANGULAR_VELOCITY, 1) >= 0))
+            && (own_axis(k, ROTATION, 1) >= 0
+                || own_axis(k, ANGULAR_VELOCITY, 1) >= 0))
         {
             continue;
         }
@@ -208,9 +210,10 @@ static void by_components(const double q[4], double slope[3][3],
 
 /* Derivatives by the state of body `by`: those of the relative position and
    velocity with their sign. */
-static void set_state_derivatives(double slope[VARIABLES][3], int by, const double q[4],
-                   double u[3][3], double x[3][3], double omega[3][3],
-                   double of_q[3][4])
+static void set_state_derivatives(double slope[VARIABLES][3], int by,
+                                  const double q[4], double u[3][3],
+                                  double x[3][3], double omega[3][3],
+                                  double of_q[3][4])
 {
     const double sign = by == 0 ? 1 : -1;
 
@@ -271,9 +274,9 @@ void ellipsoid_wrench_report(const ellipsoid_surface_force *p,
         const double *q = p->state[n]->q;
         ellipsoid_contact_jacobian *to = by[n];
 
-        set_state_derivatives(force_slope, n, q, to->force_u, to->force_x, to->force_omega,
-               to->force_q);
+        set_state_derivatives(force_slope, n, q, to->force_u, to->force_x,
+                              to->force_omega, to->force_q);
         set_state_derivatives(torque_slope, n, q, to->torque_u, to->torque_x,
-               to->torque_omega, to->torque_q);
+                              to->torque_omega, to->torque_q);
     }
 }

@@ -43,7 +43,8 @@ static void add_bead(ellipsoid_wall_contact *at, const double arm[3],
 static ellipsoid_bead bead_of(const ellipsoid_wall_contact *at, int b)
 {
     const ellipsoid_model *model = at->model;
-    ellipsoid_bead bead = {.radius = model->options.bead_radius, .laws = &at->laws};
+    ellipsoid_bead bead = {.radius = model->options.bead_radius,
+                           .laws = &at->laws};
 
     for (int i = 0; i < 3; i++)
     {

@@ -70,8 +70,8 @@ void ellipsoid_add_wrench_jacobian(const double arm[3], const double q[4],
         ellipsoid_to_body(r, column, body);
         if (n >= 3)
         {
-            /* the frame rotates relative to the force: (dR/dq_n)^T F, and R^T(q) is
-               R of the conjugate */
+            /* the frame rotates relative to the force: (dR/dq_n)^T F, and
+               R^T(q) is R of the conjugate */
             rotation_derivative(conjugate, n - 3, force, turned);
             for (int i = 0; i < 3; i++)
             {

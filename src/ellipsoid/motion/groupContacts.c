@@ -12,8 +12,8 @@
 
 /* Adds force and torque of the other cells at a point that has been evaluated
    without. */
-static ellipsoid_status add_wrench(const ellipsoid_cell *p, ellipsoid_evaluation *at,
-                             int balanced)
+static ellipsoid_status add_wrench(const ellipsoid_cell *p,
+                                   ellipsoid_evaluation *at, int balanced)
 {
     const ellipsoid_model *m = p->model;
     const ellipsoid_contact *c = &at->contact;

@@ -93,7 +93,8 @@ static int is_current(const ellipsoid_facet_cache *cache,
     if (cache->clearance > 0)
     {
         /* R(q) stretches by q.q, which is near 1 but need not be 1 */
-        const double longer = ellipsoid_square4(q) - ellipsoid_square4(cache->q);
+        const double longer =
+            ellipsoid_square4(q) - ellipsoid_square4(cache->q);
         /* false with NaN */
         const double left = cache->clearance - arm * (longer <= 0 ? 0 : longer);
 
