@@ -43,7 +43,8 @@ extern "C" {
 /* ---------------------------------------------------------------- flow */
 
 /*
-    The undisturbed flow at a point, lab frame. G_ij = du_i/dx_j.
+    The undisturbed flow at a point and time, lab frame. G_ij = du_i/dx_j.
+    It is all zero when a callback is called: what is not set stays so.
     velocity_jacobian is the derivative of `velocity` as interpolated, and
     gradient_jacobian[i][j][k] = dG_ij/dx_k; both are read only where
     derivatives were asked for, and only serve the Jacobian.
@@ -53,38 +54,46 @@ typedef struct ellipsoid_flow_sample
     double velocity[3];                /* [m/s] */
     double gradient[3][3];             /* [1/s] */
     double pressure_gradient[3];       /* [Pa/m]; only for PRESSURE_GRADP */
+    double local_acceleration[3];      /* [m/s2] du/dt where x is fixed; only
+                                          for PRESSURE_DUDT where the
+                                          surroundings are unsteady */
     double velocity_jacobian[3][3];    /* [1/s] */
     double gradient_jacobian[3][3][3]; /* [1/(m s)] */
     double pressure_jacobian[3][3];    /* [Pa/m2] d(grad p)_i/dx_j; likewise */
+    double acceleration_jacobian[3][3]; /* [1/s2] of the local one; likewise */
 } ellipsoid_flow_sample;
 
 /*
-    Samples the flow at x [m, lab]. derivatives: 0 or 1.
+    Samples the flow at the time t [s] and x [m, lab]. derivatives: 0 or 1.
     Returns 0; > 0: not here, shorten the step; < 0: give up.
 */
 typedef int (*ellipsoid_flow_function)(void *context,
+                                       double t,
                                        const double x[3],
                                        int derivatives,
                                        ellipsoid_flow_sample *sample);
 
 /*
-    Velocities of the flow at points near `centre` [m, lab] for FLOW_BODY, and
-    their derivatives jacobian[n][i][j] = du_i/dx_j unless jacobian is NULL.
-    Beyond a wall both are the wall's, zero. The centre is where the flow was
-    sampled last. Returns 0; > 0: shorten the step; < 0: give up.
+    Velocities of the flow at the time t [s] at points near `centre` [m, lab]
+    for FLOW_BODY, and their derivatives jacobian[n][i][j] = du_i/dx_j unless
+    jacobian is NULL; zero when called. Beyond a wall both are the wall's, zero.
+    The centre is where the flow was sampled last. Returns 0; > 0: shorten the
+    step; < 0: give up.
 */
 typedef int (*ellipsoid_velocities_function)(void *context,
+                                             double t,
                                              const double centre[3], int count,
                                              double (*points)[3],
                                              double (*velocity)[3],
                                              double (*jacobian)[3][3]);
 
 /*
-    An electric field E [V/m, lab] at x [m, lab], and its derivatives
-    jacobian[i][j] = dE_i/dx_j unless jacobian is NULL. Returns as above.
+    An electric field E [V/m, lab] at the time t [s] and x [m, lab], and its
+    derivatives jacobian[i][j] = dE_i/dx_j unless jacobian is NULL; zero when
+    called. Returns as above.
 */
-typedef int (*ellipsoid_field_function)(void *context, const double x[3],
-                                        double field[3], double (*jacobian)[3]);
+typedef int (*ellipsoid_field_function)(void *context, double t,
+             const double x[3], double field[3], double (*jacobian)[3]);
 
 /* --------------------------------------------------------------- walls */
 
@@ -140,18 +149,51 @@ typedef struct ellipsoid_facet_list
 
 /*
     Lists all facets nearer than `reach` [m] to `centre` [m, lab]. The list's
-    memory is the callee's and stays valid until its next call.
+    memory is the callee's and stays valid until its next call. Walls stand
+    still: a cache keeps facets from one time t [s] to others, and is to be
+    cleared when the facets change.
     Returns 0; > 0: shorten the step; < 0: give up.
 */
 typedef int (*ellipsoid_walls_function)(void *context,
+                                        double t,
                                         const double centre[3],
                                         double reach,
                                         ellipsoid_facet_list *list);
 
+/* -------------------------------------------------------- other forces */
+
+struct ellipsoid_state;
+
+/* Derivatives of a force (lab) and a torque (body) by the state, R(q) taken as
+   the polynomial below; zero where nothing is set. */
+typedef struct ellipsoid_wrench_jacobian
+{
+    double force_x[3][3];      /* [N/m] */
+    double force_q[3][4];      /* [N] */
+    double torque_x[3][3];     /* [N] */
+    double torque_q[3][4];     /* [N m] */
+    double force_u[3][3];      /* [N s/m] */
+    double force_omega[3][3];  /* [N s] */
+    double torque_u[3][3];     /* [N s] */
+    double torque_omega[3][3]; /* [N m s] */
+} ellipsoid_wrench_jacobian;
+
+/*
+    An external force [N, lab] and torque [N m, body] on a cell in this state at
+    the time t [s], besides those of the options; all zero when called. The
+    jacobian is NULL unless derivatives are asked for. q may differ from length
+    one inside a step. u and omega may be read only if the surroundings say that
+    the force depends on them. Returns 0; > 0: shorten the step; < 0: give up.
+*/
+typedef int (*ellipsoid_force_function)(void *context, double t,
+                                        const struct ellipsoid_state *state,
+                                        double force[3], double torque[3],
+                                        ellipsoid_wrench_jacobian *jacobian);
+
 /*
     What surrounds a cell; each may be NULL. Without a flow there is vacuum:
     drag and pressure gradient are zero. Without velocities, FLOW_BODY asks the
-    flow point by point and takes an answer > 0 for a place beyond a wall.
+    flow point by point and takes an answer > 0 for a point beyond a wall.
 */
 typedef struct ellipsoid_surroundings
 {
@@ -162,6 +204,14 @@ typedef struct ellipsoid_surroundings
     ellipsoid_velocities_function velocities;
     ellipsoid_field_function field;
     void *field_context;
+    ellipsoid_force_function force;
+    void *force_context;
+    int force_depends_on_velocity; /* on u or omega? 0 */
+    int unsteady; /* do flow, field or force depend on time? 0; if not, the
+                     derivative by time that a Rosenbrock step needs is not
+                     evaluated */
+    double time;  /* [s] when callbacks are asked by functions that are given no
+                     time, such as ellipsoid_rhs(); 0 */
     /* The key of the cell's Brownian motion. Noise interval n begins at the
        time n noise_interval. */
     uint64_t seed;
@@ -262,20 +312,6 @@ typedef struct ellipsoid_contact
                                                      the group */
 } ellipsoid_contact;
 
-/* Derivatives of force (lab) and torque (body) by the state, R(q) taken as the
-   polynomial above; those by u and omega are of friction and damping. */
-typedef struct ellipsoid_contact_jacobian
-{
-    double force_x[3][3];      /* [N/m] */
-    double force_q[3][4];      /* [N] */
-    double torque_x[3][3];     /* [N] */
-    double torque_q[3][4];     /* [N m] */
-    double force_u[3][3];      /* [N s/m] */
-    double force_omega[3][3];  /* [N s] */
-    double torque_u[3][3];     /* [N s] */
-    double torque_omega[3][3]; /* [N m s] */
-} ellipsoid_contact_jacobian;
-
 /*
     Beads against facets: Hertz, F = 4/3 E* sqrt(r_b) d^(3/2) along the normal
     of each contact; the contacts of one bead add up as sum w_i f_i n_i,
@@ -294,7 +330,7 @@ ellipsoid_status ellipsoid_contact_evaluate(
     const ellipsoid_state *state,
     ellipsoid_facet_cache *cache,
     ellipsoid_contact *contact,
-    ellipsoid_contact_jacobian *jacobian);
+    ellipsoid_wrench_jacobian *jacobian);
 
 /*
     Contact of one bead [m, lab] of given radius with the listed facets: force

@@ -31,6 +31,7 @@ extern "C" {
     X(BAD_OPTION, "an option is outside its range")                            \
     X(NON_FINITE, "the flow or the walls gave a value that is not finite")     \
     X(FLOW_FAILED, "the flow or the field gave up at the cell's place")        \
+    X(FORCE_FAILED, "the external force gave up at the cell's position")       \
     X(WALLS_FAILED, "the walls gave up at the cell's position")                \
     X(STEP_UNDERFLOW, "the step fell below the smallest step")                 \
     X(TOO_MANY_STEPS, "the number of steps is exhausted")                      \

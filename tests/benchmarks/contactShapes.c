@@ -267,9 +267,10 @@ static void compare(scene *s, const ellipsoid_model *beads,
     printf("\n");
 }
 
-static int still(void *context, const double x[3], int derivatives,
+static int still(void *context, double t, const double x[3], int derivatives,
                  ellipsoid_flow_sample *sample)
 {
+    (void)t;
     (void)context;
     (void)x;
     (void)derivatives;
@@ -350,7 +351,7 @@ static double cost(scene s[SCENES], const ellipsoid_model *model, int jacobian,
             for (int k = 0; k < steps; k++)
             {
                 ellipsoid_contact contact;
-                ellipsoid_contact_jacobian derivatives;
+                ellipsoid_wrench_jacobian derivatives;
 
                 at.x[1] += 2e-9;
                 ellipsoid_contact_evaluate(model, &surroundings, &at, &cache,

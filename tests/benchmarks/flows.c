@@ -18,12 +18,13 @@ static void set_derivatives(ellipsoid_flow_sample *f)
     memset(f->gradient_jacobian, 0, sizeof(f->gradient_jacobian));
 }
 
-int benchmark_slit_flow(void *context, const double x[3], int derivatives,
-                        ellipsoid_flow_sample *f)
+int benchmark_slit_flow(void *context, double t, const double x[3],
+                        int derivatives, ellipsoid_flow_sample *f)
 {
     const benchmark_flow *flow = context;
     const double across = 2 / flow->size, s = across * x[2];
 
+    (void)t;
     memset(f->velocity, 0, sizeof(f->velocity));
     memset(f->gradient, 0, sizeof(f->gradient));
     f->velocity[1] = flow->speed * (1 - s * s);
@@ -36,8 +37,8 @@ int benchmark_slit_flow(void *context, const double x[3], int derivatives,
     return 0;
 }
 
-int benchmark_helical_flow(void *context, const double x[3], int derivatives,
-                           ellipsoid_flow_sample *f)
+int benchmark_helical_flow(void *context, double t, const double x[3],
+                           int derivatives, ellipsoid_flow_sample *f)
 {
     const benchmark_flow *flow = context;
     const double k = pi / flow->size, root = sqrt(2.0);
@@ -45,6 +46,7 @@ int benchmark_helical_flow(void *context, const double x[3], int derivatives,
     const double s1 = sin(k * x[0]), c1 = cos(k * x[0]);
     const double s2 = sin(k * x[1]), c2 = cos(k * x[1]);
 
+    (void)t;
     f->velocity[0] = a * s1 * c2;
     f->velocity[1] = -a * c1 * s2;
     f->velocity[2] = root * a * s1 * s2;

@@ -20,8 +20,8 @@ typedef struct benchmark_flow
     Plane Poiseuille flow between walls at x3 = -size/2 and size/2:
     u = (0, speed (1 - (2 x3/size)^2), 0); speed is that in the middle.
 */
-int benchmark_slit_flow(void *context, const double x[3], int derivatives,
-                        ellipsoid_flow_sample *sample);
+int benchmark_slit_flow(void *context, double t, const double x[3],
+                        int derivatives, ellipsoid_flow_sample *sample);
 
 /*
     Taylor and Green's vortices in cells of size^2 with a third component that
@@ -29,7 +29,7 @@ int benchmark_slit_flow(void *context, const double x[3], int derivatives,
     u = speed (sin k x1 cos k x2, -cos k x1 sin k x2,
                sqrt(2) sin k x1 sin k x2), curl u = sqrt(2) k u.
 */
-int benchmark_helical_flow(void *context, const double x[3], int derivatives,
-                           ellipsoid_flow_sample *sample);
+int benchmark_helical_flow(void *context, double t, const double x[3],
+                           int derivatives, ellipsoid_flow_sample *sample);
 
 #endif

@@ -75,7 +75,7 @@ void benchmark_journey_init(benchmark_journey *journey, int which)
                     * (slit ? 0.9 * (uniform[i] - 0.5) : uniform[i]);
         }
         ellipsoid_quaternion_from_uniform(uniform + 3, s->q);
-        journey->formula(&journey->flow, s->x, 0, &sample);
+        journey->formula(&journey->flow, 0, s->x, 0, &sample);
         memcpy(s->u, sample.velocity, sizeof(s->u));
     }
 }

@@ -25,10 +25,11 @@ static inline int test_full(void)
     return full && !strcmp(full, "1");
 }
 
-static inline int test_still_flow(void *context, const double x[3],
+static inline int test_still_flow(void *context, double t, const double x[3],
                                   int derivatives,
                                   ellipsoid_flow_sample *sample)
 {
+    (void)t;
     (void)context;
     (void)x;
     (void)derivatives;

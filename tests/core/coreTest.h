@@ -87,12 +87,13 @@ typedef struct test_quadratic
     int answer; /* what the callback returns */
 } test_quadratic;
 
-static inline int test_quadratic_flow(void *context, const double x[3],
-                                      int derivatives,
+static inline int test_quadratic_flow(void *context, double t,
+                                      const double x[3], int derivatives,
                                       ellipsoid_flow_sample *sample)
 {
     const test_quadratic *f = context;
 
+    (void)t;
     for (int i = 0; i < 3; i++)
     {
         sample->velocity[i] = f->u[i];

@@ -17,7 +17,7 @@ typedef struct test_vortices
     double speed, k;
 } test_vortices;
 
-static inline int test_vortex_flow(void *context, const double x[3],
+static inline int test_vortex_flow(void *context, double t, const double x[3],
                                    int derivatives, ellipsoid_flow_sample *f)
 {
     const test_vortices *v = context;
@@ -26,6 +26,7 @@ static inline int test_vortex_flow(void *context, const double x[3],
     const double sy = sin(k * x[1]), cy = cos(k * x[1]);
     const double sz = sin(k * x[2]), cz = cos(k * x[2]);
 
+    (void)t;
     memset(f, 0, sizeof(*f));
     f->velocity[0] = a * (sx * cy + cz);
     f->velocity[1] = -a * (cx * sy - 0.5 * sz);
@@ -82,7 +83,7 @@ static inline ellipsoid_state test_vortex_state(const ellipsoid_model *model,
     ellipsoid_flow_sample sample;
 
     ellipsoid_normalise(s.q);
-    test_vortex_flow(flow, s.x, 0, &sample);
+    test_vortex_flow(flow, 0, s.x, 0, &sample);
     memcpy(s.u, sample.velocity, sizeof(s.u));
     return s;
 }

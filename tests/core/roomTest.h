@@ -19,7 +19,7 @@ static inline ellipsoid_status evaluate_pose(const ellipsoid_model *model,
                                       const double x[3], const double q[4],
                                       ellipsoid_facet_cache *cache,
                                       ellipsoid_contact *contact,
-                                      ellipsoid_contact_jacobian *jacobian)
+                                      ellipsoid_wrench_jacobian *jacobian)
 {
     ellipsoid_state state = {.u = {0}};
 
@@ -65,7 +65,7 @@ static inline int assert_jacobian(const ellipsoid_model *model,
                                   const double pose[7], double tolerance)
 {
     ellipsoid_contact contact, moved;
-    ellipsoid_contact_jacobian exact;
+    ellipsoid_wrench_jacobian exact;
     double y[7], difference[7][6];
     int smooth;
 

@@ -18,18 +18,18 @@ typedef struct trouble
     long calls;
 } trouble;
 
-static int troubled_flow(void *context, const double x[3], int derivatives,
-                         ellipsoid_flow_sample *sample)
+static int troubled_flow(void *context, double t, const double x[3],
+                         int derivatives, ellipsoid_flow_sample *sample)
 {
-    trouble *t = context;
+    trouble *where = context;
 
-    t->calls++;
+    where->calls++;
     assert_true(isfinite(x[0] + x[1] + x[2])); /* never asked at nowhere */
-    test_quadratic_flow(&t->shear, x, derivatives, sample);
-    if (x[0] > t->limit)
+    test_quadratic_flow(&where->shear, t, x, derivatives, sample);
+    if (x[0] > where->limit)
     {
-        sample->velocity[0] += t->bad;
-        return t->answer;
+        sample->velocity[0] += where->bad;
+        return where->answer;
     }
     return 0;
 }
@@ -327,13 +327,13 @@ static void test_bad_state(void **unused)
 }
 
 /* A wall of trouble that is left in time is passed: the run goes on. */
-static int flicker(void *context, const double x[3], int derivatives,
+static int flicker(void *context, double t, const double x[3], int derivatives,
                    ellipsoid_flow_sample *sample)
 {
-    trouble *t = context;
+    trouble *where = context;
 
-    test_quadratic_flow(&t->shear, x, derivatives, sample);
-    return ++t->calls % 31 == 0;
+    test_quadratic_flow(&where->shear, t, x, derivatives, sample);
+    return ++where->calls % 31 == 0;
 }
 
 static void test_passing_trouble(void **unused)

@@ -159,13 +159,13 @@ enum
     INTERVALS = 200
 };
 
-static int shear_flow(void *context, const double x[3], int derivatives,
-                      ellipsoid_flow_sample *sample)
+static int shear_flow(void *context, double t, const double x[3],
+                      int derivatives, ellipsoid_flow_sample *sample)
 {
     test_quadratic shear = test_shear(10);
 
     (void)context;
-    return test_quadratic_flow(&shear, x, derivatives, sample);
+    return test_quadratic_flow(&shear, t, x, derivatives, sample);
 }
 
 static test_walk in_shear(ellipsoid_motion motion, double tolerance,

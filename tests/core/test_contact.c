@@ -16,13 +16,13 @@ typedef struct counted_walls
     double farther; /* [m] reach of the list beyond that asked for */
 } counted_walls;
 
-static int counted(void *context, const double centre[3], double reach,
-                   ellipsoid_facet_list *list)
+static int counted(void *context, double t, const double centre[3],
+                   double reach, ellipsoid_facet_list *list)
 {
     counted_walls *walls = context;
 
     walls->calls++;
-    wall_mesh_list(walls->mesh, centre, reach + walls->farther, list);
+    wall_mesh_list(walls->mesh, t, centre, reach + walls->farther, list);
     return walls->answer;
 }
 
@@ -213,7 +213,7 @@ static void test_cache_changes_nothing(void **unused)
             for (int n = 0; n < 100; n++)
             {
                 ellipsoid_contact a, b;
-                ellipsoid_contact_jacobian ja, jb;
+                ellipsoid_wrench_jacobian ja, jb;
 
                 for (int i = 0; i < 3; i++)
                 {
@@ -322,7 +322,7 @@ static void test_no_walls(void **unused)
     const ellipsoid_surroundings with = around(&walls), without = {0};
     const double x[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1};
     ellipsoid_contact contact;
-    ellipsoid_contact_jacobian jacobian;
+    ellipsoid_wrench_jacobian jacobian;
 
     (void)unused;
     for (options.contact = 0; options.contact < 2; options.contact++)

@@ -47,7 +47,7 @@ static void set_scene(scene *s, const ellipsoid_options options[CELLS],
         s->model[c] = test_model(&options[c]);
         ellipsoid_facet_cache_clear(&s->cache[c]);
         s->group.cell[c] = (ellipsoid_cell){.model = &s->model[c],
-                                               .surroundings = &s->around,
+                                               .surroundings = s->around,
                                                .cache = &s->cache[c],
                                                .statistics = &s->statistics,
                                                .inertial = 1,
@@ -58,7 +58,7 @@ static void set_scene(scene *s, const ellipsoid_options options[CELLS],
 /* The accelerations of all cells. */
 static void accelerations(scene *s, double all[6 * CELLS], int touching[CELLS])
 {
-    assert_ok(ellipsoid_group_evaluate(&s->group, s->point, 0, 0));
+    assert_ok(ellipsoid_group_evaluate(&s->group, 0, s->point, 0, 0));
     for (int c = 0; c < CELLS; c++)
     {
         memcpy(all + 6 * c, s->point[c].derivative.u, 3 * sizeof(*all));
@@ -92,7 +92,7 @@ static void add_rows(const ellipsoid_blocks *b, double rows[6][SIZE])
 
 static void analytic(scene *s, double rows[CELLS][CELLS][6][SIZE])
 {
-    assert_ok(ellipsoid_group_evaluate(&s->group, s->point, 0, 1));
+    assert_ok(ellipsoid_group_evaluate(&s->group, 0, s->point, 0, 1));
     memset(rows, 0, sizeof(double[CELLS][CELLS][6][SIZE]));
     for (int c = 0; c < CELLS; c++)
     {

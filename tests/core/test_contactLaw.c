@@ -206,7 +206,7 @@ static void test_unequal_cells(void **unused)
             o.contact_damping = damping[kind];
             model[n] = test_model(&o);
             group.cell[n] = (ellipsoid_cell){.model = &model[n],
-                                             .surroundings = &around[n],
+                                             .surroundings = around[n],
                                              .statistics = &statistics,
                                              .inertial = 1};
             memset(&group.start[n].state, 0, sizeof(group.start[n].state));
@@ -215,7 +215,7 @@ static void test_unequal_cells(void **unused)
         group.start[1].state.x[0] = overlap - 2;
         group.start[0].state.u[0] = parting;
         group.start[0].state.u[1] = slip;
-        assert_ok(ellipsoid_group_evaluate(&group, group.start, 0, 0));
+        assert_ok(ellipsoid_group_evaluate(&group, 0, group.start, 0, 0));
 
         mu = sqrt(friction[0] * friction[1]);
         speed = fmax(slip_speed[0], slip_speed[1]);

@@ -16,11 +16,11 @@ enum
 static test_quadratic still = {.answer = 0};
 
 /* The polynomial that serves as a flow elsewhere, as a field [V/m]. */
-static int polynomial_field(void *context, const double x[3], double field[3],
-                            double (*jacobian)[3])
+static int polynomial_field(void *context, double t, const double x[3],
+                            double field[3], double (*jacobian)[3])
 {
     ellipsoid_flow_sample sample;
-    const int answer = test_quadratic_flow(context, x, 0, &sample);
+    const int answer = test_quadratic_flow(context, t, x, 0, &sample);
 
     memcpy(field, sample.velocity, sizeof(sample.velocity));
     if (jacobian)
@@ -340,10 +340,10 @@ static void test_dipole_in_shear(void **unused)
 /* ---------------------------------------------------------------- statuses */
 
 /* The field ends at x1 = 1. */
-static int ending_field(void *context, const double x[3], double field[3],
-                        double (*jacobian)[3])
+static int ending_field(void *context, double t, const double x[3],
+                        double field[3], double (*jacobian)[3])
 {
-    return polynomial_field(context, x, field, jacobian) + (x[0] > 1);
+    return polynomial_field(context, t, x, field, jacobian) + (x[0] > 1);
 }
 
 /* What the callback answers, as for the flow; what it gives must be finite; and

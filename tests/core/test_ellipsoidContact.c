@@ -88,7 +88,7 @@ static void test_sphere_is_a_bead(void **unused)
         {
             double x[3], q[4], force[3], force_x[3][3];
             ellipsoid_contact contact;
-            ellipsoid_contact_jacobian jacobian;
+            ellipsoid_wrench_jacobian jacobian;
 
             for (int i = 0; i < 3; i++)
             {

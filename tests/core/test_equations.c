@@ -82,9 +82,10 @@ static ellipsoid_state random_state(uint64_t *seed)
 }
 
 /* E = (x2, x1 x2, x3^2) */
-static int curved_field(void *context, const double x[3], double field[3],
-                        double (*jacobian)[3])
+static int curved_field(void *context, double t, const double x[3],
+                        double field[3], double (*jacobian)[3])
 {
+    (void)t;
     (void)context;
     ellipsoid_set(field, x[1], x[0] * x[1], x[2] * x[2]);
     if (jacobian)
@@ -296,8 +297,8 @@ static void test_written_out(void **unused)
         ellipsoid_normalise(s.q);
         memcpy(y, &s, sizeof(y));
         rates(&m, &flow, y, f);
-        test_quadratic_flow(&flow, s.x, 0, &u);
-        curved_field(NULL, s.x, field, NULL);
+        test_quadratic_flow(&flow, 0, s.x, 0, &u);
+        curved_field(NULL, 0, s.x, field, NULL);
         ellipsoid_rotation(s.q, r);
         for (int i = 0; i < 3; i++)
         {
@@ -390,7 +391,7 @@ static void test_rigid_rotation(void **unused)
             flow.g[(i + 2) % 3][(i + 1) % 3] = w[i];
             s.omega[i] = r[0][i] * w[0] + r[1][i] * w[1] + r[2][i] * w[2];
         }
-        test_quadratic_flow(&flow, s.x, 0, &u);
+        test_quadratic_flow(&flow, 0, s.x, 0, &u);
         memcpy(s.u, u.velocity, sizeof(s.u));
         memcpy(y, &s, sizeof(y));
         rates(&m, &flow, y, f);

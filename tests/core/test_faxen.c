@@ -218,11 +218,12 @@ typedef struct powers
     int degree;
 } powers;
 
-static int power_flow(void *context, const double x[3], int derivatives,
-                      ellipsoid_flow_sample *f)
+static int power_flow(void *context, double t, const double x[3],
+                      int derivatives, ellipsoid_flow_sample *f)
 {
     const powers *p = context;
 
+    (void)t;
     (void)derivatives;
     memset(f, 0, sizeof(*f));
     for (int i = 0; i < 3; i++)
@@ -275,9 +276,10 @@ static void test_degree_of_flow(void **unused)
 }
 
 /* A shear above the wall x3 = 0, where the flow is told to end. */
-static int shear_above(void *context, const double x[3], int derivatives,
-                       ellipsoid_flow_sample *f)
+static int shear_above(void *context, double t, const double x[3],
+                       int derivatives, ellipsoid_flow_sample *f)
 {
+    (void)t;
     (void)context;
     (void)derivatives;
     memset(f, 0, sizeof(*f));
@@ -288,10 +290,12 @@ static int shear_above(void *context, const double x[3], int derivatives,
 
 static int calls;
 
-static int velocities_above(void *context, const double centre[3], int count,
+static int velocities_above(void *context, double t, const double centre[3],
+                            int count,
                             double (*points)[3], double (*velocity)[3],
                             double (*jacobian)[3][3])
 {
+    (void)t;
     (void)context;
     (void)jacobian;
     assert_true(centre[2] == 0.2);

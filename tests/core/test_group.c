@@ -164,7 +164,7 @@ static void overlapping(crowd *c, ellipsoid_group *g, ellipsoid_pairs *pairs,
     {
         g->cell[i] = (ellipsoid_cell){
             .model = &c->model,
-            .surroundings = &c->around[i],
+            .surroundings = c->around[i],
             .statistics = &c->statistics[i],
             .length = 2e-6,
             .rate = 1 / c->model.relaxation_time,
@@ -195,7 +195,7 @@ static void test_equal_and_opposite(void **unused)
         double moment[3] = {0, 0, 0}, size = 0;
 
         overlapping(&c, &g, &pairs, 2e-8, &seed);
-        assert_ok(ellipsoid_group_evaluate(&g, g.start, 0, 0));
+        assert_ok(ellipsoid_group_evaluate(&g, 0, g.start, 0, 0));
         for (int i = 0; i < 2; i++)
         {
             const ellipsoid_contact *contact = &g.start[i].contact;
@@ -242,7 +242,7 @@ static void test_two_spheres(void **unused)
     o.bead_radius = r;
     crowd_init(&c, 2, &o, NULL);
     overlapping(&c, &g, &pairs, depth, &seed);
-    assert_ok(ellipsoid_group_evaluate(&g, g.start, 0, 0));
+    assert_ok(ellipsoid_group_evaluate(&g, 0, g.start, 0, 0));
     contact = &g.start[0].contact;
     /* the depth is set to 1e-14 m */
     assert_relative(ellipsoid_length(contact->cell_force),
@@ -258,7 +258,7 @@ static void test_two_spheres(void **unused)
 /* The 26 derivatives at a state of two cells. */
 static void slopes(ellipsoid_group *g, double f[26])
 {
-    assert_ok(ellipsoid_group_evaluate(g, g->next, 0, 0));
+    assert_ok(ellipsoid_group_evaluate(g, 0, g->next, 0, 0));
     memcpy(f, g->next[0].slope, sizeof(g->next[0].slope));
     memcpy(f + 13, g->next[1].slope, sizeof(g->next[1].slope));
 }
@@ -311,7 +311,7 @@ static void test_jacobian(void **unused)
         double largest[4][4][2] = {{{0}}};
 
         overlapping(&c, &g, &pairs, 3e-8, &seed);
-        assert_ok(ellipsoid_group_evaluate(&g, g.start, 0, 1));
+        assert_ok(ellipsoid_group_evaluate(&g, 0, g.start, 0, 1));
         assert_int_equal(pairs.count, 2);
         for (int column = 0; column < 26; column++)
         {
@@ -380,7 +380,7 @@ static void test_coupled_system(void **unused)
         ellipsoid_pairs pairs;
 
         overlapping(&c, &g, &pairs, 1e-8, &seed);
-        assert_ok(ellipsoid_group_evaluate(&g, g.start, 0, 1));
+        assert_ok(ellipsoid_group_evaluate(&g, 0, g.start, 0, 1));
         assert_true(ellipsoid_group_prepare(&g, h));
         for (int cell = 0; cell < 2; cell++)
         {

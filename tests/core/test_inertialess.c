@@ -421,8 +421,8 @@ typedef struct reluctant
     int refusals;
 } reluctant;
 
-static int reluctant_flow(void *context, const double x[3], int derivatives,
-                          ellipsoid_flow_sample *sample)
+static int reluctant_flow(void *context, double t, const double x[3],
+                          int derivatives, ellipsoid_flow_sample *sample)
 {
     reluctant *r = context;
 
@@ -431,7 +431,7 @@ static int reluctant_flow(void *context, const double x[3], int derivatives,
         r->refusals--;
         return 1;
     }
-    return test_quadratic_flow(&r->flow, x, derivatives, sample);
+    return test_quadratic_flow(&r->flow, t, x, derivatives, sample);
 }
 
 /* Derivatives that could not be had are asked for again with the next, shorter

@@ -282,12 +282,12 @@ static void check_forces_balance(ellipsoid_contact_shape shape)
         {
             e.state[k].x[0] *= 0.3;
             group.cell[k] = (ellipsoid_cell){.model = &e.model[k],
-                                                .surroundings = &e.around[k],
+                                                .surroundings = e.around[k],
                                                 .statistics = &statistics,
                                                 .inertial = 1};
             group.start[k].state = e.state[k];
         }
-        assert_ok(ellipsoid_group_evaluate(&group, group.start, 0, 0));
+        assert_ok(ellipsoid_group_evaluate(&group, 0, group.start, 0, 0));
         for (int k = 0; k < 2; k++)
         {
             const ellipsoid_contact *c = &group.start[k].contact;

@@ -23,7 +23,7 @@ static wall_mesh near_line(wall_mesh *wall, const double from[3],
         middle[i] = (from[i] + to[i]) / 2;
         half[i] = (to[i] - from[i]) / 2;
     }
-    wall_mesh_list(wall, middle, sqrt(ellipsoid_dot(half, half)) + 1.1 * r,
+    wall_mesh_list(wall, 0, middle, sqrt(ellipsoid_dot(half, half)) + 1.1 * r,
                    &list);
     part.index = wall->listed;
     part.count = list.count;
@@ -285,7 +285,7 @@ static void test_random_ground(void **unused)
             double z = 3, before[3] = {0, 0, 0}, last = 0;
             ellipsoid_facet_list list;
 
-            assert_int_equal(wall_mesh_list(&wall, start, 5, &list), 0);
+            assert_int_equal(wall_mesh_list(&wall, 0, start, 5, &list), 0);
             list.count = list.count < 200 ? list.count : 200;
             memcpy(index, list.index, list.count * sizeof *index);
             for (int s = -20; s <= samples; s++)

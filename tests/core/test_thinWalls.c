@@ -21,13 +21,13 @@ typedef struct asked_walls
     int calls;
 } asked_walls;
 
-static int asked(void *context, const double centre[3], double reach,
+static int asked(void *context, double t, const double centre[3], double reach,
                  ellipsoid_facet_list *list)
 {
     asked_walls *walls = context;
 
     walls->calls++;
-    wall_mesh_list(walls->mesh, centre, reach, list);
+    wall_mesh_list(walls->mesh, t, centre, reach, list);
     if (walls->distance)
     {
         list->reach = fmax(reach, walls->distance(centre));

@@ -55,11 +55,12 @@ typedef struct worker
 } worker;
 
 /* A field that turns and carries: uniform, and stronger with height. */
-static int field_of(void *context, const double x[3], double field[3],
+static int field_of(void *context, double t, const double x[3], double field[3],
                     double (*jacobian)[3])
 {
     const double *slope = context;
 
+    (void)t;
     field[0] = 2e3;
     field[1] = -1e3;
     field[2] = *slope * x[2];

@@ -332,11 +332,12 @@ void wall_mesh_finish(wall_mesh *mesh)
     free(edges);
 }
 
-int wall_mesh_list(void *context, const double centre[3], double reach,
-                   ellipsoid_facet_list *list)
+int wall_mesh_list(void *context, double t, const double centre[3],
+                   double reach, ellipsoid_facet_list *list)
 {
     wall_mesh *mesh = context;
 
+    (void)t;
     list->facets = mesh->facets;
     list->index = mesh->listed;
     list->count = 0;

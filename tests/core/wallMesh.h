@@ -57,7 +57,7 @@ void wall_mesh_box(wall_mesh *mesh, const double low[3], const double high[3],
 void wall_mesh_finish(wall_mesh *mesh);
 
 /* An ellipsoid_walls_function; context is a wall_mesh. */
-int wall_mesh_list(void *context, const double centre[3], double reach,
-                   ellipsoid_facet_list *list);
+int wall_mesh_list(void *context, double t, const double centre[3],
+                   double reach, ellipsoid_facet_list *list);
 
 #endif

@@ -36,7 +36,7 @@ void fuzz_check_pose(const ellipsoid_model *model, fuzz_scene *scene,
     static ellipsoid_facet_cache cold;
     const int has_walls = model->options.contact && scene->around.walls;
     ellipsoid_contact contact, again;
-    ellipsoid_contact_jacobian jacobian;
+    ellipsoid_wrench_jacobian jacobian;
     ellipsoid_status status;
     int overlaps = 2, all_overlaps = 2;
 

@@ -167,11 +167,12 @@ static void sample_flow(const fuzz_scene *s, const double x[3],
     }
 }
 
-static int flow(void *context, const double x[3], int derivatives,
+static int flow(void *context, double t, const double x[3], int derivatives,
                 ellipsoid_flow_sample *sample)
 {
     fuzz_scene *s = context;
 
+    (void)t;
     require_finite(s, x);
     require(!s->flow_gave_up);
     memcpy(s->sampled, x, sizeof s->sampled);
@@ -195,12 +196,13 @@ static int flow(void *context, const double x[3], int derivatives,
     return answer_of(&s->flow_fault, x, &s->flow_gave_up);
 }
 
-static int velocities(void *context, const double centre[3], int count,
-                      double (*points)[3], double (*velocity)[3],
+static int velocities(void *context, double t, const double centre[3],
+                      int count, double (*points)[3], double (*velocity)[3],
                       double (*jacobian)[3][3])
 {
     fuzz_scene *s = context;
 
+    (void)t;
     require_finite(s, centre);
     require(count > 0 && count <= ELLIPSOID_MAX_FLOW_POINTS);
     require(memcmp(centre, s->sampled, sizeof s->sampled) == 0);
@@ -231,11 +233,12 @@ static int velocities(void *context, const double centre[3], int count,
     return 0;
 }
 
-static int field(void *context, const double x[3], double e[3],
+static int field(void *context, double t, const double x[3], double e[3],
                  double (*jacobian)[3])
 {
     fuzz_scene *s = context;
 
+    (void)t;
     require_finite(s, x);
     require(!s->field_gave_up);
     for (int i = 0; i < 3; i++)
@@ -264,14 +267,14 @@ static int field(void *context, const double x[3], double e[3],
 
 /* ---------------------------------------------------------------- walls */
 
-static int walls(void *context, const double centre[3], double reach,
+static int walls(void *context, double t, const double centre[3], double reach,
                  ellipsoid_facet_list *list)
 {
     fuzz_scene *s = context;
 
     require_finite(s, centre);
     require(!s->strict || (reach > 0 && isfinite(reach)));
-    wall_mesh_list(&s->mesh, centre, reach, list);
+    wall_mesh_list(&s->mesh, t, centre, reach, list);
     if (s->generous)
     {
         list->index = s->mesh.index;

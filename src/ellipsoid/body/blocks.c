@@ -7,7 +7,7 @@
 */
 #include "body/body.h"
 
-void ellipsoid_add_to_blocks(const ellipsoid_contact_jacobian *jacobian,
+void ellipsoid_add_to_blocks(const ellipsoid_wrench_jacobian *jacobian,
                              double of_force, const double of_torque[3],
                              ellipsoid_blocks *b)
 {

@@ -28,7 +28,7 @@ typedef struct ellipsoid_blocks
 
 /* Adds derivatives of force and torque to the blocks: rows of u times
    of_force, row i of omega times of_torque[i] (blocks.c). */
-void ellipsoid_add_to_blocks(const ellipsoid_contact_jacobian *jacobian,
+void ellipsoid_add_to_blocks(const ellipsoid_wrench_jacobian *jacobian,
                              double of_force, const double of_torque[3],
                              ellipsoid_blocks *blocks);
 

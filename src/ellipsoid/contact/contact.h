@@ -57,14 +57,14 @@ int ellipsoid_bead_contact(const ellipsoid_bead *bead,
 void ellipsoid_add_wrench_jacobian(const double arm[3], const double q[4],
                                double r[3][3], const double force[3],
                                double force_x[3][3],
-                               ellipsoid_contact_jacobian *jacobian);
+                               ellipsoid_wrench_jacobian *jacobian);
 
 /* Likewise by the pose of another body, that of its point `other_arm`. */
 void ellipsoid_add_cross_jacobian(const double arm[3], double r[3][3],
                                      const double other_arm[3],
                                      const double other_q[4],
                                      double force_x[3][3],
-                                     ellipsoid_contact_jacobian *jacobian);
+                                     ellipsoid_wrench_jacobian *jacobian);
 
 /* ------------------------------------------------- friction and damping */
 
@@ -130,7 +130,7 @@ void ellipsoid_add_friction(const ellipsoid_friction *rub, int body, double forc
 /* Adds to jacobian[i][k] the derivatives of what body i feels by the state of
    body k (wrenchJacobian.c). */
 void ellipsoid_add_friction_jacobian(
-    ellipsoid_friction *rub, ellipsoid_contact_jacobian *const jacobian[2][2]);
+    ellipsoid_friction *rub, ellipsoid_wrench_jacobian *const jacobian[2][2]);
 
 /* A wall's push on a bead becomes force and torque with friction and damping;
    jacobian may be NULL. */
@@ -138,7 +138,7 @@ void ellipsoid_add_wall_friction(const ellipsoid_model *model,
                         const ellipsoid_state *state, double r[3][3],
                         const double arm[3], ellipsoid_point_force *push,
                         ellipsoid_contact *contact,
-                        ellipsoid_contact_jacobian *jacobian);
+                        ellipsoid_wrench_jacobian *jacobian);
 
 /* -------------------------------------------- the ellipsoid and walls */
 
@@ -151,7 +151,7 @@ ellipsoid_surface_contact_add(const ellipsoid_model *model,
                             const ellipsoid_state *state,
                             ellipsoid_facet_cache *cache,
                             ellipsoid_contact *contact,
-                            ellipsoid_contact_jacobian *jacobian);
+                            ellipsoid_wrench_jacobian *jacobian);
 
 /* Derivatives of a pair are by x_a - x_b, a small rotation of a, and one of b;
    all in the lab. */
@@ -213,7 +213,7 @@ void ellipsoid_wrench_add(const ellipsoid_surface_push *push,
 void ellipsoid_wrench_report(const ellipsoid_surface_push *push,
                             const ellipsoid_wrench *sum, int b,
                             double force[3], double torque[3],
-                            ellipsoid_contact_jacobian *const by[2]);
+                            ellipsoid_wrench_jacobian *const by[2]);
 
 /* ------------------------------------------------- two bodies in contact */
 
@@ -268,7 +268,7 @@ double ellipsoid_surface_gap(const ellipsoid_body *a, const ellipsoid_body *b);
 typedef struct ellipsoid_pair_wrench
 {
     double force[3], torque[3];
-    ellipsoid_contact_jacobian own, other;
+    ellipsoid_wrench_jacobian own, other;
 } ellipsoid_pair_wrench;
 
 typedef struct ellipsoid_pair_contact

@@ -338,10 +338,10 @@ ellipsoid_surface_contact_add(const ellipsoid_model *model,
                             const ellipsoid_state *state,
                             ellipsoid_facet_cache *cache,
                             ellipsoid_contact *contact,
-                            ellipsoid_contact_jacobian *jacobian)
+                            ellipsoid_wrench_jacobian *jacobian)
 {
     const ellipsoid_options *o = &model->options;
-    ellipsoid_contact_jacobian *const by[2] = {jacobian, NULL};
+    ellipsoid_wrench_jacobian *const by[2] = {jacobian, NULL};
     ellipsoid_surface body;
     ellipsoid_wall_laws laws;
     contacts all;

@@ -66,7 +66,7 @@ static void set_push(const ellipsoid_surface_pair *pair,
 void ellipsoid_surface_pair_contact(ellipsoid_pair_contact *m)
 {
     ellipsoid_pair_wrench *const side[2] = {m->of_a, m->of_b};
-    ellipsoid_contact_jacobian *const by[2][2] = {
+    ellipsoid_wrench_jacobian *const by[2][2] = {
         {&m->of_a->own, &m->of_a->other}, {&m->of_b->other, &m->of_b->own}};
     ellipsoid_surface a = itself(m->a), b = itself(m->b);
     ellipsoid_surface_pair pair;

@@ -228,7 +228,7 @@ static void spread(double slope[VARIABLES][3], int by, const double q[4],
 void ellipsoid_wrench_report(const ellipsoid_surface_push *p,
                             const ellipsoid_wrench *sum, int b,
                             double force[3], double torque[3],
-                            ellipsoid_contact_jacobian *const by[2])
+                            ellipsoid_wrench_jacobian *const by[2])
 {
     double (*r)[3] = p->body[b]->rotation;
     double force_slope[VARIABLES][3], torque_slope[VARIABLES][3];
@@ -266,7 +266,7 @@ void ellipsoid_wrench_report(const ellipsoid_surface_push *p,
     for (int n = 0; n < p->bodies; n++)
     {
         const double *q = p->state[n]->q;
-        ellipsoid_contact_jacobian *to = by[n];
+        ellipsoid_wrench_jacobian *to = by[n];
 
         spread(force_slope, n, q, to->force_u, to->force_x, to->force_omega,
                to->force_q);

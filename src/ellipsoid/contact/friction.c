@@ -179,12 +179,12 @@ void ellipsoid_add_wall_friction(const ellipsoid_model *model,
                         const ellipsoid_state *state, double r[3][3],
                         const double arm[3], ellipsoid_point_force *push,
                         ellipsoid_contact *contact,
-                        ellipsoid_contact_jacobian *jacobian)
+                        ellipsoid_wrench_jacobian *jacobian)
 {
     const ellipsoid_friction_law law = ellipsoid_friction_law_of(model);
     const double size = ellipsoid_length(push->force);
     const double lever = size > 0 ? model->options.bead_radius / size : 0;
-    ellipsoid_contact_jacobian *const by_own[2][2] = {{jacobian, NULL},
+    ellipsoid_wrench_jacobian *const by_own[2][2] = {{jacobian, NULL},
                                                       {NULL, NULL}};
     ellipsoid_friction rub = {.bodies = 1};
 

@@ -87,7 +87,7 @@ static void add_rub(ellipsoid_pair_contact *m, int bead_a, int bead_b,
     const double r_a = m->a->model->options.bead_radius;
     const double r_b = m->b->model->options.bead_radius;
     const double part_a = r_a / (r_a + r_b), part_b = r_b / (r_a + r_b);
-    ellipsoid_contact_jacobian *const jacobian[2][2] = {
+    ellipsoid_wrench_jacobian *const jacobian[2][2] = {
         {&m->of_a->own, &m->of_a->other}, {&m->of_b->other, &m->of_b->own}};
     ellipsoid_body a = *m->a, b = *m->b;
     ellipsoid_friction rub = {.bodies = 2};

@@ -13,7 +13,7 @@
 static void add_elastic(const ellipsoid_state *state, const double arm[3],
                         double r[3][3], ellipsoid_point_force *felt,
                         ellipsoid_contact *contact,
-                        ellipsoid_contact_jacobian *jacobian)
+                        ellipsoid_wrench_jacobian *jacobian)
 {
     ellipsoid_add_force_at(arm, r, felt->force, contact->force,
                            contact->torque);
@@ -28,7 +28,7 @@ static void add_bead(const ellipsoid_model *model, const ellipsoid_state *state,
                      const double arm[3], double r[3][3],
                      ellipsoid_point_force *push, ellipsoid_point_force *pull,
                      ellipsoid_contact *contact,
-                     ellipsoid_contact_jacobian *jacobian)
+                     ellipsoid_wrench_jacobian *jacobian)
 {
     contact->touching_beads++;
     if (model->dissipative)
@@ -68,7 +68,7 @@ static void sum_beads(const ellipsoid_model *model,
                       const ellipsoid_facet_cache *cache,
                       const ellipsoid_state *state, double moved,
                       ellipsoid_contact *contact,
-                      ellipsoid_contact_jacobian *jacobian)
+                      ellipsoid_wrench_jacobian *jacobian)
 {
     /* the bounds are rounded too */
     const double away = moved + 1e-9 * model->options.bead_radius;
@@ -114,7 +114,7 @@ ellipsoid_status ellipsoid_contact_evaluate(
     const ellipsoid_state *state,
     ellipsoid_facet_cache *cache,
     ellipsoid_contact *contact,
-    ellipsoid_contact_jacobian *jacobian)
+    ellipsoid_wrench_jacobian *jacobian)
 {
     memset(contact, 0, sizeof *contact);
     contact->gap = contact->cell_gap = HUGE_VAL;

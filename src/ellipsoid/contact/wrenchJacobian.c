@@ -40,7 +40,7 @@ static void turned_by(const double q[4], int n, const double body[3],
 void ellipsoid_add_wrench_jacobian(const double arm[3], const double q[4],
                                double r[3][3], const double force[3],
                                double force_x[3][3],
-                               ellipsoid_contact_jacobian *jacobian)
+                               ellipsoid_wrench_jacobian *jacobian)
 {
     const double conjugate[4] = {-q[0], -q[1], -q[2], q[3]};
     double column[3], body[3], torque[3];
@@ -96,7 +96,7 @@ void ellipsoid_add_cross_jacobian(const double arm[3], double r[3][3],
                                      const double other_arm[3],
                                      const double other_q[4],
                                      double force_x[3][3],
-                                     ellipsoid_contact_jacobian *jacobian)
+                                     ellipsoid_wrench_jacobian *jacobian)
 {
     for (int n = 0; n < 7; n++)
     {
@@ -162,7 +162,7 @@ static change change_of(const ellipsoid_attachment *grip, int n)
 
 /* Column n, in the order of the state, of force and torque. */
 static void add_column(const double force[3], const double torque[3], int n,
-                       ellipsoid_contact_jacobian *to)
+                       ellipsoid_wrench_jacobian *to)
 {
     for (int i = 0; i < 3; i++)
     {
@@ -183,7 +183,7 @@ static void add_column(const double force[3], const double torque[3], int n,
 */
 static void add_felt(const ellipsoid_attachment *grip, const double force[3],
                      const double force_n[3], const double point_n[3], int own,
-                     int n, ellipsoid_contact_jacobian *to)
+                     int n, ellipsoid_wrench_jacobian *to)
 {
     const double *q = grip->state->q;
     const double conjugate[4] = {-q[0], -q[1], -q[2], q[3]};
@@ -241,7 +241,7 @@ static void changed_rub(ellipsoid_friction *rub, int body, const change *c,
 }
 
 void ellipsoid_add_friction_jacobian(
-    ellipsoid_friction *rub, ellipsoid_contact_jacobian *const jacobian[2][2])
+    ellipsoid_friction *rub, ellipsoid_wrench_jacobian *const jacobian[2][2])
 {
     const double *f = rub->traction.force;
     const double back[3] = {-f[0], -f[1], -f[2]};

@@ -24,9 +24,10 @@ static int velocities_of_flow(const ellipsoid_surroundings *surroundings,
 {
     for (int p = 0; p < count; p++)
     {
-        ellipsoid_flow_sample sample;
-        const int answer = surroundings->flow(
-            surroundings->flow_context, points[p], jacobian != NULL, &sample);
+        ellipsoid_flow_sample sample = {.velocity = {0}};
+        const int answer =
+            surroundings->flow(surroundings->flow_context, surroundings->time,
+                               points[p], jacobian != NULL, &sample);
 
         if (answer < 0)
         {
@@ -110,10 +111,16 @@ ellipsoid_status ellipsoid_faxen(
         ellipsoid_combination(axis, c[0], c[1], c[2], points[p]);
         ellipsoid_add(points[p], x);
     }
+    memset(velocity, 0, (size_t)count * sizeof *velocity);
+    if (wanted)
+    {
+        memset(jacobian, 0, (size_t)count * sizeof *jacobian);
+    }
     answer =
         surroundings->velocities
-            ? surroundings->velocities(surroundings->flow_context, x, count,
-                                       points, velocity, wanted)
+            ? surroundings->velocities(surroundings->flow_context,
+                                       surroundings->time, x, count, points,
+                                       velocity, wanted)
             : velocities_of_flow(surroundings, count, points, velocity, wanted);
     if (answer != 0)
     {

@@ -15,9 +15,10 @@
 static const double shear_rate = 1000; /* [1/s] */
 
 /* u = (shear_rate x2, 0, 0) */
-static int simple_shear(void *context, const double x[3], int derivatives,
-                        ellipsoid_flow_sample *sample)
+static int simple_shear(void *context, double t, const double x[3],
+                        int derivatives, ellipsoid_flow_sample *sample)
 {
+    (void)t;
     (void)context;
     (void)derivatives;
     memset(sample, 0, sizeof(*sample));

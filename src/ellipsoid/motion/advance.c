@@ -88,12 +88,13 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
 
     if (!g->has_blocks)
     {
-        status = ellipsoid_group_evaluate(g, g->start, !g->inertial, 1);
+        status = ellipsoid_group_evaluate(g, planned->start, g->start,
+                                          !g->inertial, 1);
         g->has_blocks = status == ELLIPSOID_OK;
     }
     if (status == ELLIPSOID_OK)
     {
-        status = ellipsoid_rosenbrock_step(g, planned->h);
+        status = ellipsoid_rosenbrock_step(g, planned);
     }
     if (status == ELLIPSOID_OK)
     {
@@ -111,8 +112,8 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
         memcpy(&g->next[cell].state, y, sizeof(g->next[cell].state));
     }
     g->next_has_blocks = !planned->last;
-    status =
-        ellipsoid_group_evaluate(g, g->next, !g->inertial, g->next_has_blocks);
+    status = ellipsoid_group_evaluate(g, planned->end, g->next, !g->inertial,
+                                      g->next_has_blocks);
     /* there is room for the couplings of one time only */
     g->has_blocks = g->has_blocks && !(g->pairs && g->next_has_blocks);
     if (status == ELLIPSOID_OK && is_one_held_back(g, planned->h))
@@ -124,14 +125,15 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
 
 /*
     One attempt at a step. Without inertia it is explicit, unless a cell touches
-    something in it or is turned by a dipole: both may be stiff. Sets next;
+    something in it, is turned by a dipole or under an external force: these
+    may be stiff. Sets next;
     *error is above 1 if it is too large.
 */
 static ellipsoid_status try_step(ellipsoid_group *g,
                                  const ellipsoid_plan *planned, double *error,
                                  int *explicitly)
 {
-    int touched = g->aligned;
+    int touched = g->stiff;
     ellipsoid_status status = ELLIPSOID_OK;
 
     for (int cell = 0; cell < g->count; cell++)
@@ -140,7 +142,7 @@ static ellipsoid_status try_step(ellipsoid_group *g,
     }
     if (!g->inertial && !touched)
     {
-        status = ellipsoid_explicit_step(g, planned->h, &touched);
+        status = ellipsoid_explicit_step(g, planned, &touched);
     }
     *explicitly = !g->inertial && !touched;
     if (!*explicitly)
@@ -188,7 +190,8 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
 
     if (!(proposal > 0))
     {
-        const ellipsoid_status status = ellipsoid_first_step(g, &proposal);
+        const ellipsoid_status status =
+            ellipsoid_first_step(g, t, end, &proposal);
 
         if (status != ELLIPSOID_OK)
         {
@@ -238,8 +241,8 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
             }
             for (int cell = 0; cell < g->count; cell++)
             {
-                g->step[cell].start = t;
-                g->step[cell].end = planned.last ? end : t + planned.h;
+                g->step[cell].start = planned.start;
+                g->step[cell].end = planned.end;
             }
             if (g->observed)
             {
@@ -312,7 +315,8 @@ static ellipsoid_status begin(ellipsoid_group *g,
         return status;
     }
     g->has_blocks = g->inertial;
-    return ellipsoid_group_evaluate(g, g->start, !g->inertial, g->has_blocks);
+    return ellipsoid_group_evaluate(g, t, g->start, !g->inertial,
+                                    g->has_blocks);
 }
 
 /* The step control of the group follows from those of its members. */

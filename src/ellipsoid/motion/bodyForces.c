@@ -21,7 +21,7 @@ static void add_pressure_gradient(const ellipsoid_model *m,
     }
 }
 
-static void add_pressure_gradient_blocks(const ellipsoid_model *m,
+static void add_pressure_gradient_blocks(const ellipsoid_model *m, int unsteady,
                                          ellipsoid_flow_sample *flow,
                                          ellipsoid_blocks *b)
 {
@@ -42,6 +42,11 @@ static void add_pressure_gradient_blocks(const ellipsoid_model *m,
             {
                 b->ux[i][l] +=
                     m->fluid_mass * (of_gradient[l] + of_velocity[l]);
+            }
+            for (int l = 0; unsteady && l < 3; l++)
+            {
+                b->ux[i][l] +=
+                    m->fluid_mass * flow->acceleration_jacobian[i][l];
             }
         }
         else if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
@@ -77,8 +82,9 @@ static ellipsoid_status add_electric(const ellipsoid_model *m,
 
     if (surroundings->field)
     {
-        const int answer = surroundings->field(surroundings->field_context, x,
-                                               field, d ? jacobian : NULL);
+        const int answer =
+            surroundings->field(surroundings->field_context, surroundings->time,
+                                x, field, d ? jacobian : NULL);
 
         if (answer != 0)
         {
@@ -118,22 +124,57 @@ static ellipsoid_status add_electric(const ellipsoid_model *m,
     return ELLIPSOID_OK;
 }
 
+/* The external force and torque of a callback. */
+static ellipsoid_status add_external(const ellipsoid_surroundings *surroundings,
+                                     const ellipsoid_state *state,
+                                     double force[3], double torque[3],
+                                     ellipsoid_blocks *b)
+{
+    static const double ones[3] = {1, 1, 1};
+    double more[3] = {0, 0, 0}, turning[3] = {0, 0, 0};
+    ellipsoid_wrench_jacobian jacobian = {.force_x = {{0}}};
+    const int answer =
+        surroundings->force(surroundings->force_context, surroundings->time,
+                            state, more, turning, b ? &jacobian : NULL);
+
+    if (answer != 0)
+    {
+        return answer > 0 ? ELLIPSOID_STEP_UNDERFLOW : ELLIPSOID_FORCE_FAILED;
+    }
+    ellipsoid_add(force, more);
+    ellipsoid_add(torque, turning);
+    if (b)
+    {
+        ellipsoid_add_to_blocks(&jacobian, 1, ones, b);
+    }
+    return ELLIPSOID_OK;
+}
+
 ellipsoid_status ellipsoid_add_body_forces(
     const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
-    const double x[3], double axis[3][3], double axis_derivatives[4][3][3],
-    ellipsoid_flow_sample *flow, double force[3], double torque[3],
-    ellipsoid_blocks *blocks)
+    const ellipsoid_state *state, double axis[3][3],
+    double axis_derivatives[4][3][3], ellipsoid_flow_sample *flow,
+    double force[3], double torque[3], ellipsoid_blocks *blocks)
 {
+    ellipsoid_status status = ELLIPSOID_OK;
+
     if (flow)
     {
         add_pressure_gradient(model, flow, force);
         if (blocks)
         {
-            add_pressure_gradient_blocks(model, flow, blocks);
+            add_pressure_gradient_blocks(model, surroundings->unsteady, flow,
+                                         blocks);
         }
     }
-    return model->electric
-             ? add_electric(model, surroundings, x, axis, axis_derivatives,
-                            force, torque, blocks)
-             : ELLIPSOID_OK;
+    if (model->electric)
+    {
+        status = add_electric(model, surroundings, state->x, axis,
+                              axis_derivatives, force, torque, blocks);
+    }
+    if (status == ELLIPSOID_OK && surroundings->force)
+    {
+        status = add_external(surroundings, state, force, torque, blocks);
+    }
+    return status;
 }

@@ -238,7 +238,7 @@ add_contact(evaluation *e, const ellipsoid_surroundings *surroundings,
             ellipsoid_facet_cache *cache, ellipsoid_contact *contact,
             ellipsoid_blocks *b)
 {
-    ellipsoid_contact_jacobian jacobian;
+    ellipsoid_wrench_jacobian jacobian;
     const ellipsoid_status status = ellipsoid_contact_evaluate(
         e->model, surroundings, e->state, cache, contact, b ? &jacobian : NULL);
 
@@ -391,8 +391,16 @@ set_forces(evaluation *e, const ellipsoid_surroundings *surroundings,
         ellipsoid_set(push, m->fluid_mass * push[0], m->fluid_mass * push[1],
                       m->fluid_mass * push[2]);
         ellipsoid_add(e->force, push);
+        if (surroundings->unsteady)
+        {
+            const double *rate = e->flow->local_acceleration;
+
+            ellipsoid_set(push, m->fluid_mass * rate[0],
+                          m->fluid_mass * rate[1], m->fluid_mass * rate[2]);
+            ellipsoid_add(e->force, push);
+        }
     }
-    if (blocks || noise || m->electric
+    if (blocks || noise || m->electric || surroundings->force
         || m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
     {
         double axis[3][3], force[3], torque[3];
@@ -401,7 +409,7 @@ set_forces(evaluation *e, const ellipsoid_surroundings *surroundings,
         memcpy(axis, e->axis, sizeof(axis));
         ellipsoid_copy(e->force, force);
         ellipsoid_copy(e->torque, torque);
-        status = ellipsoid_add_body_forces(m, surroundings, e->state->x, axis,
+        status = ellipsoid_add_body_forces(m, surroundings, e->state, axis,
                                       blocks ? d : NULL, e->flow, force, torque,
                                       blocks);
         if (noise)
@@ -444,8 +452,13 @@ evaluate(const ellipsoid_model *model,
     }
     if (surroundings->flow)
     {
-        const int answer = surroundings->flow(surroundings->flow_context,
-                                              state->x, blocks != NULL, &flow);
+        memset(&flow, 0,
+               blocks ? sizeof(flow)
+                      : offsetof(ellipsoid_flow_sample, velocity_jacobian));
+
+        const int answer = surroundings->flow(
+            surroundings->flow_context, surroundings->time, state->x,
+            blocks != NULL, &flow);
 
         if (answer != 0)
         {

@@ -5,10 +5,10 @@
 
     forceBalance.c - velocities that balance forces which depend on them.
 
-    Drag alone is linear in u and omega, and equations.c inverts it. Friction
-    and damping are not, and they couple the cells of a group: Newton's method,
-    with the linear system of a step whose length vanishes. It begins at rest,
-    so that the result is that of the poses alone. From there, where friction
+    Drag alone is linear in u and omega, and equations.c inverts it. Friction,
+    damping and external forces are not, and they couple the cells of a group:
+    Newton's method, with the linear system of a step whose length vanishes. It
+    begins at rest, so that the result is that of the poses alone. From there, where friction
     holds, towards sliding, its tangents fall short; where one goes too far the
     change is shortened. Where that does not do, as many beads slide at speeds
     far above the slip speed, this comes down to its value by and by.
@@ -225,15 +225,17 @@ ellipsoid_status ellipsoid_friction_balance(ellipsoid_group *g,
                                             int with_blocks)
 {
     ellipsoid_status status;
-    int touches = 0;
+    int depends = 0; /* do forces other than drag depend on velocities? */
 
     be_at_rest(g, points);
     status = ellipsoid_group_evaluate_once(g, points, 1, with_blocks);
     for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
-        touches = touches || ellipsoid_in_contact(&points[cell].contact);
+        depends = depends
+               || ellipsoid_force_is_dissipative(&g->cell[cell].surroundings)
+               || ellipsoid_in_contact(&points[cell].contact);
     }
-    if (!touches)
+    if (!depends)
     {
         return status;
     }
@@ -267,14 +269,16 @@ ellipsoid_status ellipsoid_force_balance(const ellipsoid_model *model,
     ellipsoid_stage_matrix system;
     ellipsoid_cell cell = {
         .model = model,
-        .surroundings = surroundings,
+        .surroundings = *surroundings,
         .cache = cache,
         .statistics = &statistics,
         .length = fmax(a[0], fmax(a[1], a[2])),
         .rate = 1 / model->relaxation_time,
         .rotation_rate = 1 / model->rotation_relaxation_time};
     ellipsoid_group g = {.count = 1,
-                         .rubs = model->dissipative,
+                         .dissipative =
+                             model->dissipative
+                             || ellipsoid_force_is_dissipative(surroundings),
                          .cell = &cell,
                          .start = &point,
                          .stages = &stages,
@@ -283,7 +287,7 @@ ellipsoid_status ellipsoid_force_balance(const ellipsoid_model *model,
 
     point.state = *state;
     point.contact = (ellipsoid_contact){.gap = HUGE_VAL, .cell_gap = HUGE_VAL};
-    status = ellipsoid_group_evaluate(&g, &point, 1, 0);
+    status = ellipsoid_group_evaluate(&g, surroundings->time, &point, 1, 0);
     *state = point.state;
     *derivative = point.derivative;
     return status;

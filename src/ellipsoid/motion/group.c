@@ -25,7 +25,7 @@ static ellipsoid_cell problem_of(const ellipsoid_member *member,
 
     return (ellipsoid_cell){
         .model = m,
-        .surroundings = member->surroundings,
+        .surroundings = *member->surroundings,
         .cache = member->cache,
         .statistics = member->statistics,
         .length = fmax(a[0], fmax(a[1], a[2])),
@@ -58,6 +58,16 @@ static ellipsoid_status check(const ellipsoid_group *g)
     return ELLIPSOID_OK;
 }
 
+/* What the forces on one more cell ask of the method. */
+static void set_kind(ellipsoid_group *g, const ellipsoid_model *model,
+                     const ellipsoid_surroundings *surroundings)
+{
+    g->stiff = g->stiff || model->aligned || surroundings->force != NULL;
+    g->unsteady = g->unsteady || surroundings->unsteady;
+    g->dissipative = g->dissipative || model->dissipative
+                  || ellipsoid_force_is_dissipative(surroundings);
+}
+
 /* From noise interval to noise interval, to the end. */
 static ellipsoid_status advance(ellipsoid_group *g,
                                 const ellipsoid_member members[], double *t,
@@ -77,13 +87,12 @@ static ellipsoid_status advance(ellipsoid_group *g,
         return ELLIPSOID_OK;
     }
     g->culprit = -1;
-    g->aligned = g->rubs = 0;
+    g->stiff = g->dissipative = g->unsteady = 0;
     g->observed = observer != NULL;
     for (int cell = 0; cell < g->count; cell++)
     {
         g->cell[cell] = problem_of(&members[cell], &noise[cell]);
-        g->aligned = g->aligned || members[cell].model->aligned;
-        g->rubs = g->rubs || members[cell].model->dissipative;
+        set_kind(g, members[cell].model, members[cell].surroundings);
         g->start[cell].contact = g->next[cell].contact = nothing;
     }
     g->inertial = g->cell[0].inertial;

@@ -29,11 +29,12 @@ static ellipsoid_status push(const ellipsoid_cell *p, ellipsoid_evaluation *at,
         }
         return ELLIPSOID_OK;
     }
-    if (ellipsoid_has_near_walls(m, p->surroundings))
+    if (ellipsoid_has_near_walls(m, &p->surroundings))
     {
         memset(moved, 0, sizeof(moved));
         memset(omega, 0, sizeof(omega));
-        status = ellipsoid_wall_mobility(m, p->surroundings, p->cache, state->x,
+        status = ellipsoid_wall_mobility(m, &p->surroundings, p->cache,
+                                         state->x,
                                       state->q, c->cell_force, c->cell_torque,
                                       moved, omega);
     }
@@ -89,7 +90,7 @@ static void keep(ellipsoid_group *g, ellipsoid_evaluation *points,
     }
     ellipsoid_add(contact->cell_force, felt->force);
     ellipsoid_add(contact->cell_torque, felt->torque);
-    note_cell(contact, g->cell[column].surroundings->id);
+    note_cell(contact, g->cell[column].surroundings.id);
     if (m->derivatives)
     {
         ellipsoid_coupling *c = &pairs->coupling[pairs->count++];

@@ -32,7 +32,8 @@ static inline int ellipsoid_is_rate(int n)
 
 /*
     The Rosenbrock coefficients as in Hairer & Wanner II, eq. (IV.7.25):
-    (1/(gamma h) - J) K_i = f(y0 + sum a_ij K_j) + sum c_ij/h K_j,
+    (1/(gamma h) - J) K_i = f(t0 + alpha_i h, y0 + sum a_ij K_j)
+                            + sum c_ij/h K_j + gamma_i h df/dt(t0, y0),
     y1 = y0 + sum m_j K_j; the error estimate is K_6, and
     y(s) = y0 (1-s) + s (y1 + (1-s) (d_0 + s d_1)), d_i = sum_j dense_ij K_j.
 */
@@ -43,6 +44,8 @@ typedef struct ellipsoid_rosenbrock_table
     double gamma;
     double a[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
     double c[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
+    double alpha[ELLIPSOID_ROSENBROCK_STAGES];
+    double gamma_sum[ELLIPSOID_ROSENBROCK_STAGES]; /* gamma_i */
     double dense[2][ELLIPSOID_ROSENBROCK_STAGES];
     int in_time[ELLIPSOID_ROSENBROCK_STAGES]; /* stages by their time */
 } ellipsoid_rosenbrock_table;
@@ -57,9 +60,9 @@ extern const ellipsoid_rosenbrock_table
    (bodyForces.c). flow may be NULL. */
 ellipsoid_status ellipsoid_add_body_forces(
     const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
-    const double x[3], double axis[3][3], double axis_derivatives[4][3][3],
-    ellipsoid_flow_sample *flow, double force[3], double torque[3],
-    ellipsoid_blocks *blocks);
+    const ellipsoid_state *state, double axis[3][3],
+    double axis_derivatives[4][3][3], ellipsoid_flow_sample *flow,
+    double force[3], double torque[3], ellipsoid_blocks *blocks);
 
 /*
     One evaluation of the equations: derivative, the contact met (may be NULL
@@ -83,7 +86,7 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_model *model,
 typedef struct ellipsoid_cell
 {
     const ellipsoid_model *model;
-    const ellipsoid_surroundings *surroundings;
+    ellipsoid_surroundings surroundings; /* at the time of an evaluation */
     ellipsoid_facet_cache *cache;
     ellipsoid_statistics *statistics;
     double length;                /* [m] largest semi-axis */
@@ -118,6 +121,7 @@ typedef struct ellipsoid_evaluation
 typedef struct ellipsoid_stages
 {
     double k[ELLIPSOID_MAX_STAGES][UNKNOWNS];
+    double time_derivative[UNKNOWNS]; /* df/dt at the start, if unsteady */
     double y[UNKNOWNS]; /* result */
     double error[UNKNOWNS];
     int order; /* of the error estimate in the step */
@@ -215,8 +219,9 @@ typedef struct ellipsoid_group
 {
     int count;
     int inertial; /* all or none */
-    int aligned;  /* is one by a dipole? */
-    int rubs;     /* do contacts of one depend on velocities? */
+    int stiff;    /* is one aligned by a dipole or under an external force? */
+    int unsteady; /* do the surroundings of one depend on time? */
+    int dissipative; /* do forces other than drag depend on velocities? */
     int observed; /* is the whole of ellipsoid_step asked for? */
     ellipsoid_cell *cell;
     ellipsoid_evaluation *start, *next; /* next serves the stages, too */
@@ -233,6 +238,13 @@ typedef struct ellipsoid_group
    it takes (group.c). */
 size_t ellipsoid_group_lay_out(int count, void *memory, ellipsoid_group *group,
                                ellipsoid_pairs *pairs);
+
+/* Do external forces depend on the velocities? */
+static inline int
+ellipsoid_force_is_dissipative(const ellipsoid_surroundings *surroundings)
+{
+    return surroundings->force && surroundings->force_depends_on_velocity;
+}
 
 /* Does it feel anything? */
 static inline int ellipsoid_has_contact(const ellipsoid_group *g, int cell)
@@ -258,7 +270,7 @@ ellipsoid_cell_evaluate(const ellipsoid_cell *p, ellipsoid_evaluation *at,
 {
     p->statistics->rhs++;
     p->statistics->jacobians += with_blocks;
-    return ellipsoid_evaluate(p->model, p->surroundings, p->noise, &at->state,
+    return ellipsoid_evaluate(p->model, &p->surroundings, p->noise, &at->state,
                               balanced, p->cache, &at->derivative, &at->contact,
                               with_blocks ? &at->blocks : NULL);
 }
@@ -295,15 +307,20 @@ ellipsoid_group_evaluate_once(ellipsoid_group *g, ellipsoid_evaluation *points,
 }
 
 /*
-    Evaluates the equations in the states of all points. balanced says whether u
-    and omega are set first. with_blocks: and the Jacobian, with couplings.
+    Evaluates the equations at the time t in the states of all points. balanced
+    says whether u and omega are set first. with_blocks: and the Jacobian, with
+    couplings.
 */
-static inline ellipsoid_status ellipsoid_group_evaluate(ellipsoid_group *g,
-                                                        ellipsoid_evaluation *points,
-                                                        int balanced,
-                                                        int with_blocks)
+static inline ellipsoid_status
+ellipsoid_group_evaluate(ellipsoid_group *g, double t,
+                         ellipsoid_evaluation *points, int balanced,
+                         int with_blocks)
 {
-    if (balanced && g->rubs)
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        g->cell[cell].surroundings.time = t;
+    }
+    if (balanced && g->dissipative)
     {
         return ellipsoid_friction_balance(g, points, with_blocks);
     }
@@ -353,12 +370,28 @@ static inline void ellipsoid_group_solve(const ellipsoid_group *g, int stage)
     ellipsoid_stage_matrix_solve(g->system, k, k);
 }
 
+/* A step as planned. */
+typedef struct ellipsoid_plan
+{
+    double h, start, end; /* [s] */
+    int last;      /* ends where the run does */
+    int shortened; /* less than proposed, to land there */
+} ellipsoid_plan;
+
+/* The time of a stage, exactly the end of the step where it is that. */
+static inline double ellipsoid_stage_time(const ellipsoid_plan *plan,
+                                          double part)
+{
+    return part < 1 ? plan->start + part * plan->h : plan->end;
+}
+
 /*
-    One Rosenbrock step of length h [s] from a start that has its blocks; y has
-    a q not yet of length one. Returns STEP_UNDERFLOW or NON_FINITE where a
-    shorter step may succeed.
+    One Rosenbrock step from a start that has its blocks; y has a q not yet of
+    length one. Returns STEP_UNDERFLOW or NON_FINITE where a shorter step may
+    succeed.
 */
-ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *group, double h);
+ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *group,
+                                           const ellipsoid_plan *plan);
 
 /* The continuous extension of such a step. */
 void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,
@@ -369,7 +402,8 @@ void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,
     `next`, the end of the step. *touched is set, and the step not finished,
     where a stage touches something: the equations are stiff there.
 */
-ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *group, double h,
+ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *group,
+                                         const ellipsoid_plan *plan,
                                          int *touched);
 
 /* The continuous extension of such a step. */
@@ -384,19 +418,12 @@ ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *group, double t,
 
 /* -------------------------------------------------------- step control */
 
-/* A step as planned. */
-typedef struct ellipsoid_plan
-{
-    double h;
-    int last;      /* ends at `end` */
-    int shortened; /* less than proposed, to land on `end` */
-} ellipsoid_plan;
-
 /* The next step from t towards end (stepControl.c). */
 ellipsoid_plan ellipsoid_plan_step(double proposal, double t, double end);
 
-/* Sets *step to a first step from the start. */
-ellipsoid_status ellipsoid_first_step(ellipsoid_group *group, double *step);
+/* Sets *step to a first step from the start at t towards end. */
+ellipsoid_status ellipsoid_first_step(ellipsoid_group *group, double t,
+                                      double end, double *step);
 
 /* Sets *error to what the step has made, above 1 if it is too much. NON_FINITE
    if it is not finite. */

@@ -79,8 +79,8 @@ ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *g, double t,
     {
         return ELLIPSOID_OK;
     }
-    status = ellipsoid_group_evaluate(g, g->next, 1, 0);
-    if (g->rubs && ellipsoid_may_recover(status))
+    status = ellipsoid_group_evaluate(g, t, g->next, 1, 0);
+    if (g->dissipative && ellipsoid_may_recover(status))
     {
         return ELLIPSOID_OK; /* followed instead */
     }

@@ -78,11 +78,76 @@ static inline int set_stage(const ellipsoid_evaluation *start, int stage,
     return ellipsoid_is_pose(at->state.x, at->state.q);
 }
 
-/* All of the step for `count` cells; inlined for one and for several. */
-static inline ellipsoid_status take(ellipsoid_group *g, int count, double h)
+/*
+    df/dt of u and omega at the start, by a forward difference over a small part
+    of the step: what it lacks is far below the tolerance. Of inertialess motion
+    what the start leaves unbalanced cancels.
+*/
+static ellipsoid_status set_time_derivatives(ellipsoid_group *g,
+                                             const ellipsoid_plan *plan)
 {
+    const double part = plan->start + 1e-5 * plan->h;
+    const double later = part > plan->start ? part : plan->end;
+    ellipsoid_status status = ELLIPSOID_OK;
+
+    for (int at = 0; at < 2; at++)
+    {
+        for (int cell = 0; cell < g->count; cell++)
+        {
+            g->next[cell].state = g->start[cell].state;
+        }
+        status = ellipsoid_group_evaluate(g, at == 0 ? plan->start : later,
+                                          g->next, 0, 0);
+        if (status != ELLIPSOID_OK)
+        {
+            return status;
+        }
+        for (int cell = 0; cell < g->count; cell++)
+        {
+            double *d = g->stages[cell].time_derivative;
+
+            for (int n = 0; n < UNKNOWNS; n++)
+            {
+                const double slope = g->next[cell].slope[n];
+
+                d[n] = at == 0 ? slope : (slope - d[n]) / (later - plan->start);
+            }
+        }
+    }
+    return ELLIPSOID_OK;
+}
+
+static void add_time_derivatives(const ellipsoid_group *g, int stage, double h)
+{
+    const double factor = ellipsoid_rosenbrock_set.gamma_sum[stage] * h;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        ellipsoid_stages *s = &g->stages[cell];
+
+        for (int n = 0; n < UNKNOWNS; n++)
+        {
+            s->k[stage][n] += factor * s->time_derivative[n];
+        }
+    }
+}
+
+/* All of the step for `count` cells; inlined for one and for several. */
+static inline ellipsoid_status take(ellipsoid_group *g, int count,
+                                    const ellipsoid_plan *plan)
+{
+    const double h = plan->h;
     double mass[UNKNOWNS]; /* over h */
 
+    if (g->unsteady)
+    {
+        const ellipsoid_status status = set_time_derivatives(g, plan);
+
+        if (status != ELLIPSOID_OK)
+        {
+            return status;
+        }
+    }
     for (int n = 0; n < UNKNOWNS; n++)
     {
         mass[n] = ellipsoid_is_rate(n) && !g->inertial ? 0 : 1 / h;
@@ -100,6 +165,10 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count, double h)
             ellipsoid_stages_sample(s, 0, &g->start[cell]);
         }
     }
+    if (g->unsteady)
+    {
+        add_time_derivatives(g, 0, h);
+    }
     ellipsoid_group_solve(g, 0);
 
     for (int i = 1; i < ELLIPSOID_ROSENBROCK_STAGES; i++)
@@ -114,7 +183,9 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count, double h)
                 return ELLIPSOID_STEP_UNDERFLOW;
             }
         }
-        status = ellipsoid_group_evaluate(g, g->next, 0, 0);
+        status = ellipsoid_group_evaluate(
+            g, ellipsoid_stage_time(plan, ellipsoid_rosenbrock_set.alpha[i]),
+            g->next, 0, 0);
         if (status != ELLIPSOID_OK)
         {
             return status;
@@ -132,6 +203,10 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count, double h)
                 s->k[i][n] += g->next[cell].slope[n];
             }
         }
+        if (g->unsteady)
+        {
+            add_time_derivatives(g, i, h);
+        }
         ellipsoid_group_solve(g, i);
     }
     /* the last stage is the error estimate, and leads to the result */
@@ -148,13 +223,14 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count, double h)
     return ELLIPSOID_OK;
 }
 
-ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *g, double h)
+ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *g,
+                                           const ellipsoid_plan *plan)
 {
-    if (!ellipsoid_group_prepare(g, h))
+    if (!ellipsoid_group_prepare(g, plan->h))
     {
         return ELLIPSOID_NON_FINITE;
     }
-    return g->count == 1 ? take(g, 1, h) : take(g, g->count, h);
+    return g->count == 1 ? take(g, 1, plan) : take(g, g->count, plan);
 }
 
 void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,

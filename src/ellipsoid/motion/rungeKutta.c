@@ -47,7 +47,9 @@ static const double of_dense[STAGES] = {-1.0530884977290216,
                                         -34.87065786149661,
                                         2.5};
 
-/* The stages' times 0, 0.161, 0.327, 0.9, 0.98, 1, 1 ascend. */
+/* c_i: the stages' times in the step, which ascend. */
+static const double stage_time[STAGES] = {
+    0, 0.161, 0.327, 0.9, 0.9800255409045097, 1, 1};
 static const int in_time[STAGES] = {0, 1, 2, 3, 4, 5, 6};
 
 /* sum_j<count weight[j] k_j; inlined with a constant count. */
@@ -125,9 +127,11 @@ static inline int set_stage(const ellipsoid_evaluation *start, int stage, double
 }
 
 /* All of the step for `count` cells; inlined for one and for several. */
-static inline ellipsoid_status take(ellipsoid_group *g, int count, double h,
-                                    int *touched)
+static inline ellipsoid_status take(ellipsoid_group *g, int count,
+                                    const ellipsoid_plan *plan, int *touched)
 {
+    const double h = plan->h;
+
     *touched = 0;
     for (int cell = 0; cell < count; cell++)
     {
@@ -156,7 +160,8 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count, double h,
                 return ELLIPSOID_STEP_UNDERFLOW;
             }
         }
-        status = ellipsoid_group_evaluate(g, g->next, 1, 0);
+        status = ellipsoid_group_evaluate(
+            g, ellipsoid_stage_time(plan, stage_time[i]), g->next, 1, 0);
         if (status != ELLIPSOID_OK)
         {
             return status;
@@ -192,11 +197,12 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count, double h,
     return ELLIPSOID_OK;
 }
 
-ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g, double h,
+ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
+                                         const ellipsoid_plan *plan,
                                          int *touched)
 {
-    return g->count == 1 ? take(g, 1, h, touched)
-                         : take(g, g->count, h, touched);
+    return g->count == 1 ? take(g, 1, plan, touched)
+                         : take(g, g->count, plan, touched);
 }
 
 /*

@@ -139,17 +139,17 @@ ellipsoid_plan ellipsoid_plan_step(double proposal, double t, double end)
 
     if (fabs(left - proposal) <= slack)
     {
-        return (ellipsoid_plan){proposal, 1, 0};
+        return (ellipsoid_plan){proposal, t, end, 1, 0};
     }
     if (left < proposal)
     {
-        return (ellipsoid_plan){left, 1, 1};
+        return (ellipsoid_plan){left, t, end, 1, 1};
     }
     if (left < 1.25 * proposal)
     {
-        return (ellipsoid_plan){0.5 * left, 0, 1};
+        return (ellipsoid_plan){0.5 * left, t, t + 0.5 * left, 0, 1};
     }
-    return (ellipsoid_plan){proposal, 0, 0};
+    return (ellipsoid_plan){proposal, t, t + proposal, 0, 0};
 }
 
 /*
@@ -189,7 +189,8 @@ static double longest_step(const ellipsoid_cell *p,
     Without, the times in which q turns and in which the slopes change say how
     long it may be; the latter from a short way along the slopes.
 */
-ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double *step)
+ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double t, double end,
+                                      double *step)
 {
     const ellipsoid_options *o = &g->cell[0].model->options;
     double pace = 0, ahead;
@@ -237,7 +238,7 @@ ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double *step)
             at->q[n] += ahead * slope->q[n];
         }
     }
-    status = ellipsoid_group_evaluate(g, g->next, 1, 0);
+    status = ellipsoid_group_evaluate(g, fmin(t + ahead, end), g->next, 1, 0);
     if (status != ELLIPSOID_OK)
     {
         *step = ahead;

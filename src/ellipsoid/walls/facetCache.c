@@ -141,8 +141,9 @@ ellipsoid_list_facets(const ellipsoid_surroundings *surroundings,
                       const double centre[3], double reach,
                       ellipsoid_facet_list *list)
 {
-    const int answer = surroundings->walls(surroundings->walls_context, centre,
-                                           reach, list);
+    const int answer =
+        surroundings->walls(surroundings->walls_context, surroundings->time,
+                            centre, reach, list);
 
     return answer > 0   ? ELLIPSOID_STEP_UNDERFLOW
            : answer < 0 ? ELLIPSOID_WALLS_FAILED

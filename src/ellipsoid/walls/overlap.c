@@ -107,7 +107,7 @@ ellipsoid_overlaps_walls(const ellipsoid_model *model,
         return ELLIPSOID_OK;
     }
 
-    if (surroundings->walls(surroundings->walls_context, x,
+    if (surroundings->walls(surroundings->walls_context, surroundings->time, x,
                             (1 + 1e-9) * longest, &list))
     {
         return ELLIPSOID_WALLS_FAILED;
