@@ -13,7 +13,8 @@ static ellipsoid_facet_cache *fresh(fuzz_scene *scene)
 {
     static ellipsoid_facet_cache cache;
 
-    scene->flow_gave_up = scene->walls_gave_up = scene->field_gave_up = 0;
+    scene->flow_gave_up = scene->walls_gave_up = 0;
+    scene->field_gave_up = scene->force_gave_up = 0;
     ellipsoid_facet_cache_clear(&cache);
     return &cache;
 }
@@ -191,6 +192,7 @@ static void check_result(const run *r, const fuzz_start *before,
             || r->scene->field_gave_up);
     require(status == ELLIPSOID_FLOW_FAILED || !r->scene->flow_gave_up);
     require(status != ELLIPSOID_WALLS_FAILED || r->scene->walls_gave_up);
+    require((status == ELLIPSOID_FORCE_FAILED) == r->scene->force_gave_up);
 }
 
 static void check_observed(const run *r, const fuzz_start *before,
@@ -213,7 +215,7 @@ static ellipsoid_status go(run *r, ellipsoid_facet_cache *cache,
     ellipsoid_status status;
 
     r->scene->flow_gave_up = r->scene->walls_gave_up = 0;
-    r->scene->field_gave_up = 0;
+    r->scene->field_gave_up = r->scene->force_gave_up = 0;
     r->scene->strict = 1;
     r->last = r->now.state;
     r->last_time = r->now.t;

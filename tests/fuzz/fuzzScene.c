@@ -188,6 +188,9 @@ static int flow(void *context, double t, const double x[3], int derivatives,
     {
         set_nan(sample->pressure_gradient, sizeof sample->pressure_gradient);
     }
+    set_nan(sample->local_acceleration, sizeof sample->local_acceleration);
+    set_nan(sample->acceleration_jacobian[0],
+            sizeof sample->acceleration_jacobian);
     if (!derivatives || !s->needs_pressure)
     {
         set_nan(sample->pressure_jacobian[0],
@@ -263,6 +266,34 @@ static int field(void *context, double t, const double x[3], double e[3],
         }
     }
     return answer_of(&s->field_fault, x, &s->field_gave_up);
+}
+
+/* Both linear in the place, the torque alike in the body frame */
+static int force(void *context, double t, const ellipsoid_state *state,
+                 double f[3], double torque[3],
+                 ellipsoid_wrench_jacobian *jacobian)
+{
+    fuzz_scene *s = context;
+
+    require(isfinite(t));
+    require_finite(s, state->x);
+    require(!s->force_gave_up);
+    for (int i = 0; i < 3; i++)
+    {
+        require(f[i] == 0 && torque[i] == 0);
+        f[i] = s->f[i] + dot(s->ff[i], state->x);
+        torque[i] = s->length * f[i];
+        for (int l = 0; jacobian && l < 3; l++)
+        {
+            jacobian->force_x[i][l] = s->ff[i][l];
+            jacobian->torque_x[i][l] = s->length * s->ff[i][l];
+        }
+    }
+    if (is_at_fault(&s->force_fault, FUZZ_GOES_WILD, state->x))
+    {
+        f[s->force_fault.which % 3] = s->force_fault.value;
+    }
+    return answer_of(&s->force_fault, state->x, &s->force_gave_up);
 }
 
 /* ---------------------------------------------------------------- walls */
@@ -446,7 +477,7 @@ static void read_flow(fuzz_scene *s, fuzz_input *in)
 void fuzz_scene_read(fuzz_scene *s, fuzz_input *in, const ellipsoid_options *o)
 {
     const double *a = o->semi_axes;
-    const int parts = fuzz_choice(in, 8);
+    const int parts = fuzz_choice(in, 16);
 
     memset(s, 0, sizeof *s);
     s->length = fmax(a[0], fmax(a[1], a[2]));
@@ -476,6 +507,17 @@ void fuzz_scene_read(fuzz_scene *s, fuzz_input *in, const ellipsoid_options *o)
         s->around.field = field;
         s->around.field_context = s;
     }
+    if (parts & 8)
+    {
+        /* about the drag at that speed */
+        const double size = 1e-2 * s->length * s->speed;
+
+        fuzz_vector(in, size, 3, s->f);
+        fuzz_vector(in, size / s->length, 9, s->ff[0]);
+        read_fault(&s->force_fault, in, s->length);
+        s->around.force = force;
+        s->around.force_context = s;
+    }
 }
 
 void fuzz_scene_free(fuzz_scene *scene)
@@ -492,6 +534,7 @@ int fuzz_scene_is_tame(const fuzz_scene *scene)
 {
     return fuzz_scene_has_faultless_walls(scene)
         && scene->flow_fault.kind == FUZZ_NO_FAULT
+        && scene->force_fault.kind == FUZZ_NO_FAULT
         && scene->field_fault.kind == FUZZ_NO_FAULT
         && scene->flow != FUZZ_FLOW_NOISE;
 }

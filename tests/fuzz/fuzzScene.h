@@ -53,8 +53,9 @@ typedef struct fuzz_scene
     double u[3], g[3][3], h[3][3][3], p[3], pp[3][3]; /* Taylor's series */
     fuzz_wave wave[2];
     double e[3], ee[3][3];
+    double f[3], ff[3][3]; /* of the external force and torque */
     int needs_pressure;
-    fuzz_fault flow_fault, field_fault, walls_fault;
+    fuzz_fault flow_fault, field_fault, force_fault, walls_fault;
     double shore[4]; /* beyond this plane velocities are the wall's, zero */
 
     wall_mesh mesh;
@@ -63,7 +64,7 @@ typedef struct fuzz_scene
 
     /* set before a call of the core, read after it */
     int strict;           /* places must be finite */
-    int flow_gave_up, walls_gave_up, field_gave_up;
+    int flow_gave_up, walls_gave_up, field_gave_up, force_gave_up;
     double sampled[3];    /* where the flow was last */
 } fuzz_scene;
 
