@@ -95,7 +95,6 @@ static void set_member(const ellipsoid_option *option, int component,
                        double value, ellipsoid_options *options)
 {
     char *member = (char *)options + option->offset;
-    const int whole = (int)value;
 
     if (option->type == ELLIPSOID_OPTION_REAL
         || option->type == ELLIPSOID_OPTION_VECTOR)
@@ -104,6 +103,8 @@ static void set_member(const ellipsoid_option *option, int component,
     }
     else
     {
+        const int whole = (int)value;
+
         memcpy(member, &whole, sizeof whole);
     }
 }
