@@ -141,6 +141,14 @@ static void add_blended(const contacts *all, const blend *m, double sign,
     }
 }
 
+static void set_normal_slopes(const contacts *all, blend *m)
+{
+    for (int i = 0; i < all->count; i++)
+    {
+        set_normal_slope(&all->at[i], m->normal_slope[i]);
+    }
+}
+
 static void add_laws(const ellipsoid_bead *bead, contacts *all, int derivatives,
                      ellipsoid_bead_forces *sum)
 {
@@ -148,10 +156,7 @@ static void add_laws(const ellipsoid_bead *bead, contacts *all, int derivatives,
     blend m; /* large: set where it is read */
 
     order_by_range(all, bead->laws, bead->radius, count);
-    for (int i = 0; i < all->count; i++)
-    {
-        set_normal_slope(&all->at[i], m.normal_slope[i]);
-    }
+    set_normal_slopes(all, &m);
     for (int n = 0; n < bead->laws->count; n++)
     {
         const ellipsoid_contact_law *law = &bead->laws->law[n];

@@ -88,7 +88,6 @@ static ellipsoid_status set_time_derivatives(ellipsoid_group *g,
 {
     const double part = plan->start + 1e-5 * plan->h;
     const double later = part > plan->start ? part : plan->end;
-    ellipsoid_status status = ELLIPSOID_OK;
 
     for (int at = 0; at < 2; at++)
     {
@@ -96,8 +95,10 @@ static ellipsoid_status set_time_derivatives(ellipsoid_group *g,
         {
             g->next[cell].state = g->start[cell].state;
         }
-        status = ellipsoid_group_evaluate(g, at == 0 ? plan->start : later,
-                                          g->next, 0, 0);
+
+        const ellipsoid_status status = ellipsoid_group_evaluate(
+            g, at == 0 ? plan->start : later, g->next, 0, 0);
+
         if (status != ELLIPSOID_OK)
         {
             return status;
