@@ -463,8 +463,10 @@ typedef int (*ellipsoid_observer)(void *context, const ellipsoid_step *step);
 /*
     Advances *state from *t to `end` [s]. State, t and controller are updated at
     every accepted step; on a failure they are those of the last accepted step.
-    Statistics count failed attempts as well. observer may be NULL, and so may
-    cache where there are no walls. INERTIALESS motion needs a flow: BAD_OPTION.
+    Statistics count failed attempts as well. observer and statistics may be
+    NULL, and so may cache where there are no walls; another NULL is
+    BAD_ARGUMENT. INERTIALESS motion needs a flow: BAD_OPTION. OUTSIDE: a
+    callback has no answer where the cell is at *t.
     With Brownian motion steps end where noise intervals do; the noise is that
     of the interval, whatever the steps. Returns OK, STOPPED (by the observer;
     *t is the end of that step), or why it could not go on.
@@ -494,7 +496,10 @@ typedef struct ellipsoid_member
     ellipsoid_statistics *statistics;
 } ellipsoid_member;
 
-/* Bytes of memory that a group of so many cells is advanced in. */
+#define ELLIPSOID_MAX_GROUP 100000
+
+/* Bytes of memory that a group of so many cells is advanced in; 0 for fewer
+   than one or more than ELLIPSOID_MAX_GROUP. */
 size_t ellipsoid_group_size(int count);
 
 /*

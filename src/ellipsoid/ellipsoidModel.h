@@ -29,6 +29,9 @@ extern "C" {
     X(OK, "success")                                                           \
     X(STOPPED, "stopped by the observer")                                      \
     X(BAD_OPTION, "an option is outside its range")                            \
+    X(BAD_ARGUMENT, "an argument is NULL that must not be")                    \
+    X(BAD_STATE, "the cell's state is not finite, or its quaternion is zero")  \
+    X(OUTSIDE, "flow, field, force or walls do not know the cell's position")  \
     X(NON_FINITE, "the flow or the walls gave a value that is not finite")     \
     X(FLOW_FAILED, "the flow or the field gave up at the cell's place")        \
     X(FORCE_FAILED, "the external force gave up at the cell's position")       \

@@ -282,7 +282,7 @@ static void test_trouble_at_start(void **unused)
 {
     const int answers[] = {1, -1, 0};
     const ellipsoid_status expected[] = {
-        ELLIPSOID_STEP_UNDERFLOW, ELLIPSOID_FLOW_FAILED, ELLIPSOID_NON_FINITE};
+        ELLIPSOID_OUTSIDE, ELLIPSOID_FLOW_FAILED, ELLIPSOID_NON_FINITE};
 
     (void)unused;
     for (int n = 0; n < 3; n++)
@@ -314,7 +314,7 @@ static void test_bad_state(void **unused)
             memcpy(y, &r.state, sizeof(y));
             y[i] = bad[n];
             memcpy(&r.state, y, sizeof(y));
-            assert_int_equal(go(&r, 1, NULL, NULL), ELLIPSOID_NON_FINITE);
+            assert_int_equal(go(&r, 1, NULL, NULL), ELLIPSOID_BAD_STATE);
             assert_int_equal(r.trouble.calls, 0);
         }
     }
@@ -322,8 +322,52 @@ static void test_bad_state(void **unused)
         run r = new_run();
 
         memset(r.state.q, 0, sizeof(r.state.q));
-        assert_int_equal(go(&r, 1, NULL, NULL), ELLIPSOID_NON_FINITE);
+        assert_int_equal(go(&r, 1, NULL, NULL), ELLIPSOID_BAD_STATE);
     }
+}
+
+/* What must not be NULL is refused, and what may be is not missed. */
+static void test_null(void **unused)
+{
+    run r = new_run();
+    const ellipsoid_surroundings around = {.flow = troubled_flow,
+                                           .flow_context = &r.trouble};
+    const ellipsoid_member all = {&r.model, &around, &r.state,
+                                  &r.controller, NULL, NULL, NULL};
+    double t = 0;
+
+    (void)unused;
+    assert_ok(ellipsoid_advance(all.model, all.surroundings, all.state, &t,
+                                1e-4, all.controller, NULL, NULL, NULL, NULL));
+    assert_true(t == 1e-4);
+    for (int n = 0; n < 5; n++)
+    {
+        assert_int_equal(
+            ellipsoid_advance(n == 0 ? NULL : all.model,
+                              n == 1 ? NULL : all.surroundings,
+                              n == 2 ? NULL : all.state, n == 3 ? NULL : &t,
+                              2e-4, n == 4 ? NULL : all.controller, NULL, NULL,
+                              NULL, NULL),
+            ELLIPSOID_BAD_ARGUMENT);
+        assert_true(t == 1e-4);
+    }
+    assert_int_equal(ellipsoid_model_init(&r.model, NULL),
+                     ELLIPSOID_BAD_ARGUMENT);
+    assert_int_equal(ellipsoid_options_check(NULL, NULL, NULL),
+                     ELLIPSOID_BAD_ARGUMENT);
+}
+
+/* Memory grows with the square of the count; there is none for a group that
+   cannot be. */
+static void test_group_size(void **unused)
+{
+    const double one = (double)ellipsoid_group_size(50000);
+    const double two = (double)ellipsoid_group_size(100000);
+
+    (void)unused;
+    assert_true(two / one > 3.9 && two / one < 4);
+    assert_true(ellipsoid_group_size(0) == 0);
+    assert_true(ellipsoid_group_size(ELLIPSOID_MAX_GROUP + 1) == 0);
 }
 
 /* A wall of trouble that is left in time is passed: the run goes on. */
@@ -425,6 +469,8 @@ int main(void)
         cmocka_unit_test(test_not_finite),
         cmocka_unit_test(test_trouble_at_start),
         cmocka_unit_test(test_bad_state),
+        cmocka_unit_test(test_null),
+        cmocka_unit_test(test_group_size),
         cmocka_unit_test(test_passing_trouble),
         cmocka_unit_test(test_too_many_steps),
         cmocka_unit_test(test_time_too_coarse),

@@ -201,6 +201,32 @@ static void test_jacobian(void **unused)
     }
 }
 
+/* The pressure pushes from high to low: m_p du/dt = -V grad p, to rounding. */
+static void test_gradp_pushes_down_the_gradient(void **unused)
+{
+    ellipsoid_options o = ellipsoid_options_default();
+    test_quadratic flow = {.pressure_gradient = {3e5, -2e5, 1e5}};
+    const ellipsoid_surroundings around = {.flow = test_quadratic_flow,
+                                           .flow_context = &flow};
+    ellipsoid_state state = {.q = {0, 0, 0, 1}}, slope;
+
+    (void)unused;
+    o.drag = 0;
+    o.buoyancy = 0;
+    o.pressure_gradient = ELLIPSOID_PRESSURE_GRADP;
+
+    const ellipsoid_model model = test_model(&o);
+
+    assert_ok(ellipsoid_rhs(&model, &around, &state, NULL, &slope));
+    for (int i = 0; i < 3; i++)
+    {
+        const double expected =
+            -model.volume * flow.pressure_gradient[i] / model.mass;
+
+        assert_near(slope.u[i], expected, 1e-14 * fabs(expected));
+    }
+}
+
 /*
     The paper's cell pressed 5 to 20 nm into a plate in a shear: the contact's
     part is in its place. Steps of 1e-4 nm and 1e-8 of q; Hertz' law is smooth
@@ -469,6 +495,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_jacobian),
+        cmocka_unit_test(test_gradp_pushes_down_the_gradient),
         cmocka_unit_test(test_jacobian_in_contact),
         cmocka_unit_test(test_written_out),
         cmocka_unit_test(test_rigid_rotation),

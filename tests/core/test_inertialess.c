@@ -404,7 +404,7 @@ static void test_interface(void **unused)
     flow.answer = 1;
     assert_int_equal(
         test_advance(&model, &flow, &s[0], &t[0], 1, &controller, &statistics),
-        ELLIPSOID_STEP_UNDERFLOW);
+        ELLIPSOID_OUTSIDE);
     flow.answer = 0;
     flow.u[0] = NAN;
     assert_int_equal(

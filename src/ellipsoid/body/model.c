@@ -46,8 +46,13 @@ ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
                                       const ellipsoid_options *options)
 {
     ellipsoid_model m = {0};
-    const double *a = options->semi_axes;
+    const double *a;
 
+    if (!model || !options)
+    {
+        return ELLIPSOID_BAD_ARGUMENT;
+    }
+    a = options->semi_axes;
     if (ellipsoid_options_check(options, NULL, NULL) != ELLIPSOID_OK)
     {
         return ELLIPSOID_BAD_OPTION;

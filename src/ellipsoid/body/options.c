@@ -223,6 +223,10 @@ ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
 {
     verdict v = {NULL, NULL};
 
+    if (!options)
+    {
+        return ELLIPSOID_BAD_ARGUMENT;
+    }
     check_ranges(&v, options);
     check_relations(&v, options);
 

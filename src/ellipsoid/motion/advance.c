@@ -284,7 +284,7 @@ static ellipsoid_status set_start(int inertial, const ellipsoid_state *state,
     square = ellipsoid_square4(y + AT_Q);
     if (!isfinite(sum) || !isfinite(square) || !(square >= DBL_MIN))
     {
-        return ELLIPSOID_NON_FINITE;
+        return ELLIPSOID_BAD_STATE;
     }
     if (fabs(square - 1) > 1e-14)
     {
@@ -310,13 +310,14 @@ static ellipsoid_status begin(ellipsoid_group *g,
     {
         status = ellipsoid_noise_layer(g, t, end);
     }
-    if (status != ELLIPSOID_OK)
+    if (status == ELLIPSOID_OK)
     {
-        return status;
+        g->has_blocks = g->inertial;
+        status = ellipsoid_group_evaluate(g, t, g->start, !g->inertial,
+                                          g->has_blocks);
     }
-    g->has_blocks = g->inertial;
-    return ellipsoid_group_evaluate(g, t, g->start, !g->inertial,
-                                    g->has_blocks);
+    /* no step is short enough for a callback that has no answer here */
+    return status == ELLIPSOID_STEP_UNDERFLOW ? ELLIPSOID_OUTSIDE : status;
 }
 
 /* The step control of the group follows from those of its members. */

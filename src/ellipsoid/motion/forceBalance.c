@@ -21,7 +21,7 @@ enum
 {
     MOST_ITERATIONS = 60,
     MOST_HALVINGS = 40, /* damping turns sharply where it lets go */
-    CHANGE = ELLIPSOID_MAX_STAGES - 1 /* a stage that no implicit step has */
+    CHANGE = ELLIPSOID_MAX_STAGES /* beyond the stages of a step */
 };
 
 /* The slip speeds begin at so much of their value, and fall by a factor. */

@@ -68,6 +68,15 @@ static void set_kind(ellipsoid_group *g, const ellipsoid_model *model,
                   || ellipsoid_force_is_dissipative(surroundings);
 }
 
+static int is_complete(const ellipsoid_member *m)
+{
+    return m->model && m->surroundings && m->state && m->controller
+        && m->statistics
+        && (m->cache
+            || !(ellipsoid_has_walls(m->model, m->surroundings)
+                 || ellipsoid_has_near_walls(m->model, m->surroundings)));
+}
+
 /* From noise interval to noise interval, to the end. */
 static ellipsoid_status advance(ellipsoid_group *g,
                                 const ellipsoid_member members[], double *t,
@@ -78,6 +87,13 @@ static ellipsoid_status advance(ellipsoid_group *g,
     ellipsoid_status status;
     long attempts = 0;
 
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        if (!is_complete(&members[cell]))
+        {
+            return ELLIPSOID_BAD_ARGUMENT;
+        }
+    }
     if (!isfinite(*t) || !isfinite(end))
     {
         return ELLIPSOID_NON_FINITE;
@@ -132,9 +148,11 @@ ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
                                    void *observer_context,
                                    ellipsoid_statistics *statistics)
 {
-    const ellipsoid_member member = {model,      surroundings, state,
-                                     controller, cache,        observer_context,
-                                     statistics};
+    ellipsoid_statistics unused = {0};
+    const ellipsoid_member member = {
+        model,      surroundings, state,
+        controller, cache,        observer_context,
+        statistics ? statistics : &unused};
     ellipsoid_cell cell;
     ellipsoid_evaluation start, next;
     ellipsoid_stages stages;
@@ -152,25 +170,26 @@ ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
         .noise = &noise,
     };
 
-    return advance(&g, &member, t, end, observer);
+    return t ? advance(&g, &member, t, end, observer) : ELLIPSOID_BAD_ARGUMENT;
 }
 
 /* ---------------------------------------------------------------- memory */
 
 /* Takes `count` things of a size from the memory, or only counts bytes. */
-static void *take(unsigned char *memory, size_t *used, size_t size, int count)
+static void *take(unsigned char *memory, size_t *used, size_t size,
+                  size_t count)
 {
     const size_t unit = alignof(max_align_t);
     unsigned char *at = memory ? memory + *used : NULL;
 
-    *used += (size * (size_t)count + unit - 1) / unit * unit;
+    *used += (size * count + unit - 1) / unit * unit;
     return at;
 }
 
 size_t ellipsoid_group_lay_out(int count, void *memory, ellipsoid_group *g,
                                ellipsoid_pairs *pairs)
 {
-    const int squared = count * count;
+    const size_t squared = (size_t)count * (size_t)count;
     double(*bead)[ELLIPSOID_MAX_BEADS][3];
     size_t used = 0;
 
@@ -211,7 +230,9 @@ size_t ellipsoid_group_size(int count)
     ellipsoid_group g;
     ellipsoid_pairs pairs;
 
-    return ellipsoid_group_lay_out(count, NULL, &g, &pairs);
+    return count < 1 || count > ELLIPSOID_MAX_GROUP
+             ? 0
+             : ellipsoid_group_lay_out(count, NULL, &g, &pairs);
 }
 
 ellipsoid_status ellipsoid_advance_group(int count,
@@ -224,8 +245,12 @@ ellipsoid_status ellipsoid_advance_group(int count,
     ellipsoid_pairs pairs;
     ellipsoid_status status;
 
+    if (!members || !t || !memory || !which)
+    {
+        return ELLIPSOID_BAD_ARGUMENT;
+    }
     *which = -1;
-    if (count < 1)
+    if (count < 1 || count > ELLIPSOID_MAX_GROUP)
     {
         return ELLIPSOID_BAD_OPTION;
     }

@@ -120,7 +120,8 @@ typedef struct ellipsoid_evaluation
 /* The stages of one step. */
 typedef struct ellipsoid_stages
 {
-    double k[ELLIPSOID_MAX_STAGES][UNKNOWNS];
+    /* one more, for the change of velocities that forceBalance.c looks for */
+    double k[ELLIPSOID_MAX_STAGES + 1][UNKNOWNS];
     double time_derivative[UNKNOWNS]; /* df/dt at the start, if unsteady */
     double y[UNKNOWNS]; /* result */
     double error[UNKNOWNS];
