@@ -44,7 +44,7 @@ extern "C" {
 
 /*
     The undisturbed flow at a point and time, lab frame. G_ij = du_i/dx_j.
-    It is all zero when a callback is called: what is not set stays so.
+    A callback sets velocity and gradient; the rest is zero when it is called.
     velocity_jacobian is the derivative of `velocity` as interpolated, and
     gradient_jacobian[i][j][k] = dG_ij/dx_k; both are read only where
     derivatives were asked for, and only serve the Jacobian.
@@ -251,7 +251,7 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 /* ------------------------------------------------------------- contact */
 
 #define ELLIPSOID_MAX_PAIRS 2048
-#define ELLIPSOID_MAX_TOUCHED 8
+#define ELLIPSOID_MAX_SURFACES 8
 #define ELLIPSOID_MAX_NEAR 4096
 
 /*
@@ -262,7 +262,7 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 typedef struct ellipsoid_facet_cache
 {
     int valid;
-    int served, listed; /* poses since it was filled; facets listed then */
+    int uses, listed; /* since it was filled; facets listed then */
     double margin;      /* [m] how far a bead may move */
     double rotation[3][3], half_box[3]; /* R(q) there; the beads' box [m] */
     double x[3], q[4];  /* pose at which it was filled */
@@ -280,9 +280,9 @@ typedef struct ellipsoid_facet_cache
 
 /*
     Empties a cache. It must be called before the cache is used for the first
-    time, and again whenever anything but the cell's pose has changed: its model,
-    the walls callback or its context, or a facet. A cell that is put elsewhere
-    needs no call.
+    time, and again whenever anything but the cell's pose has changed: its
+    model, the walls callback or its context, or a facet. A cell that is put
+    elsewhere needs no call.
 */
 void ellipsoid_facet_cache_clear(ellipsoid_facet_cache *cache);
 
@@ -297,32 +297,32 @@ typedef struct ellipsoid_contact
                                radius, beyond which nobody looks; HUGE_VAL
                                without walls. Of contact_shape ELLIPSOID, of
                                the ellipsoid in place of a bead */
-    int touching_beads;     /* that overlap the walls or are pulled by them; 1
-                               if the ellipsoid is */
-    int touched_count;      /* distinct surfaces, at most MAX_TOUCHED listed */
-    int touched[ELLIPSOID_MAX_TOUCHED]; /* labels, in order of first touch */
+    int bead_contacts;      /* beads that overlap the walls or are pulled by
+                               them; 1 if the ellipsoid is */
+    int surface_count;      /* distinct ones, at most MAX_SURFACES listed */
+    int surface[ELLIPSOID_MAX_SURFACES]; /* labels, in the order of the beads
+                                            that are in contact */
 
     double cell_force[3];   /* [N] lab, of the other cells */
     double cell_torque[3];  /* [N m] body */
     double cell_deepest;    /* [m] deepest overlap with another cell */
     double cell_gap;        /* [m] smallest gap to a bead of another cell; as
                                for walls */
-    int touched_cell_count; /* at most MAX_TOUCHED listed */
-    uint32_t touched_cell[ELLIPSOID_MAX_TOUCHED]; /* their ids, in the order of
-                                                     the group */
+    int cell_count;         /* in contact, at most MAX_SURFACES listed */
+    uint32_t cell_id[ELLIPSOID_MAX_SURFACES]; /* in the order of the group */
 } ellipsoid_contact;
 
 /*
-    Beads against facets: Hertz, F = 4/3 E* sqrt(r_b) d^(3/2) along the normal
-    of each contact; the contacts of one bead add up as sum w_i f_i n_i,
-    w_i = f_i / sum_j f_j max(0, n_i.n_j) (see contactBlending.h where they are nearly
-    parallel). Adhesion adds up likewise. contact_shape ELLIPSOID: the same law
-    with the depth of the ellipsoid itself, the force where it is deepest
-    (ellipsoidFacets.c); q turns the ellipsoid and does not stretch it. Friction and
-    damping come on top (friction.c); without them u and omega are not read.
-    jacobian may be NULL. The result is that of the state alone, to the last
-    bit, whatever the cache has seen before. STEP_UNDERFLOW: the walls ask for a
-    shorter step.
+    Beads against facets: Hertz, F = 4/3 E* sqrt(r_b) d^(3/2) along the
+    normal of each contact; the contacts of one bead add up as sum w_i f_i
+    n_i, w_i = f_i / sum_j f_j max(0, n_i.n_j) (see contactBlending.h where
+    they are nearly parallel). Adhesion adds up likewise. contact_shape
+    ELLIPSOID: the same law with the depth of the ellipsoid itself, the
+    force where it is deepest (ellipsoidFacets.c); q turns the ellipsoid and
+    does not stretch it. Friction and damping come on top (friction.c);
+    without them u and omega are not read. jacobian may be NULL. The result
+    is that of the state alone, to the last bit, whatever the cache has seen
+    before. STEP_UNDERFLOW: the walls ask for a shorter step.
 */
 ellipsoid_status ellipsoid_contact_evaluate(
     const ellipsoid_model *model,
@@ -395,7 +395,7 @@ ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
 
 /*
     Sets u and omega to those with which the drag balances all other forces: of
-    INERTIALESS motion, or the terminal ones of a body at this place. BAD_OPTION
+    INERTIALESS motion, or the terminal ones of a body at this point. BAD_OPTION
     without drag or flow; the state is then as it was.
 */
 ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
@@ -460,41 +460,36 @@ void ellipsoid_step_state(const ellipsoid_step *step, double t,
 /* Sees every accepted step. Returns non-zero to stop there. */
 typedef int (*ellipsoid_observer)(void *context, const ellipsoid_step *step);
 
-/*
-    Advances *state from *t to `end` [s]. State, t and controller are updated at
-    every accepted step; on a failure they are those of the last accepted step.
-    Statistics count failed attempts as well. observer and statistics may be
-    NULL, and so may cache where there are no walls; another NULL is
-    BAD_ARGUMENT. INERTIALESS motion needs a flow: BAD_OPTION. OUTSIDE: a
-    callback has no answer where the cell is at *t.
-    With Brownian motion steps end where noise intervals do; the noise is that
-    of the interval, whatever the steps. Returns OK, STOPPED (by the observer;
-    *t is the end of that step), or why it could not go on.
-*/
-ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
-                                   const ellipsoid_surroundings *surroundings,
-                                   ellipsoid_state *state,
-                                   double *t,
-                                   double end,
-                                   ellipsoid_controller *controller,
-                                   ellipsoid_facet_cache *cache,
-                                   ellipsoid_observer observer,
-                                   void *observer_context,
-                                   ellipsoid_statistics *statistics);
-
-/* -------------------------------------------------------------- groups */
-
-/* A cell of a group; cells of any size and kind may form one. */
+/* A cell that is advanced, alone or in a group with others of any size and
+   kind. */
 typedef struct ellipsoid_member
 {
     const ellipsoid_model *model;
     const ellipsoid_surroundings *surroundings; /* its id names the cell */
     ellipsoid_state *state;
     ellipsoid_controller *controller;
-    ellipsoid_facet_cache *cache;
+    ellipsoid_facet_cache *cache;     /* NULL only where there are no walls */
     void *observer_context;
-    ellipsoid_statistics *statistics;
+    ellipsoid_statistics *statistics; /* NULL: not wanted, of a cell alone */
 } ellipsoid_member;
+
+/*
+    Advances a cell's state from *t to `end` [s]. State, t and controller are
+    updated at every accepted step; on a failure they are those of the last
+    accepted step. Statistics count failed attempts as well. observer may be
+    NULL; another NULL than those allowed above is BAD_ARGUMENT. INERTIALESS
+    motion needs a flow: BAD_OPTION. OUTSIDE: a callback has no answer where the
+    cell is at *t.
+    With Brownian motion steps end where noise intervals do; the noise is that
+    of the interval, whatever the steps. Returns OK, STOPPED (by the observer;
+    *t is the end of that step), or why it could not go on.
+*/
+ellipsoid_status ellipsoid_advance(const ellipsoid_member *cell,
+                                   double *t,
+                                   double end,
+                                   ellipsoid_observer observer);
+
+/* -------------------------------------------------------------- groups */
 
 #define ELLIPSOID_MAX_GROUP 100000
 
@@ -507,7 +502,7 @@ size_t ellipsoid_group_size(int count);
     system in common steps: F_S, paper eq. (1). The beads of two cells touch as
     a bead and a wall do, with the radius r_1 r_2/(r_1 + r_2) and the modulus
     E_1 E_2/(E_1 + E_2), the geometric mean of both frictions, the larger slip
-    speed and the mean damping; what one cell feels the other does with the
+    speed and the mean damping; what acts on one acts on the other with the
     opposite sign. Two of contact_shape ELLIPSOID touch with that, not with
     their beads. As ellipsoid_advance() for the rest, for every member; members
     share motion, noise interval, and the limits of steps of the first one.

@@ -111,7 +111,8 @@ typedef struct ellipsoid_option
     double low, high;         /* ends of the range, of each component */
     int above;                /* 1: low itself is not allowed */
     int related;              /* 1: other options narrow the range */
-    int needs; /* the range matters unless this option of the list is 0; or -1 */
+    int needs; /* the range matters unless this option of the list is 0; or -1
+                */
 } ellipsoid_option;
 
 /* All options in the order of options.def. */

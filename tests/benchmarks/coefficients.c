@@ -18,11 +18,8 @@
 
 #define DECLARE(name)                                                          \
     extern const ellipsoid_rosenbrock_table name##_table;                      \
-    ellipsoid_status name##_advance(                                           \
-        const ellipsoid_model *, const ellipsoid_surroundings *,               \
-        ellipsoid_state *, double *, double, ellipsoid_controller *,           \
-        ellipsoid_facet_cache *, ellipsoid_observer, void *,                 \
-        ellipsoid_statistics *);
+    ellipsoid_status name##_advance(const ellipsoid_member *, double *,        \
+                                    double, ellipsoid_observer);
 SETS(DECLARE)
 
 #define ENTRY(name)                                                            \

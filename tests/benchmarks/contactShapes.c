@@ -296,8 +296,10 @@ static void rest(scene *wall, const ellipsoid_model *model)
 
         ellipsoid_quaternion_from_axis(axis, 2 * pi * uniform(), state.q);
         ellipsoid_facet_cache_clear(&cache);
-        if (ellipsoid_advance(model, &surroundings, &state, &t, 10, &controller,
-                              &cache, NULL, NULL, &statistics)
+        if (ellipsoid_advance(&(ellipsoid_member){model, &surroundings, &state,
+                                                  &controller, &cache, NULL,
+                                                  &statistics},
+                              &t, 10, NULL)
             != ELLIPSOID_OK)
         {
             fprintf(stderr, "a cell did not come to rest\n");

@@ -141,10 +141,13 @@ enum
     METHODS
 };
 
-static void print_ratios(const benchmark_series series[METHODS])
+/* model_error: of q, what inertialess motion neglects at the end. */
+static void print_ratios(const benchmark_series series[METHODS],
+                         double model_error)
 {
-    printf("\n  At equal error   %9s %12s %12s %12s %8s %8s\n", "error q",
-           "CVODE us", "thirteen us", "inertialess", "ratio", "ratio");
+    printf("\n  At equal error %9s %9s %11s %7s %9s %11s %7s %13s\n", "error q",
+           "CVODE us", "thirteen us", "ratio", "Adams us", "inertialess",
+           "ratio", "model error q");
     for (int t = 0; t < TARGETS; t++)
     {
         double us[METHODS];
@@ -153,10 +156,10 @@ static void print_ratios(const benchmark_series series[METHODS])
         {
             us[m] = 1e6 * benchmark_time_at(&series[m], targets[t]);
         }
-        printf("  %16s %9.1e %12.1f %12.1f %12.1f %8.1f %8.1f\n", "",
-               targets[t], us[PEER_THIRTEEN], us[CORE_THIRTEEN],
-               us[CORE_SEVEN], us[PEER_THIRTEEN] / us[CORE_THIRTEEN],
-               us[PEER_THIRTEEN] / us[CORE_SEVEN]);
+        printf("  %14s %9.1e %9.1f %11.1f %7.1f %9.1f %11.1f %7.1f %13.1e\n",
+               "", targets[t], us[PEER_THIRTEEN], us[CORE_THIRTEEN],
+               us[PEER_THIRTEEN] / us[CORE_THIRTEEN], us[PEER_SEVEN],
+               us[CORE_SEVEN], us[PEER_SEVEN] / us[CORE_SEVEN], model_error);
     }
 }
 
@@ -214,7 +217,7 @@ static void compare_on(int which, int repeats)
     {
         benchmark_print(&series[m]);
     }
-    print_ratios(series);
+    print_ratios(series, q);
     benchmark_peer_free(&bdf);
     benchmark_peer_free(&adams);
 }

@@ -115,9 +115,11 @@ static int core_run(void *context, ellipsoid_state *state,
     ellipsoid_controller controller = {0, 0};
     ellipsoid_statistics statistics = {0};
     double t = 0;
-    const ellipsoid_status status = core->advance(
-        &core->model, &core->journey->around, state, &t,
-        core->journey->duration, &controller, NULL, NULL, NULL, &statistics);
+    const ellipsoid_member cell = {
+        &core->model, &core->journey->around, state, &controller, NULL, NULL,
+        &statistics};
+    const ellipsoid_status status =
+        core->advance(&cell, &t, core->journey->duration, NULL);
 
     cost->steps = statistics.accepted + statistics.rejected;
     cost->rhs = statistics.rhs;

@@ -62,12 +62,8 @@ typedef struct benchmark_method
 typedef struct benchmark_core
 {
     ellipsoid_motion motion;
-    ellipsoid_status (*advance)(const ellipsoid_model *,
-                                const ellipsoid_surroundings *,
-                                ellipsoid_state *, double *, double,
-                                ellipsoid_controller *,
-                                ellipsoid_facet_cache *, ellipsoid_observer,
-                                void *, ellipsoid_statistics *);
+    ellipsoid_status (*advance)(const ellipsoid_member *, double *, double,
+                                ellipsoid_observer);
     const benchmark_journey *journey;
     ellipsoid_model model;
 } benchmark_core;

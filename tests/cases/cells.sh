@@ -34,6 +34,10 @@ same_flow()     # CASE OTHER
     mkdir -p "$tap_folder/$1/0" && cd "$tap_folder/$1" || exit
     cp -r "$tap_folder/$2"/{constant,system} . || exit
     cp "$tap_folder/$2"/0/{U,p,phi} 0/ || exit
+    # By which the solver knows its own flow
+    if [ -e "$tap_folder/$2"/0/uniform/steadyFlow ]; then
+        mkdir -p 0/uniform && cp "$tap_folder/$2"/0/uniform/steadyFlow 0/uniform/ || exit
+    fi
 }
 
 # Takes a copy of a case. MAKER makes it, once for all test files: Alltest says where.
@@ -145,6 +149,25 @@ refused()       # [-OPTION] RANKS REGEX...
 
 # Solves the flow of a case whose mesh is there
 solve_flow()    { run_cells 1 -flowOnly; }
+
+# Makes CASE anew from a stored one, changes and meshes it, and goes there
+mesh_case()     # CASE STORED [SED_SCRIPT FILE]...
+{
+    new_case "$1" "$2"
+    shift 2
+    while [ $# -gt 0 ]; do sed -i "$1" "$2"; shift 2; done
+    blockMesh > log.blockMesh
+}
+
+# The flux that leaves [m3/s]
+flux()          { awk '$2 == "outlet:" { print $3 }' log; }
+
+# Are two numbers as near as that, relative to the second?
+near()          # A B TOLERANCE
+{
+    echo "$1 against $2, relative tolerance $3"
+    awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { e = a/b - 1; exit !(-t < e && e < t) }'
+}
 
 # The tables of two cases, byte by byte
 same_tables()   # CASE OTHER

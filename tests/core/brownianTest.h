@@ -82,9 +82,10 @@ static inline test_walk test_walk_of(const ellipsoid_options *options,
 
 static inline ellipsoid_status test_walk_to(test_walk *w, double end)
 {
-    return ellipsoid_advance(&w->model, &w->around, &w->state, &w->t, end,
-                             &w->controller, w->cache, NULL, NULL,
-                             &w->statistics);
+    return ellipsoid_advance(
+        &(ellipsoid_member){&w->model, &w->around, &w->state, &w->controller,
+                            w->cache, NULL, &w->statistics},
+        &w->t, end, NULL);
 }
 
 static inline void test_walk_on(test_walk *w)

@@ -57,9 +57,10 @@ static inline void contact_start(contact_run *r,
 
 static inline ellipsoid_status contact_go(contact_run *r, double end)
 {
-    return ellipsoid_advance(&r->model, &r->around, &r->state, &r->t, end,
-                             &r->controller, &r->cache, NULL, NULL,
-                             &r->statistics);
+    return ellipsoid_advance(
+        &(ellipsoid_member){&r->model, &r->around, &r->state, &r->controller,
+                            &r->cache, NULL, &r->statistics},
+        &r->t, end, NULL);
 }
 
 static inline ellipsoid_contact contact_now(contact_run *r)

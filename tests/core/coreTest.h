@@ -175,8 +175,10 @@ static inline ellipsoid_status test_advance(const ellipsoid_model *model,
     const ellipsoid_surroundings surroundings = {
         .flow = flow ? test_quadratic_flow : NULL, .flow_context = flow};
 
-    return ellipsoid_advance(model, &surroundings, state, t, end, controller,
-                             NULL, NULL, NULL, statistics);
+    return ellipsoid_advance(&(ellipsoid_member){model, &surroundings, state,
+                                                 controller, NULL, NULL,
+                                                 statistics},
+                             t, end, NULL);
 }
 
 #endif

@@ -83,7 +83,7 @@ static inline int assert_jacobian(const ellipsoid_model *model,
             y[k] = middle + side * h;
             assert_ok(evaluate_pose(model, surroundings, y, y + 3,
                                                  cache, &moved, NULL));
-            smooth = smooth && moved.touching_beads == contact.touching_beads;
+            smooth = smooth && moved.bead_contacts == contact.bead_contacts;
             for (int i = 0; i < 3; i++)
             {
                 const double f = side * moved.force[i] / (2 * h);

@@ -68,9 +68,10 @@ static ellipsoid_status go(run *r, double end, ellipsoid_observer observer,
     const ellipsoid_surroundings around = {.flow = troubled_flow,
                                            .flow_context = &r->trouble};
 
-    return ellipsoid_advance(&r->model, &around, &r->state, &r->t, end,
-                             &r->controller, NULL, observer, context,
-                             &r->statistics);
+    return ellipsoid_advance(
+        &(ellipsoid_member){&r->model, &around, &r->state, &r->controller, NULL,
+                            context, &r->statistics},
+        &r->t, end, observer);
 }
 
 /* --------------------------------------------------------------- the end */
@@ -337,17 +338,23 @@ static void test_null(void **unused)
     double t = 0;
 
     (void)unused;
-    assert_ok(ellipsoid_advance(all.model, all.surroundings, all.state, &t,
-                                1e-4, all.controller, NULL, NULL, NULL, NULL));
+    assert_ok(ellipsoid_advance(
+        &(ellipsoid_member){all.model, all.surroundings, all.state,
+                            all.controller, NULL, NULL, NULL},
+        &t, 1e-4, NULL));
     assert_true(t == 1e-4);
+    assert_int_equal(ellipsoid_advance(NULL, &t, 2e-4, NULL),
+                     ELLIPSOID_BAD_ARGUMENT);
     for (int n = 0; n < 5; n++)
     {
         assert_int_equal(
-            ellipsoid_advance(n == 0 ? NULL : all.model,
-                              n == 1 ? NULL : all.surroundings,
-                              n == 2 ? NULL : all.state, n == 3 ? NULL : &t,
-                              2e-4, n == 4 ? NULL : all.controller, NULL, NULL,
-                              NULL, NULL),
+            ellipsoid_advance(
+                &(ellipsoid_member){n == 0 ? NULL : all.model,
+                                    n == 1 ? NULL : all.surroundings,
+                                    n == 2 ? NULL : all.state,
+                                    n == 4 ? NULL : all.controller, NULL, NULL,
+                                    NULL},
+                n == 3 ? NULL : &t, 2e-4, NULL),
             ELLIPSOID_BAD_ARGUMENT);
         assert_true(t == 1e-4);
     }
@@ -387,9 +394,10 @@ static void test_passing_trouble(void **unused)
                                            .flow_context = &r.trouble};
 
     (void)unused;
-    assert_ok(ellipsoid_advance(&r.model, &around, &r.state, &r.t, 0.001,
-                                &r.controller, NULL, NULL, NULL,
-                                &r.statistics));
+    assert_ok(ellipsoid_advance(
+        &(ellipsoid_member){&r.model, &around, &r.state, &r.controller, NULL,
+                            NULL, &r.statistics},
+        &r.t, 0.001, NULL));
     assert_true(r.t == 0.001);
     assert_true(r.statistics.rejected > 5);
 }

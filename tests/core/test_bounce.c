@@ -16,7 +16,7 @@ static void bounce(contact_run *r)
     do
     {
         assert_ok(contact_go(r, r->t + 0.5));
-    } while (r->state.u[2] < 0 || contact_now(r).touching_beads > 0);
+    } while (r->state.u[2] < 0 || contact_now(r).bead_contacts > 0);
 }
 
 /* A ball, or a body at any angle that turns, at speed 1 towards the floor. */

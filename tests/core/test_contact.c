@@ -75,9 +75,9 @@ static void test_sphere_on_a_plane(void **unused)
     assert_relative(contact.gap, -depth, 1e-8);
     assert_true(contact.force[0] == 0 && contact.force[1] == 0);
     assert_true(ellipsoid_dot(contact.torque, contact.torque) == 0);
-    assert_int_equal(contact.touching_beads, 1);
-    assert_int_equal(contact.touched_count, 1);
-    assert_int_equal(contact.touched[0], 1);
+    assert_int_equal(contact.bead_contacts, 1);
+    assert_int_equal(contact.surface_count, 1);
+    assert_int_equal(contact.surface[0], 1);
     wall_mesh_free(&mesh);
 }
 
@@ -100,7 +100,7 @@ static void test_standing_and_lying(void **unused)
     ellipsoid_quaternion_from_axis(up, 0.3, q);
     assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
                                          &contact, NULL));
-    assert_int_equal(contact.touching_beads, 1);
+    assert_int_equal(contact.bead_contacts, 1);
     assert_relative(contact.force[2], k * pow(1e-9, 1.5), 1e-6);
     assert_near(contact.torque[0], 0, 1e-9 * contact.force[2] * um);
 
@@ -172,7 +172,7 @@ static void test_sum_over_beads(void **unused)
         assert_ok(evaluate_pose(&model, &surroundings, x, q,
                                              &cache, &contact, NULL));
         assert_sum(&model, &mesh, x, q, &contact);
-        touched += contact.touching_beads > 0;
+        touched += contact.bead_contacts > 0;
     }
     assert_true(touched > 500);
     wall_mesh_free(&mesh);
@@ -230,7 +230,7 @@ static void test_cache_changes_nothing(void **unused)
                                                      &fresh, &b, &jb));
                 assert_memory_equal(&a, &b, sizeof a);
                 assert_memory_equal(&ja, &jb, sizeof ja);
-                touched += a.touching_beads > 0;
+                touched += a.bead_contacts > 0;
             }
         }
         assert_true(touched > 2000);
@@ -295,7 +295,7 @@ static void test_far_from_walls(void **unused)
         assert_ok(evaluate_pose(&model, &surroundings, x, q,
                                              &cache, &contact, NULL));
         assert_true(contact.gap == options.bead_radius);
-        assert_int_equal(contact.touching_beads, 0);
+        assert_int_equal(contact.bead_contacts, 0);
         assert_true(ellipsoid_dot(contact.force, contact.force) == 0);
     }
     assert_true(walls.calls < 80); /* two for each reach travelled */
@@ -417,9 +417,9 @@ static void test_touched_surfaces(void **unused)
     ellipsoid_quaternion_from_axis(across, 0, q);
     assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
                                          &contact, NULL));
-    assert_int_equal(contact.touched_count, 2);
-    assert_int_equal(contact.touched[0] + contact.touched[1], 3);
-    assert_true(contact.touching_beads > 2);
+    assert_int_equal(contact.surface_count, 2);
+    assert_int_equal(contact.surface[0] + contact.surface[1], 3);
+    assert_true(contact.bead_contacts > 2);
     wall_mesh_free(&mesh);
 }
 

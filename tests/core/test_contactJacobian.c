@@ -64,7 +64,7 @@ static void accelerations(scene *s, double all[6 * CELLS], int touching[CELLS])
         memcpy(all + 6 * c, s->point[c].derivative.u, 3 * sizeof(*all));
         memcpy(all + 6 * c + 3, s->point[c].derivative.omega,
                3 * sizeof(*all));
-        touching[c] = s->point[c].contact.touching_beads;
+        touching[c] = s->point[c].contact.bead_contacts;
     }
 }
 
@@ -214,7 +214,7 @@ static void check_jacobian(ellipsoid_contact_shape shape, double adhesion)
     {
         throw_cells(&seed, &s);
         analytic(&s, rows);
-        mixed += s.pairs.count > 0 && s.point[0].contact.touching_beads > 0;
+        mixed += s.pairs.count > 0 && s.point[0].contact.bead_contacts > 0;
         for (int c = 0; c < CELLS; c++)
         {
             double y[SIZE];

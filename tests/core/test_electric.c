@@ -69,8 +69,10 @@ static ellipsoid_state advance(const ellipsoid_model *m,
     ellipsoid_statistics statistics = {0};
     double t = 0;
 
-    assert_ok(ellipsoid_advance(m, surroundings, &s, &t, end, &controller, NULL,
-                                NULL, NULL, &statistics));
+    assert_ok(ellipsoid_advance(
+        &(ellipsoid_member){m, surroundings, &s, &controller, NULL, NULL,
+                            &statistics},
+        &t, end, NULL));
     return s;
 }
 
@@ -375,8 +377,10 @@ static void test_statuses(void **unused)
 
     field.u[1] = 0;
     s.field = ending_field;
-    assert_int_equal(ellipsoid_advance(&m, &s, &state, &t, 1e3, &controller,
-                                       NULL, NULL, NULL, &statistics),
+    assert_int_equal(ellipsoid_advance(
+        &(ellipsoid_member){&m, &s, &state, &controller, NULL, NULL,
+                            &statistics},
+        &t, 1e3, NULL),
                      ELLIPSOID_STEP_UNDERFLOW);
     assert_true(state.x[0] <= 1 && state.x[0] > 1 - 1e-12);
     assert_relative(t, sqrt(2 * m.mass), 1e-12);

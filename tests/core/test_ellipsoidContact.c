@@ -102,7 +102,7 @@ static void test_sphere_is_a_bead(void **unused)
                                                  &cache, &contact, &jacobian));
             ellipsoid_bead_force(x, r, 1, &facets, force, force_x);
             count_kinds(&model, &wall, x, q, &found);
-            touching += contact.touching_beads;
+            touching += contact.bead_contacts;
             for (int i = 0; i < 3; i++)
             {
                 /* rounding of depth, by the stiffness of at most 1.5 */
@@ -169,9 +169,9 @@ static void test_lying_standing_tilted(void **unused)
         ellipsoid_cross(arm, force, torque);
         assert_ok(evaluate_pose(&model, &surroundings, x, q,
                                              &cache, &contact, NULL));
-        assert_int_equal(contact.touching_beads, 1);
-        assert_int_equal(contact.touched_count, 1);
-        assert_int_equal(contact.touched[0], 1);
+        assert_int_equal(contact.bead_contacts, 1);
+        assert_int_equal(contact.surface_count, 1);
+        assert_int_equal(contact.surface[0], 1);
         /* the depth is 1e-3 of the size: 13 digits, times 1.5 */
         assert_relative(contact.deepest, depth, 1e-12);
         assert_relative(contact.force[2], f, 2e-12);

@@ -84,7 +84,7 @@ static void test_flat_wall_however_cut(void **unused)
                             1e-12 * 0.01);
                 assert_near(contact[w].gap, contact[0].gap, 1e-15);
             }
-            touching += contact[0].touching_beads;
+            touching += contact[0].bead_contacts;
         }
         assert_true(touching > 500);
     }

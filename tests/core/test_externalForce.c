@@ -100,8 +100,10 @@ static ellipsoid_status advance(const ellipsoid_model *model,
     ellipsoid_statistics statistics = {0};
     double t = 0;
 
-    return ellipsoid_advance(model, around, s, &t, end, &controller, NULL, NULL,
-                             NULL, &statistics);
+    return ellipsoid_advance(
+        &(ellipsoid_member){model, around, s, &controller, NULL, NULL,
+                            &statistics},
+        &t, end, NULL);
 }
 
 /* ------------------------------------------------------------ closed forms */

@@ -68,7 +68,7 @@ static void test_nothing_is_left(void **unused)
         test_orientation(&seed, r.state.q);
         ellipsoid_set(r.state.x, 0, 0, (0.4 + 1.5 * test_uniform(&seed)) * um);
         contact = contact_now(&r);
-        if (contact.touching_beads == 0 || contact.deepest > 0.1 * um)
+        if (contact.bead_contacts == 0 || contact.deepest > 0.1 * um)
         {
             continue;
         }
@@ -142,7 +142,7 @@ static void test_with_and_without_inertia(void **unused)
 
 static int note_touch(void *context, const ellipsoid_step *step)
 {
-    *(int *)context += step->contact.touched_cell_count > 0;
+    *(int *)context += step->contact.cell_count > 0;
     return 0;
 }
 

@@ -205,8 +205,8 @@ static void test_equal_and_opposite(void **unused)
             ellipsoid_cross(c.state[i].x, contact->cell_force, arm);
             size += ellipsoid_length(contact->cell_torque)
                   + ellipsoid_length(arm);
-            assert_int_equal(contact->touched_cell_count, 1);
-            assert_int_equal(contact->touched_cell[0], 101 - i);
+            assert_int_equal(contact->cell_count, 1);
+            assert_int_equal(contact->cell_id[0], 101 - i);
             assert_near(contact->cell_deepest, 2e-8, 1e-12);
             touching++;
         }
@@ -443,8 +443,10 @@ static void test_group_of_one(void **unused)
     c.state[0].x[1] = 5e-6;
     alone = c.state[0];
     crowd_advance(&c, &t, 0.01, NULL);
-    assert_ok(ellipsoid_advance(&c.model, &c.around[0], &alone, &t_alone, 0.01,
-                                &controller, NULL, NULL, NULL, &statistics));
+    assert_ok(ellipsoid_advance(
+        &(ellipsoid_member){&c.model, &c.around[0], &alone, &controller, NULL,
+                            NULL, &statistics},
+        &t_alone, 0.01, NULL));
     assert_memory_equal(&alone, &c.state[0], sizeof(alone));
     assert_memory_equal(&controller, &c.controller[0], sizeof(controller));
     crowd_free(&c);

@@ -56,9 +56,10 @@ static void new_run(run *r, ellipsoid_motion motion, int seed, double speed)
 static ellipsoid_status go(run *r, double end, ellipsoid_facet_cache *cache,
                            ellipsoid_observer observer, void *context)
 {
-    return ellipsoid_advance(&r->model, &r->around, &r->state, &r->t, end,
-                             &r->controller, cache, observer, context,
-                             &r->statistics);
+    return ellipsoid_advance(
+        &(ellipsoid_member){&r->model, &r->around, &r->state, &r->controller,
+                            cache, context, &r->statistics},
+        &r->t, end, observer);
 }
 
 /*

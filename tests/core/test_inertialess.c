@@ -138,9 +138,10 @@ static test_errors distance_between_motions(double density)
         model = test_model(&o);
         s[n] = test_vortex_state(&model, &flow);
         assert_ok(ellipsoid_balance(&model, &around, &s[n], NULL));
-        assert_ok(ellipsoid_advance(&model, &around, &s[n], &t, 2e-3,
-                                    &controller, NULL, NULL, NULL,
-                                    &statistics));
+        assert_ok(ellipsoid_advance(
+            &(ellipsoid_member){&model, &around, &s[n], &controller, NULL, NULL,
+                                &statistics},
+            &t, 2e-3, NULL));
     }
     return test_difference(&s[0], &s[1]);
 }
@@ -236,8 +237,10 @@ static ellipsoid_step explicit_step(double h)
 
     model.options.motion = ELLIPSOID_MOTION_INERTIALESS;
     model.options.tolerance = 0.1;
-    assert_ok(ellipsoid_advance(&model, &around, &s, &t, h, &controller, NULL,
-                                keep_step, &kept, &statistics));
+    assert_ok(ellipsoid_advance(
+        &(ellipsoid_member){&model, &around, &s, &controller, NULL, &kept,
+                            &statistics},
+        &t, h, keep_step));
     assert_int_equal(kept.count, 1);
     return kept.last;
 }
@@ -255,8 +258,10 @@ static ellipsoid_state exact_at(double end)
 
     model.options.motion = ELLIPSOID_MOTION_INERTIALESS;
     model.options.tolerance = 1e-14;
-    assert_ok(ellipsoid_advance(&model, &around, &s, &t, end, &controller, NULL,
-                                NULL, NULL, &statistics));
+    assert_ok(ellipsoid_advance(
+        &(ellipsoid_member){&model, &around, &s, &controller, NULL, NULL,
+                            &statistics},
+        &t, end, NULL));
     return s;
 }
 
@@ -331,9 +336,10 @@ static settling settle(ellipsoid_motion motion, const wall_mesh *floor,
     ellipsoid_quaternion_from_axis((const double[3]){0.9, 0.3, 0.3}, 0.4,
                                    s.state.q);
     ellipsoid_facet_cache_clear(&cache);
-    assert_ok(ellipsoid_advance(&s.model, &around, &s.state, &s.ends, end,
-                                &controller, &cache, NULL, NULL,
-                                &s.statistics));
+    assert_ok(ellipsoid_advance(
+        &(ellipsoid_member){&s.model, &around, &s.state, &controller, &cache,
+                            NULL, &s.statistics},
+        &s.ends, end, NULL));
     return s;
 }
 
@@ -452,8 +458,10 @@ static void test_refused_derivatives(void **unused)
     o.dipole[0] = 1e-20;
     o.electric_field[1] = 1;
     model = test_model(&o);
-    assert_ok(ellipsoid_advance(&model, &around, &s, &t, 1e-3, &controller,
-                                NULL, NULL, NULL, &statistics));
+    assert_ok(ellipsoid_advance(
+        &(ellipsoid_member){&model, &around, &s, &controller, NULL, NULL,
+                            &statistics},
+        &t, 1e-3, NULL));
     assert_int_equal(statistics.rejected, 1);
 }
 

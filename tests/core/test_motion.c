@@ -227,8 +227,10 @@ static void test_length_of_q(void **unused)
 
         model = test_model(&o);
         s.q[0] *= 1.001; /* also a careless start is mended */
-        assert_ok(ellipsoid_advance(&model, &around, &s, &t, 1, &controller,
-                                    NULL, check_length, NULL, &statistics));
+        assert_ok(ellipsoid_advance(
+            &(ellipsoid_member){&model, &around, &s, &controller, NULL, NULL,
+                                &statistics},
+            &t, 1, check_length));
         assert_near(sqrt(ellipsoid_dot(s.q, s.q) + s.q[3] * s.q[3]), 1, 1e-15);
     }
 }

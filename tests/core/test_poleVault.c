@@ -52,7 +52,7 @@ static void follow(contact_run *r, tumble *way, int half_turns)
         at = atan2(-axis[2], axis[0]);
         way->angle += remainder(at - way->last, 2 * test_pi);
         way->last = at;
-        way->touched += contact_now(r).touching_beads > 0;
+        way->touched += contact_now(r).bead_contacts > 0;
         way->highest = fmax(way->highest, r->state.x[2]);
         if (way->angle >= (way->turns + 1) * test_pi)
         {

@@ -340,8 +340,10 @@ static void relax(relaxation *c, const double axes[3], double tolerance)
         flow.g[k][j] = spin[i];
     }
     memcpy(s.q, c->q, sizeof(s.q));
-    assert_ok(ellipsoid_advance(&c->model, &around, &s, &t, 3e-6, &controller,
-                                NULL, sample, c, &statistics));
+    assert_ok(ellipsoid_advance(
+        &(ellipsoid_member){&c->model, &around, &s, &controller, NULL, c,
+                            &statistics},
+        &t, 3e-6, sample));
     assert_int_equal(c->samples, 301);
     assert_near(c->u, 0, 2 * tolerance * longest / c->model.relaxation_time);
     assert_near(c->x, 0, 2 * tolerance * longest);

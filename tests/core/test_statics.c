@@ -95,7 +95,7 @@ static void test_ball_in_a_wedge(void **unused)
 
         assert_relative(depth, depth_under(&o, weight * normal[n][2]), 1e-6);
     }
-    assert_int_equal(contact_now(&r).touched_count, 2);
+    assert_int_equal(contact_now(&r).surface_count, 2);
     wall_mesh_free(&r.mesh);
 }
 

@@ -59,9 +59,10 @@ static void go(trip *t, test_quadratic *flow, const double force[3], double end)
     const ellipsoid_model model = test_model(&options);
 
     ellipsoid_facet_cache_clear(&cache);
-    assert_ok(ellipsoid_advance(&model, &surroundings, &t->state, &t->time, end,
-                                &controller, &cache, NULL, NULL,
-                                &t->statistics));
+    assert_ok(ellipsoid_advance(
+        &(ellipsoid_member){&model, &surroundings, &t->state, &controller,
+                            &cache, NULL, &t->statistics},
+        &t->time, end, NULL));
 }
 
 /* Hertz's depth of one bead under a force */

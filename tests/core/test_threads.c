@@ -126,9 +126,10 @@ static void *work(void *context)
             around.id = (uint32_t)n;
             ellipsoid_random_uniform(1, (uint32_t)n, 0, (uint32_t)slice, 3,
                                      c->uniform);
-            c->status = ellipsoid_advance(m, &around, &c->state, &c->t,
-                                          slice * 0.02 / SLICES, &c->controller,
-                                          &c->cache, digest, c, &c->statistics);
+            c->status = ellipsoid_advance(
+                &(ellipsoid_member){m, &around, &c->state, &c->controller,
+                                    &c->cache, c, &c->statistics},
+                &c->t, slice * 0.02 / SLICES, digest);
             if (c->status == ELLIPSOID_OK)
             {
                 c->status = ellipsoid_overlaps_walls(m, &around, c->state.x,

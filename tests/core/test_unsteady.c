@@ -125,8 +125,10 @@ static ellipsoid_state advance(const ellipsoid_model *model,
     ellipsoid_statistics statistics = {0};
     double t = start;
 
-    assert_ok(ellipsoid_advance(model, around, &state, &t, end, &controller,
-                                NULL, NULL, NULL, &statistics));
+    assert_ok(ellipsoid_advance(
+        &(ellipsoid_member){model, around, &state, &controller, NULL, NULL,
+                            &statistics},
+        &t, end, NULL));
     return state;
 }
 
@@ -209,8 +211,10 @@ static void check_shear(ellipsoid_force_function force, int cells)
 
         if (cells == 1)
         {
-            assert_ok(ellipsoid_advance(&model, around, s, &t, n, controller,
-                                        NULL, NULL, NULL, statistics));
+            assert_ok(ellipsoid_advance(
+                &(ellipsoid_member){&model, around, s, controller, NULL, NULL,
+                                    statistics},
+                &t, n, NULL));
         }
         else
         {
@@ -315,8 +319,10 @@ static void check_times(ellipsoid_motion motion, ellipsoid_force_function force)
         flow.first = HUGE_VAL;
         flow.last = -HUGE_VAL;
         ellipsoid_facet_cache_clear(&cache);
-        assert_ok(ellipsoid_advance(&model, &around, &s, &t, end, &controller,
-                                    &cache, NULL, NULL, &statistics));
+        assert_ok(ellipsoid_advance(
+            &(ellipsoid_member){&model, &around, &s, &controller, &cache, NULL,
+                                &statistics},
+            &t, end, NULL));
         assert_true(flow.first == start && flow.last == end);
         assert_true(walls.first >= 0.1 && walls.last <= end);
     }
@@ -377,9 +383,10 @@ static test_errors step_error(ellipsoid_motion motion,
     double t = start;
 
     around.force = force;
-    assert_int_equal(ellipsoid_advance(&model, &around, &end, &t, start + h,
-                                       &controller, NULL, keep_end, &end,
-                                       &statistics),
+    assert_int_equal(ellipsoid_advance(
+        &(ellipsoid_member){&model, &around, &end, &controller, NULL, &end,
+                            &statistics},
+        &t, start + h, keep_end),
                      ELLIPSOID_STOPPED);
     assert_near(t, start + h, 0);
     assert_int_equal(statistics.accepted, 1);

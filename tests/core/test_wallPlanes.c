@@ -190,7 +190,8 @@ static void test_jacobian(void **unused)
     {
         const ellipsoid_surroundings s = around(&mesh, &flow);
         ellipsoid_state state = {.u = {0}};
-        double r[3][3], axis[3][3];
+        double r[3][3];
+        ellipsoid_frame frame = {.by_q = NULL};
         ellipsoid_planes planes;
 
         test_orientation(&seed, state.q);
@@ -207,10 +208,10 @@ static void test_jacobian(void **unused)
         ellipsoid_rotation(state.q, r);
         for (int i = 0; i < 3; i++)
         {
-            ellipsoid_set(axis[i], r[0][i], r[1][i], r[2][i]);
+            ellipsoid_set(frame.axis[i], r[0][i], r[1][i], r[2][i]);
         }
-        assert_ok(ellipsoid_find_planes(&model, &s, state.x, state.q, axis,
-                                        NULL, &cache, &planes));
+        assert_ok(ellipsoid_find_planes(&model, &s, &state, &frame, &cache,
+                                        &planes));
         several += planes.count >= 6;
         for (int l = 0; l < 4; l++)
         {
@@ -515,8 +516,10 @@ static void test_coming_down(void **unused)
         ellipsoid_normalise(state.q);
         ellipsoid_facet_cache_clear(&cache);
         assert_ok(ellipsoid_balance(&model, &s, &state, &cache));
-        assert_ok(ellipsoid_advance(&model, &s, &state, &t, 0.5, &controller,
-                                    &cache, NULL, NULL, &statistics));
+        assert_ok(ellipsoid_advance(
+            &(ellipsoid_member){&model, &s, &state, &controller, &cache, NULL,
+                                &statistics},
+            &t, 0.5, NULL));
         print_message("%ld steps, %ld rejected, deepest %.1e m\n",
                       statistics.accepted, statistics.rejected,
                       statistics.deepest);

@@ -527,8 +527,10 @@ static void test_fall(void **unused)
                                           .walls_context = &mesh};
 
         ellipsoid_facet_cache_clear(&cache);
-        assert_ok(ellipsoid_advance(&m, &s, &state, &t, exact, &controller,
-                                    &cache, NULL, NULL, &statistics));
+        assert_ok(ellipsoid_advance(
+            &(ellipsoid_member){&m, &s, &state, &controller, &cache, NULL,
+                                &statistics},
+            &t, exact, NULL));
     }
     /* the rest of the way, at the speed it has there */
     exact += (state.x[2] - (1 + bottom) * radius) / state.u[2];

@@ -11,20 +11,20 @@
 static void check_contact(const ellipsoid_model *model, int has_walls,
                           const ellipsoid_contact *c)
 {
-    require(c->touching_beads >= 0 && c->touching_beads <= model->bead_count);
-    require(c->touched_count >= 0 && c->touched_count <= ELLIPSOID_MAX_TOUCHED);
-    require((c->touched_count > 0) == (c->touching_beads > 0));
+    require(c->bead_contacts >= 0 && c->bead_contacts <= model->bead_count);
+    require(c->surface_count >= 0 && c->surface_count <= ELLIPSOID_MAX_SURFACES);
+    require((c->surface_count > 0) == (c->bead_contacts > 0));
     require(has_walls ? c->gap <= model->options.bead_radius
                       : c->gap == HUGE_VAL);
     require(c->deepest == fmax(0, -c->gap));
-    require(c->touching_beads == 0 || c->deepest > 0
+    require(c->bead_contacts == 0 || c->deepest > 0
             || (model->options.adhesion > 0
                 && c->gap < model->options.adhesion_range));
-    for (int n = 0; n < c->touched_count; n++)
+    for (int n = 0; n < c->surface_count; n++)
     {
         for (int m = 0; m < n; m++)
         {
-            require(c->touched[n] != c->touched[m]);
+            require(c->surface[n] != c->surface[m]);
         }
     }
 }

@@ -221,10 +221,10 @@ static ellipsoid_status go(run *r, ellipsoid_facet_cache *cache,
     r->last_time = r->now.t;
     r->steps = 0;
     r->deepest = before.statistics.deepest;
-    status = ellipsoid_advance(r->model, &r->scene->around, &r->now.state,
-                               &r->now.t, r->now.end, &r->now.controller, cache,
-                               observed ? observe : NULL, r,
-                               &r->now.statistics);
+    status = ellipsoid_advance(
+        &(ellipsoid_member){r->model, &r->scene->around, &r->now.state,
+                            &r->now.controller, cache, r, &r->now.statistics},
+        &r->now.t, r->now.end, observed ? observe : NULL);
     r->scene->strict = 0;
 
     if (!(before.end > before.t) || !isfinite(before.t)

@@ -24,11 +24,19 @@ Usage
       - \par -flowOnly
         Stop after the flow.
 
-    Entries are described in steadyFlow.H, flowConvergence.H (flow) and
-    ellipsoidProperties.H (ellipsoids).
+      - \par -frozenFlow
+        Take the flow as it is read, of whatever solver.
+
+      - \par -dry-run
+        Read and check everything, and say what would happen. Solve and write
+        nothing.
+
+    Entries are described in flowFields.H, steadyFlow.H, flowConvergence.H
+    (flow) and ellipsoidProperties.H (ellipsoids).
 
 SourceFiles
     ellipsoidTrapFoam.C
+    flowFields.C
     steadyFlow.C
     flowConvergence.C
 
@@ -37,32 +45,73 @@ SourceFiles
 #include "argList.H"
 #include "Time.H"
 #include "fvMesh.H"
-#include "columnFvMesh.H"
 #include "ellipsoidCloud.H"
 #include "steadyFlow.H"
 #include "checkpoint.H"
+#include "commit.H"
+#include "ellipsoidCore.H"
 
 using namespace Foam;
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
-int main(int argc, char *argv[])
+//- Move the cells from the start of the run to its end
+static void track(Time& runTime, ellipsoidCloud& cells)
+{
+    cells.begin();
+
+    while (runTime.loop())
+    {
+        cells.evolve();
+
+        if (runTime.writeTime())
+        {
+            cells.write();
+        }
+    }
+
+    cells.finish();
+}
+
+
+static void addOptions()
 {
     argList::addNote
     (
         "Solve the steady incompressible laminar flow, then track rigid"
-        " ellipsoids through it."
+        " ellipsoids through it. Version " ELLIPSOID_VERSION ", "
+        ELLIPSOID_COMMIT
     );
     argList::addBoolOption("flowOnly", "Stop after the flow");
+    argList::addBoolOption
+    (
+        "dry-run",
+        "Read and check everything, solve and write nothing"
+    );
+    argList::addBoolOption
+    (
+        "frozenFlow",
+        "Take the flow as it is read, of whatever solver"
+    );
+}
+
+
+int main(int argc, char *argv[])
+{
+    addOptions();
 
     #include "setRootCaseLists.H"
 
     const bool flowOnly = args.found("flowOnly");
+    const bool dryRun = args.found("dry-run");
 
-    if (!flowOnly)
+    if (!flowOnly && !dryRun)
     {
         checkpoint::setAsideIncomplete(args);
     }
+
+    Info<< "ellipsoidTrapFoam " << ELLIPSOID_VERSION << ", "
+        << ELLIPSOID_COMMIT << nl << endl;
 
     #include "createTime.H"
 
@@ -70,7 +119,21 @@ int main(int argc, char *argv[])
     Sout.precision(6);
     Pout.precision(6);
 
-    #include "createMesh.H"
+    // Not createMesh.H, which takes a column of cells for a dry run
+    Info<< "Create mesh for time = " << runTime.timeName() << nl << endl;
+    const fvMesh mesh
+    (
+        IOobject
+        (
+            fvMesh::defaultRegion,
+            runTime.timeName(),
+            runTime,
+            IOobject::MUST_READ
+        )
+    );
+
+    const flowFields::solveType solve =
+        args.found("frozenFlow") ? flowFields::NO : flowFields::solveOf(mesh);
 
     // Read before the flow takes its time: bad input ends the run here
     autoPtr<ellipsoidCloud> cells;
@@ -79,31 +142,37 @@ int main(int argc, char *argv[])
         cells.reset(new ellipsoidCloud(mesh));
     }
 
-    steadyFlow flow(mesh);
+    autoPtr<flowFields> flow(steadyFlow::New(mesh, solve));
+    const bool accepted = flow->accept();
 
-    if (!flow.converged())
+    if (!accepted && !dryRun)
     {
-        flow.solve();
-        flow.write();
+        flow->solve();
+        flow->write();
     }
 
-    flow.report(flowOnly ? 0 : cells->fluidDensity());
-
-    if (!flowOnly)
+    if (accepted || !dryRun)
     {
-        cells->setFlow(flow.U(), flow.p(), flow.phi());
+        flow->report(flowOnly ? 0 : cells->fluidDensity());
 
-        while (runTime.loop())
+        if (!flowOnly)
         {
-            cells->evolve();
-
-            if (runTime.writeTime())
-            {
-                cells->write();
-            }
+            cells->setFlow(flow->U(), flow->p(), flow->phi());
         }
+    }
+    else
+    {
+        Info<< "flow: to be solved; when that is done, -dry-run says more"
+            << endl;
+    }
 
-        cells->finish();
+    if (dryRun)
+    {
+        Info<< "Nothing was solved or written" << endl;
+    }
+    else if (!flowOnly)
+    {
+        track(runTime, *cells);
     }
 
     Info<< "End\n" << endl;

@@ -139,7 +139,8 @@ Foam::scalar Foam::flowConvergence::fluxChange(const scalarField& scales) const
 Foam::flowConvergence::flowConvergence
 (
     const fvMesh& mesh,
-    const dictionary& dict
+    const dictionary& dict,
+    const label fluxWindow
 )
 :
     mesh_(mesh),
@@ -156,12 +157,12 @@ Foam::flowConvergence::flowConvergence
 
     const dictionary targets(dict.subOrEmptyDict("residualControl"));
 
-    fluxTolerance_ = entries::getAboveOrDefault(dict, "fluxTolerance", 0, 1e-4);
-    fluxWindow_ = entries::getWholeOrDefault(dict, "fluxWindow", 1, 10);
+    fluxTolerance_ = entries::number(dict, "fluxTolerance", above(0), 1e-4);
+    fluxWindow_ = entries::number(dict, "fluxWindow", atLeast(1), fluxWindow);
 
     target_ = fluxTolerance_;
-    target_[mPressure] = entries::getAboveOrDefault(targets, "p", 0, 1e-5);
-    target_[mVelocity] = entries::getAboveOrDefault(targets, "U", 0, 1e-5);
+    target_[mPressure] = entries::number(targets, "p", above(0), 1e-5);
+    target_[mVelocity] = entries::number(targets, "U", above(0), 1e-5);
 }
 
 
@@ -216,6 +217,18 @@ bool Foam::flowConvergence::sound() const
     const scalar meanSpeed = through_->meanSpeed;
 
     return std::isfinite(meanSpeed) && meanSpeed < maxSpeed;
+}
+
+
+Foam::scalar Foam::flowConvergence::excess() const
+{
+    scalar largest = SMALL;
+    for (label i = 0; i < mFluxChange; ++i)
+    {
+        largest = max(largest, value_[i]/target_[i]);
+    }
+
+    return largest;
 }
 
 

@@ -13,8 +13,10 @@ License
 #include "clockTime.H"
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
+#include "coupledFlow.H"
 #include "ellipsoidProperties.H"
 #include "findRefCell.H"
+#include "IOdictionary.H"
 #include "fvcDiv.H"
 #include "fvcFlux.H"
 #include "fvcGrad.H"
@@ -25,15 +27,18 @@ License
 #include "fvMatrices.H"
 #include "fvMesh.H"
 #include "masterGate.H"
-#include "PstreamReduceOps.H"
 #include "readViscosity.H"
 #include "sigFpe.H"
-#include "StringStream.H"
 #include "surfaceInterpolate.H"
-#include "atomicWrite.H"
-#include "checkpoint.H"
 
-#include <cmath>
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::word Foam::steadyFlow::transposedScheme_
+(
+    "div((nuEff*dev2(T(grad(U)))))",
+    false
+);
+
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -54,93 +59,24 @@ static void forgetSolverPerformance(const fvMesh& mesh)
 }
 
 
-// The precision of Info is that of the fields, far more than one can read
-static word text(const scalar value)
-{
-    return word::printf("%.6g", value);
-}
-
-
-//- The first value that is not finite, and where; empty if there is none
-template<class Type>
-static string findNotFinite
+//- A dictionary that may be absent; collective
+static dictionary readIfPresent
 (
-    const UList<Type>& values,
-    const UList<vector>& centres,
-    const word& where
+    const fvMesh& mesh,
+    const word& name,
+    const fileName& folder
 )
 {
-    forAll(values, i)
-    {
-        for (direction cmpt = 0; cmpt < pTraits<Type>::nComponents; ++cmpt)
-        {
-            if (!std::isfinite(component(values[i], cmpt)))
-            {
-                OStringStream os;
-                os.precision(6);
-                os  << values[i] << " in " << where << ' ' << i << " at "
-                    << centres[i] << " m";
-                return os.str();
-            }
-        }
-    }
-
-    return string();
-}
-
-
-//- End the run if a value of a field is not finite
-template<class Field, class Centres>
-static void checkFinite
-(
-    const Field& field,
-    const Centres& centres,
-    const word& where
-)
-{
-    List<string> found(Pstream::nProcs());
-    string& mine = found[Pstream::myProcNo()];
-
-    mine = findNotFinite
+    IOobject io
     (
-        field.primitiveField(), centres.primitiveField(), where
+        name, folder, mesh.time(), IOobject::MUST_READ, IOobject::NO_WRITE, false
     );
 
-    forAll(field.boundaryField(), patchi)
+    if (!io.typeHeaderOk<IOdictionary>(true))
     {
-        const auto& values = field.boundaryField()[patchi];
-
-        if (mine.empty())
-        {
-            mine = findNotFinite
-            (
-                values,
-                centres.boundaryField()[patchi],
-                "patch " + values.patch().name() + ", face"
-            );
-        }
+        return dictionary();
     }
-
-    Pstream::gatherList(found);
-    const masterGate once;
-
-    forAll(found, ranki)
-    {
-        if (!found[ranki].empty())
-        {
-            FatalErrorInFunction
-                << "A value of " << field.name() << " is not a finite number: "
-                << found[ranki].c_str();
-
-            if (Pstream::parRun())
-            {
-                FatalError<< " of processor" << ranki;
-            }
-
-            FatalError
-                << nl << "    " << field.objectPath() << exit(FatalError);
-        }
-    }
+    return IOdictionary(io);
 }
 
 
@@ -154,7 +90,7 @@ static label wholeNumber
 )
 {
     const masterGate once;
-    return ellipsoidProperties::getWholeOrDefault(dict, keyword, least, deflt);
+    return ellipsoidProperties::number(dict, keyword, atLeast(least), deflt);
 }
 
 } // End namespace Foam
@@ -162,43 +98,33 @@ static label wholeNumber
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::IOobject Foam::steadyFlow::fieldIO
-(
-    const word& name,
-    const IOobject::readOption readOpt
-) const
-{
-    return IOobject(name, instance_, mesh_, readOpt, IOobject::NO_WRITE);
-}
-
-
 void Foam::steadyFlow::checkControls() const
 {
     const masterGate once;
 
+    // What other solvers read there is in many a case
     const wordHashSet known
     ({
-        "consistent", "nNonOrthogonalCorrectors", "maxIterations",
+        "coupled", "consistent", "nNonOrthogonalCorrectors", "maxIterations",
         "residualControl", "fluxTolerance", "fluxWindow",
         "pRefCell", "pRefPoint", "pRefValue"
     });
-    const wordHashSet knownTargets({"p", "U"});
+    const wordHashSet knownElsewhere
+    ({
+        "momentumPredictor", "transonic", "frozenFlow", "nCorrectors",
+        "nOuterCorrectors", "turbOnFinalIterOnly", "pMin", "pMax",
+        "pMinFactor", "pMaxFactor", "rhoMin", "rhoMax"
+    });
 
     wordHashSet unknown(controls_.toc());
     unknown -= known;
-    wordHashSet unknownTargets
-    (
-        controls_.subOrEmptyDict("residualControl").toc()
-    );
-    unknownTargets -= knownTargets;
+    unknown -= knownElsewhere;
 
-    if (unknown.size() || unknownTargets.size())
+    if (unknown.size())
     {
         FatalIOErrorInFunction(controls_)
-            << "Unknown entries " << (unknown | unknownTargets).sortedToc()
-            << nl << "Known are " << known.sortedToc()
-            << ", and in residualControl " << knownTargets.sortedToc()
-            << exit(FatalIOError);
+            << "Unknown entries " << unknown.sortedToc() << nl
+            << "Known are " << known.sortedToc() << exit(FatalIOError);
     }
 
     if
@@ -218,6 +144,53 @@ void Foam::steadyFlow::checkControls() const
 }
 
 
+void Foam::steadyFlow::checkModels() const
+{
+    for (const word& folder : {mesh_.time().constant(), mesh_.time().system()})
+    {
+        const dictionary sources(readIfPresent(mesh_, "fvOptions", folder));
+        const masterGate once;
+
+        if (sources.size())
+        {
+            FatalErrorInFunction
+                << "The sources of " << folder << "/fvOptions are not solved"
+                << " for. Solve the flow with a solver that does, and take it as"
+                << " it is: -frozenFlow, or flow { solve no; } in"
+                << " system/fvSolution" << exit(FatalError);
+        }
+    }
+
+    const word constant(mesh_.time().constant());
+    const dictionary turbulence
+    (
+        readIfPresent(mesh_, "turbulenceProperties", constant)
+    );
+    const word type
+    (
+        turbulence.getOrDefault<word>("simulationType", "laminar")
+    );
+    const dictionary motion(readIfPresent(mesh_, "dynamicMeshDict", constant));
+    const word moving
+    (
+        motion.getOrDefault<word>("dynamicFvMesh", "staticFvMesh")
+    );
+
+    if (type != "laminar")
+    {
+        WarningInFunction
+            << "The flow is solved without the " << type << " model of "
+            << constant << "/turbulenceProperties: it is laminar" << nl << endl;
+    }
+    if (moving != "staticFvMesh")
+    {
+        WarningInFunction
+            << "The mesh stands still: " << moving << " of " << constant
+            << "/dynamicMeshDict is not read" << nl << endl;
+    }
+}
+
+
 Foam::dictionary Foam::steadyFlow::linearSolver(const word& fieldName) const
 {
     dictionary dict(mesh_.solverDict(fieldName));
@@ -227,6 +200,19 @@ Foam::dictionary Foam::steadyFlow::linearSolver(const word& fieldName) const
     dict.set("minIter", max(dict.getOrDefault<label>("minIter", 1), label(1)));
 
     return dict;
+}
+
+
+Foam::tmp<Foam::fvVectorMatrix> Foam::steadyFlow::momentum()
+{
+    tmp<fvVectorMatrix> UEqn(fvm::div(phi_, U_) - fvm::laplacian(nu_, U_));
+
+    if (hasTransposed_)
+    {
+        UEqn.ref() -= fvc::div(nu_*dev2(T(fvc::grad(U_))), transposedScheme_);
+    }
+
+    return UEqn;
 }
 
 
@@ -266,12 +252,47 @@ Foam::flowConvergence::forceRatios Foam::steadyFlow::forces
 }
 
 
+Foam::scalar Foam::steadyFlow::linearTolerance(const scalar before) const
+{
+    // Nothing is known before the first iteration
+    if (!convergence_.sound() || convergence_.excess() <= SMALL)
+    {
+        return 0.3;
+    }
+
+    // Not farther than the targets ask, with room for what the iteration after
+    // the correction roughens; nor than pays, of what the next convecting flux
+    // will change again: a tenth of that
+    const scalar ahead = 0.05/convergence_.excess();
+    const scalar changing = 0.1*min(convergence_.excess()/before, scalar(1));
+
+    return min(max(max(ahead, changing), scalar(1e-4)), scalar(0.3));
+}
+
+
+Foam::label Foam::steadyFlow::correct(const scalar relTol)
+{
+    const sigFpe::ignore noTrap;
+
+    const label n =
+        coupledFlow(nu_, U_, p_, phi_).correct(momentum()(), relTol);
+    if (p_.needReference())
+    {
+        const scalar shift = pRefValue_ - getRefCellValue(p_, pRefCell_);
+        p_ += dimensionedScalar("shift", p_.dimensions(), shift);
+    }
+
+    return n;
+}
+
+
 void Foam::steadyFlow::iterate()
 {
     // A flow that diverges is reported as such, not by a signal
     const sigFpe::ignore noTrap;
 
-    fvVectorMatrix UEqn(fvm::div(phi_, U_) - fvm::laplacian(nu_, U_));
+    tmp<fvVectorMatrix> equation(momentum());
+    fvVectorMatrix& UEqn = equation.ref();
     const flowConvergence::forceRatios forcesFound(forces(UEqn));
 
     UEqn.relax();
@@ -328,12 +349,6 @@ void Foam::steadyFlow::iterate()
 }
 
 
-Foam::fileName Foam::steadyFlow::unfinishedFile(const word& instance) const
-{
-    return checkpoint::unfinishedFlow(mesh_.time().path()/instance);
-}
-
-
 void Foam::steadyFlow::reportProgress(const label iteration) const
 {
     Info<< "flow: iteration " << iteration << ": "
@@ -354,33 +369,32 @@ void Foam::steadyFlow::reportProgress(const label iteration) const
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::steadyFlow::steadyFlow(const fvMesh& mesh)
+Foam::steadyFlow::steadyFlow(const fvMesh& mesh, const solveType solve)
 :
-    mesh_(mesh),
+    flowFields(mesh),
+    solve_(solve),
     controls_(mesh.solutionDict().subDict("SIMPLE")),
+    coupled_(controls_.getOrDefault("coupled", false)),
     consistent_(controls_.getOrDefault("consistent", true)),
     nNonOrthogonalCorrectors_
     (
         wholeNumber(controls_, "nNonOrthogonalCorrectors", 0, 0)
     ),
     maxIterations_(wholeNumber(controls_, "maxIterations", 1, 2000)),
-    instance_(mesh.time().findInstance(mesh.dbDir(), "U")),
-    unfinished_
+    hasTransposed_
     (
-        returnReduce(isFile(unfinishedFile(instance_)), orOp<bool>())
+        mesh.schemesDict().subOrEmptyDict("divSchemes").found(transposedScheme_)
     ),
     nu_(readViscosity(mesh)),
-    U_(fieldIO("U", IOobject::MUST_READ), mesh),
-    p_(fieldIO("p", IOobject::MUST_READ), mesh),
-    phi_(fieldIO("phi", IOobject::READ_IF_PRESENT), fvc::flux(U_)),
     pRefCell_(0),
     pRefValue_(0),
-    convergence_(mesh, controls_)
+    convergence_(mesh, controls_, coupled_ ? 1 : 10)
 {
     checkControls();
-    checkFinite(U_, mesh_.C(), "mesh cell");
-    checkFinite(p_, mesh_.C(), "mesh cell");
-    checkFinite(phi_, mesh_.Cf(), "mesh face");
+    if (coupled_)
+    {
+        coupledFlow::check(mesh_, controls_);
+    }
 
     setRefCell(p_, controls_, pRefCell_, pRefValue_);
     mesh_.setFluxRequired(p_.name());
@@ -396,7 +410,7 @@ Foam::steadyFlow::steadyFlow(const fvMesh& mesh)
 
 bool Foam::steadyFlow::converged()
 {
-    if (unfinished_)
+    if (unfinished())
     {
         Info<< "flow: not all of it was written in " << instance_ << endl;
         return false;
@@ -424,14 +438,65 @@ bool Foam::steadyFlow::converged()
 }
 
 
+void Foam::steadyFlow::refuseForeign() const
+{
+    if (foreign())
+    {
+        const masterGate once;
+        FatalErrorInFunction
+            << "The flow in " << instance_ << " is of another program, and not"
+            << " steady by the measures of this one:" << nl
+            << convergence_.shortcomings().c_str()
+            << "-frozenFlow, or flow { solve no; } in system/fvSolution, takes"
+            << " it as it is; flow { solve yes; } solves it again and keeps its"
+            << " files as U.bak, p.bak and phi.bak" << exit(FatalError);
+    }
+}
+
+
+Foam::autoPtr<Foam::flowFields> Foam::steadyFlow::New
+(
+    const fvMesh& mesh,
+    const solveType solve
+)
+{
+    return autoPtr<flowFields>
+    (
+        solve == NO ? new flowFields(mesh) : new steadyFlow(mesh, solve)
+    );
+}
+
+
+bool Foam::steadyFlow::accept()
+{
+    if (solve_ == AUTO)
+    {
+        if (converged())
+        {
+            return true;
+        }
+        refuseForeign();
+    }
+    checkModels();
+
+    return false;
+}
+
+
 void Foam::steadyFlow::solve()
 {
     Info<< "flow: solved from that in " << instance_ << " by "
+        << (coupled_ ? "corrections of U and p together, checked by " : "")
         << (consistent_ ? "SIMPLEC" : "SIMPLE") << endl;
 
     const clockTime clock;
     scalar reported = -1;
     label iteration = 0;
+
+    // Of the coupled method: iterations of GMRES, and how far the flow had been
+    // from the targets before the latest correction
+    label nLinear = 0;
+    scalar before = GREAT;
 
     do
     {
@@ -447,6 +512,12 @@ void Foam::steadyFlow::solve()
                 << " fluxTolerance." << exit(FatalIOError);
         }
 
+        if (coupled_)
+        {
+            const scalar relTol = linearTolerance(before);
+            before = convergence_.excess();
+            nLinear += correct(relTol);
+        }
         iterate();
         ++iteration;
 
@@ -470,88 +541,12 @@ void Foam::steadyFlow::solve()
     } while (!convergence_.reached());
 
     reportProgress(iteration);
-    Info<< "flow: converged in " << iteration << " iterations, "
-        << text(clock.elapsedTime()) << " s" << endl;
-}
-
-
-void Foam::steadyFlow::write()
-{
-    const word& instance = mesh_.time().timeName();
-
-    atomicWrite(unfinishedFile(instance), "Not all of the flow is written\n");
-    atomicWrite(phi_);
-    atomicWrite(p_);
-    atomicWrite(U_);
-    label all = 1;
-    reduce(all, sumOp<label>());
-    rm(unfinishedFile(instance));
-
-    Info<< "flow: written to " << mesh_.time().timeName() << endl;
-}
-
-
-void Foam::steadyFlow::report(const scalar density) const
-{
-    const inletFlux& through = convergence_.through();
-
-    if (through.closed())
+    Info<< "flow: converged in " << iteration << " iterations, ";
+    if (coupled_)
     {
-        Info<< "flow: nothing flows through, mean speed "
-            << text(through.speed) << " m/s" << endl;
-        return;
+        Info<< nLinear << " of GMRES, ";
     }
-
-    scalar inP = 0;
-    scalar outflow = 0, outP = 0;
-
-    forAll(through.patches, i)
-    {
-        // A patch may have no faces
-        if (through.area[i] <= 0)
-        {
-            continue;
-        }
-
-        const label patchi = through.patches[i];
-        const scalar flux = through.flux[i];
-        const scalar patchP =
-            gSum
-            (
-                p_.boundaryField()[patchi]*mesh_.magSf().boundaryField()[patchi]
-            )
-           /through.area[i];
-
-        Info<< "flow: " << mesh_.boundary()[patchi].name() << ": "
-            << text(mag(flux)) << " m3/s " << (flux < 0 ? "in" : "out")
-            << ", mean p " << text(patchP) << " m2/s2" << endl;
-
-        if (flux < 0)
-        {
-            inP -= flux*patchP;
-        }
-        else
-        {
-            outflow += flux;
-            outP += flux*patchP;
-        }
-    }
-
-    Info<< "flow: mean inlet speed " << text(through.speed) << " m/s"
-        << endl;
-
-    if (outflow > 0)
-    {
-        const scalar drop = inP/through.inflow - outP/outflow;
-
-        Info<< "flow: pressure drop " << text(drop) << " m2/s2";
-
-        if (density > 0)
-        {
-            Info<< " (" << text(density*drop) << " Pa)";
-        }
-        Info<< endl;
-    }
+    Info<< text(clock.elapsedTime()) << " s" << endl;
 }
 
 

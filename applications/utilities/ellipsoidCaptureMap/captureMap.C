@@ -23,27 +23,21 @@ const Foam::label Foam::captureMap::mostFirst_;
 
 Foam::label Foam::captureMap::readSquares(const dictionary& dict)
 {
-    return ellipsoidProperties::getWholeWithinOrDefault
-    (
-        dict, "squares", 1, 1000, 64
-    );
+    return ellipsoidProperties::number(dict, "squares", within(1, 1000), 64);
 }
 
 
 Foam::label Foam::captureMap::readLevels(const dictionary& dict)
 {
-    return ellipsoidProperties::getWholeWithinOrDefault
-    (
-        dict, "levels", 0, 10, 3
-    );
+    return ellipsoidProperties::number(dict, "levels", within(0, 10), 3);
 }
 
 
 Foam::label Foam::captureMap::readMostCells(const dictionary& dict)
 {
-    return ellipsoidProperties::getWholeWithinOrDefault
+    return ellipsoidProperties::number
     (
-        dict, "mostCells", 1, 10000000, 20000
+        dict, "mostCells", within(1, 10000000), 20000
     );
 }
 
@@ -78,9 +72,9 @@ Foam::List<Foam::captureMap::pose> Foam::captureMap::readPoses
           : wordList({"orientation", "axis", "quaternion", "eulerAngles"})
         );
 
-        const label n = ellipsoidProperties::getWholeWithinOrDefault
+        const label n = ellipsoidProperties::number
         (
-            one, "number", 1, 1000, 1
+            one, "number", within(1, 1000), 1
         );
 
         for (label i = 0; i < n; ++i)
@@ -138,11 +132,10 @@ void Foam::captureMap::begin(const node& at, const label level)
         )
     );
 
-    cellInjection::newCell cell;
+    cellState cell = cellState();
     cell.id = id;
-    cell.time = 0;
-    std::copy_n(x.v_, 3, cell.x);
-    std::copy_n(poses_[at.pose].q, 4, cell.q);
+    std::copy_n(x.v_, 3, cell.body.x);
+    std::copy_n(poses_[at.pose].q, 4, cell.body.q);
 
     if (cells_.fits(cell))
     {
@@ -447,7 +440,7 @@ void Foam::captureMap::check
     readSquares(dict);
     readLevels(dict);
     readMostCells(dict);
-    ellipsoidProperties::getAbove(dict, "endTime", 0);
+    ellipsoidProperties::number<scalar>(dict, "endTime", above(0));
     readPoses(dict, seed);
 }
 

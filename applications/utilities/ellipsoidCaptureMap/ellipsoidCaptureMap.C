@@ -80,7 +80,10 @@ static void checkCase
     const masterGate once;
 
     captureMap::check(dict, mesh.boundaryMesh(), seed);
-    ellipsoidProperties::getAbove(runTime.controlDict(), "deltaT", 0);
+    ellipsoidProperties::number<scalar>
+    (
+        runTime.controlDict(), "deltaT", above(0)
+    );
 
     if (!solved)
     {

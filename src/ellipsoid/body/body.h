@@ -16,8 +16,9 @@
 #include <string.h>
 
 /*
-    The part of the Jacobian that is not known beforehand: rows are the
-    accelerations du/dt and domega/dt, columns the unknowns. The rest follows
+    The part of the Jacobian that is not known beforehand: rows are du/dt and
+    domega/dt, columns the unknowns. Until all forces are in, rows are force and
+    torque; only then are they divided by mass and inertia. The rest follows
     from paper eqs. (2) and (4): dx/dt = u and dq/dt = 1/2 Q(omega) q.
 */
 typedef struct ellipsoid_blocks
@@ -31,6 +32,22 @@ typedef struct ellipsoid_blocks
 void ellipsoid_add_to_blocks(const ellipsoid_wrench_jacobian *jacobian,
                              double of_force, const double of_torque[3],
                              ellipsoid_blocks *blocks);
+
+/* The body axes in the lab, the columns of R(q), and their derivatives. Not
+   const where it is an argument, as C11 takes no const matrix for a plain one.
+ */
+typedef struct ellipsoid_frame
+{
+    double axis[3][3];    /* r_i, as long as q squared */
+    double (*by_q)[3][3]; /* [n][i] = dr_i/dq_n; NULL: none are wanted */
+} ellipsoid_frame;
+
+/* What acts on a body, summed up. */
+typedef struct ellipsoid_body_wrench
+{
+    double force[3];  /* [N] lab */
+    double torque[3]; /* [N m] body */
+} ellipsoid_body_wrench;
 
 /* In place, by blocks of 3x3; 0 if one of them is singular
    (invert6.c). */

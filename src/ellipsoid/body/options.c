@@ -34,7 +34,7 @@ ellipsoid_options ellipsoid_options_default(void)
 
 /* ---------------------------------------------------------------- list */
 
-/* INDEX_friction, ...: places in the list */
+/* INDEX_friction, ...: positions in the list */
 enum
 {
 #define ELLIPSOID_REAL(member, ...) INDEX_##member,
@@ -66,7 +66,8 @@ enum
     .low = from, .high = DBL_MAX, .above = 1, .unit = si,                      \
     .range = TEXT("above " #from, si)
 #define FROM(from, si)                                                         \
-    .low = from, .high = DBL_MAX, .unit = si, .range = TEXT(#from " or more", si)
+    .low = from, .high = DBL_MAX, .unit = si,                                  \
+    .range = TEXT(#from " or more", si)
 #define RELATED(from, to, si, text)                                            \
     .low = from, .high = to, .related = 1, .unit = si, .range = text
 #define TEXT(text, si) sizeof si > 1 ? text " " si : text

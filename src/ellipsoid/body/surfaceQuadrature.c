@@ -10,7 +10,7 @@
 /* A class of points: all that arise from one by signs and exchanges. */
 typedef struct point_class
 {
-    double place[3];
+    double point[3];
     double weight;
 } point_class;
 
@@ -77,7 +77,7 @@ int ellipsoid_surface_quadrature(ellipsoid_model *model)
         }
         for (int c = 0; c < quadratures[q].classes; c++)
         {
-            const double *n = quadratures[q].class[c].place;
+            const double *n = quadratures[q].class[c].point;
             const double weight = quadratures[q].class[c].weight;
 
             /* two of the three numbers are always equal */

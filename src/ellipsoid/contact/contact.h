@@ -16,7 +16,7 @@
 /* Is a cell in contact with anything? */
 static inline int ellipsoid_in_contact(const ellipsoid_contact *contact)
 {
-    return contact->touching_beads > 0 || contact->touched_cell_count > 0;
+    return contact->bead_contacts > 0 || contact->cell_count > 0;
 }
 
 /* ------------------------------------------------- a bead and walls */

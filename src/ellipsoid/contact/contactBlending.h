@@ -97,16 +97,16 @@ static void add_contact(contacts *all, const contact *found, double size)
 
 static void list_surface(ellipsoid_contact *report, int surface)
 {
-    for (int i = 0; i < report->touched_count; i++)
+    for (int i = 0; i < report->surface_count; i++)
     {
-        if (report->touched[i] == surface)
+        if (report->surface[i] == surface)
         {
             return;
         }
     }
-    if (report->touched_count < ELLIPSOID_MAX_TOUCHED)
+    if (report->surface_count < ELLIPSOID_MAX_SURFACES)
     {
-        report->touched[report->touched_count++] = surface;
+        report->surface[report->surface_count++] = surface;
     }
 }
 

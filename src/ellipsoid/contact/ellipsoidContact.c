@@ -361,7 +361,7 @@ ellipsoid_surface_contact_add(const ellipsoid_model *model,
 
         find_contacts(&body, &from, laws.range, &all, contact);
         contact->deepest = fmax(0, -contact->gap);
-        contact->touching_beads = all.count > 0;
+        contact->bead_contacts = all.count > 0;
         if (all.count > 0)
         {
             ellipsoid_surface_force at = {

@@ -10,8 +10,8 @@
         phi(n) = h_a(n) + h_b(n) - n.(x_a - x_b),
     the way that a has to be moved along n until they part; where they are
     apart, minus the distance. At the minimum w = p_a + p_b - (x_a - x_b) is
-   along n, p = R A^2 R^T n/h being the points of support: the surfaces are
-   nearest, or deepest, at x_a - p_a and x_b + p_b, phi apart along n.
+    along n, p = R A^2 R^T n/h being the points of support: the surfaces are
+    nearest, or deepest, at x_a - p_a and x_b + p_b, phi apart along n.
 
     phi is minimised by Newton's method on the sphere. Its derivatives by the
     poses are those at fixed n; n and p follow from the implicit function.
@@ -239,7 +239,7 @@ void ellipsoid_surface_pair_set(const ellipsoid_surface *a,
     {
         const double *n = pair->normal;
         double unit[3] = {0, 0, 0}, fixed[3] = {0, 0, 0}, w[3];
-        double dn[3], d[2], down[2], lever[3];
+        double dn[3], d[2], down[2], moment[3];
 
         unit[k % 3] = 1;
         if (k < 3)
@@ -255,8 +255,8 @@ void ellipsoid_surface_pair_set(const ellipsoid_surface *a,
             const support *s = k < 6 ? &at.a : &at.b;
             double turned[3];
 
-            ellipsoid_cross(s->point, n, lever);
-            pair->depth_slope[k] = lever[k % 3];
+            ellipsoid_cross(s->point, n, moment);
+            pair->depth_slope[k] = moment[k % 3];
             ellipsoid_cross(unit, s->point, fixed);
             ellipsoid_cross(unit, n, turned);
             for (int i = 0; i < 3; i++)

@@ -25,7 +25,7 @@ static void add_elastic(ellipsoid_wall_contact *at, const double arm[3],
 static void add_bead(ellipsoid_wall_contact *at, const double arm[3],
                      ellipsoid_bead_forces *forces)
 {
-    at->contact->touching_beads++;
+    at->contact->bead_contacts++;
     if (at->model->dissipative)
     {
         ellipsoid_add_wall_friction(at, arm, &forces->repulsion);

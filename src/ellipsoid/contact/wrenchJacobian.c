@@ -258,13 +258,13 @@ void ellipsoid_add_friction_jacobian(
             double point[2][3], force_n[3];
 
             change_friction(friction, body, &c, point, force_n);
-            add_wrench(&friction->attachment[0], f, force_n, point[0], body == 0, n,
-                     jacobian[0][body]);
+            add_wrench(&friction->attachment[0], f, force_n, point[0],
+                       body == 0, n, jacobian[0][body]);
             if (friction->bodies == 2)
             {
                 ellipsoid_set(force_n, -force_n[0], -force_n[1], -force_n[2]);
-                add_wrench(&friction->attachment[1], back, force_n, point[1], body == 1, n,
-                         jacobian[1][body]);
+                add_wrench(&friction->attachment[1], back, force_n, point[1],
+                           body == 1, n, jacobian[1][body]);
             }
         }
     }

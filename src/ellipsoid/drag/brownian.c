@@ -18,16 +18,16 @@ ellipsoid_status ellipsoid_noise_at(const ellipsoid_model *model,
                                     double t, ellipsoid_noise *noise)
 {
     const double interval = model->options.noise_interval;
-    const double place = t / interval;
+    const double intervals = t / interval;
     /* a time so close to the end of an interval, in units of it, is that end */
-    const double slack = fmax(1e-9, 4 * DBL_EPSILON * fabs(place));
-    const double number = floor(place + slack);
+    const double tolerance = fmax(1e-9, 4 * DBL_EPSILON * fabs(intervals));
+    const double number = floor(intervals + tolerance);
     double normal[6];
 
     noise->start = number * interval;
     noise->end = (number + 1) * interval;
-    noise->slack = slack * interval;
-    if (!(slack < 0.01))
+    noise->tolerance = tolerance * interval;
+    if (!(tolerance < 0.01))
     {
         return ELLIPSOID_STEP_UNDERFLOW;
     }
@@ -41,19 +41,19 @@ ellipsoid_status ellipsoid_noise_at(const ellipsoid_model *model,
     return ELLIPSOID_OK;
 }
 
-void ellipsoid_add_noise(const ellipsoid_noise *noise, double axis[3][3],
-                         double axis_derivatives[4][3][3], double force[3],
-                         double torque[3], ellipsoid_blocks *blocks)
+void ellipsoid_add_noise(const ellipsoid_noise *noise, ellipsoid_frame *frame,
+                         ellipsoid_body_wrench *wrench,
+                         ellipsoid_blocks *blocks)
 {
     const double *f = noise->force;
     double lab[3];
 
-    ellipsoid_combination(axis, f[0], f[1], f[2], lab);
-    ellipsoid_add(force, lab);
-    ellipsoid_add(torque, noise->torque);
+    ellipsoid_combination(frame->axis, f[0], f[1], f[2], lab);
+    ellipsoid_add(wrench->force, lab);
+    ellipsoid_add(wrench->torque, noise->torque);
     for (int n = 0; blocks && n < 4; n++)
     {
-        ellipsoid_combination(axis_derivatives[n], f[0], f[1], f[2], lab);
+        ellipsoid_combination(frame->by_q[n], f[0], f[1], f[2], lab);
         for (int i = 0; i < 3; i++)
         {
             blocks->uq[i][n] += lab[i];

@@ -22,14 +22,13 @@ typedef struct ellipsoid_free_motion
     double omega_x[3][3], omega_q[3][4];
 } ellipsoid_free_motion;
 
-/* The free motion by FLOW_BODY. axis[i] is r_i, the body axis in the lab, and
-   axis_derivatives[n][i] = dr_i/dq_n, NULL where no derivatives are wanted. */
-ellipsoid_status
-ellipsoid_faxen(const ellipsoid_model *model,
-                    const ellipsoid_surroundings *surroundings,
-                    const double x[3], const double centre_velocity[3],
-                    double axis[3][3], double axis_derivatives[4][3][3],
-                    ellipsoid_free_motion *free);
+/* The free motion by FLOW_BODY at x, where the flow is centre_velocity. */
+ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
+                                 const ellipsoid_surroundings *surroundings,
+                                 const double x[3],
+                                 const double centre_velocity[3],
+                                 ellipsoid_frame *frame,
+                                 ellipsoid_free_motion *free);
 
 /* The random force and torque of a noise interval (brownian.c). */
 typedef struct ellipsoid_noise
@@ -37,7 +36,7 @@ typedef struct ellipsoid_noise
     double force[3];  /* [N] body */
     double torque[3]; /* [N m] body */
     double start, end; /* [s] of the interval */
-    double slack;      /* [s] a time so close to an end counts as that end */
+    double tolerance;  /* [s] a time so close to an end counts as that end */
 } ellipsoid_noise;
 
 /* The noise of the interval that holds t. STEP_UNDERFLOW: t is too far from 0
@@ -46,10 +45,10 @@ ellipsoid_status ellipsoid_noise_at(const ellipsoid_model *model,
                                     const ellipsoid_surroundings *surroundings,
                                     double t, ellipsoid_noise *noise);
 
-/* Adds it to force [N, lab], torque [N m, body] and, if wanted, the blocks. */
-void ellipsoid_add_noise(const ellipsoid_noise *noise, double axis[3][3],
-                         double axis_derivatives[4][3][3], double force[3],
-                         double torque[3], ellipsoid_blocks *blocks);
+/* Adds it to the wrench and, if wanted, to the blocks. */
+void ellipsoid_add_noise(const ellipsoid_noise *noise, ellipsoid_frame *frame,
+                         ellipsoid_body_wrench *wrench,
+                         ellipsoid_blocks *blocks);
 
 /* Does the resistance know of walls? */
 static inline int
@@ -60,25 +59,60 @@ ellipsoid_has_near_walls(const ellipsoid_model *model,
         && around->walls != NULL;
 }
 
-/*
-    The drag where walls are near (wallDrag.c); where none is, *acted is 0 and
-    nothing done. balanced: sets the state's u and omega to those that balance
-    force [N, lab] and torque [N m, body]. Otherwise, and for the blocks, adds
-    the drag to these. axis and axis_derivatives as in ellipsoid_faxen().
-*/
-ellipsoid_status ellipsoid_wall_drag(
-    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
-    ellipsoid_facet_cache *cache, ellipsoid_state *state, int balanced,
-    double axis[3][3], double axis_derivatives[4][3][3],
-    const ellipsoid_free_motion *free, double force[3], double torque[3],
-    ellipsoid_blocks *blocks, int *acted);
+/* Walls that act at once; of more, the nearest. */
+#define ELLIPSOID_MAX_PLANES 24
 
-/* Adds to u [m/s, lab] and omega [rad/s, body] what a force [N, lab] and a
-   torque [N m, body] do against the resistance in this pose. */
-ellipsoid_status ellipsoid_wall_mobility(
-    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
-    ellipsoid_facet_cache *cache, const double x[3], const double q[4],
-    const double force[3], const double torque[3], double u[3],
-    double omega[3]);
+/* The position x and the quaternion q: what derivatives are taken by. */
+#define ELLIPSOID_POSE_SIZE 7
+
+/* A number that depends on the pose; the slopes only where asked for. */
+typedef struct ellipsoid_quantity
+{
+    double value, slope[ELLIPSOID_POSE_SIZE];
+} ellipsoid_quantity;
+
+/* A wall as the body sees it: the plane on which it rests, grown or shrunk. */
+typedef struct ellipsoid_plane
+{
+    double normal[3]; /* unit, body frame, into the fluid */
+    double normal_slope[ELLIPSOID_POSE_SIZE][3];
+    ellipsoid_quantity height; /* [m] of the centre above the plane */
+    ellipsoid_quantity window; /* [-] 1 near, 0 out of range, or where its
+                                  point is well beside its facet */
+    ellipsoid_quantity weight; /* [-] 0 to 1: window and what it leaves to
+                                  other planes */
+} ellipsoid_plane;
+
+typedef struct ellipsoid_planes
+{
+    int count;
+    ellipsoid_plane at[ELLIPSOID_MAX_PLANES];
+} ellipsoid_planes;
+
+/* The planes at the pose of a state (wallPlanes.c). */
+ellipsoid_status
+ellipsoid_find_planes(const ellipsoid_model *model,
+                      const ellipsoid_surroundings *surroundings,
+                      const ellipsoid_state *state, ellipsoid_frame *frame,
+                      ellipsoid_facet_cache *cache, ellipsoid_planes *planes);
+
+/* Adds to the state's u and omega what a wrench does against the resistance
+   near these planes (wallDrag.c). NON_FINITE: the resistance is singular. */
+ellipsoid_status
+ellipsoid_add_wall_mobility(const ellipsoid_model *model,
+                            const ellipsoid_planes *planes,
+                            ellipsoid_frame *frame,
+                            const ellipsoid_body_wrench *wrench,
+                            ellipsoid_state *state);
+
+/* Adds the drag near these planes to the wrench and, if wanted, to the blocks.
+   NON_FINITE: the resistance is singular. */
+ellipsoid_status ellipsoid_add_wall_drag(const ellipsoid_model *model,
+                                         const ellipsoid_planes *planes,
+                                         ellipsoid_frame *frame,
+                                         const ellipsoid_free_motion *free,
+                                         const ellipsoid_state *state,
+                                         ellipsoid_body_wrench *wrench,
+                                         ellipsoid_blocks *blocks);
 
 #endif

@@ -64,7 +64,7 @@ static void add_column(const double point[3], double weight,
 /* One point's part in the derivatives. rel: its velocity less the centre's. */
 static void add_derivatives(const double point[3], double weight,
                             const double rel[3], double jacobian[3][3],
-                            double axis[3][3], double d[4][3][3],
+                            ellipsoid_frame *frame,
                             ellipsoid_free_motion *free)
 {
     double change[3], body[3];
@@ -72,7 +72,7 @@ static void add_derivatives(const double point[3], double weight,
     for (int l = 0; l < 3; l++)
     {
         ellipsoid_set(change, jacobian[0][l], jacobian[1][l], jacobian[2][l]);
-        ellipsoid_product(axis, change, body);
+        ellipsoid_product(frame->axis, change, body);
         add_column(point, weight, change, body, &free->u_x[0][l],
                    &free->omega_x[0][l], 3);
     }
@@ -81,34 +81,37 @@ static void add_derivatives(const double point[3], double weight,
         /* the point moves, and the body turns under the flow */
         double moved[3], turned[3];
 
-        ellipsoid_combination(d[n], point[0], point[1], point[2], moved);
+        ellipsoid_combination(frame->by_q[n], point[0], point[1], point[2],
+                              moved);
         ellipsoid_product(jacobian, moved, change);
-        ellipsoid_product(axis, change, body);
-        ellipsoid_product(d[n], rel, turned);
+        ellipsoid_product(frame->axis, change, body);
+        ellipsoid_product(frame->by_q[n], rel, turned);
         ellipsoid_add(body, turned);
         add_column(point, weight, change, body, &free->u_q[0][n],
                    &free->omega_q[0][n], 4);
     }
 }
 
-ellipsoid_status ellipsoid_faxen(
-    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
-    const double x[3], const double centre_velocity[3], double axis[3][3],
-    double axis_derivatives[4][3][3], ellipsoid_free_motion *free)
+ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
+                                 const ellipsoid_surroundings *surroundings,
+                                 const double x[3],
+                                 const double centre_velocity[3],
+                                 ellipsoid_frame *frame,
+                                 ellipsoid_free_motion *free)
 {
     const double *a = model->options.semi_axes;
     const int count = model->flow_points;
     double points[ELLIPSOID_MAX_FLOW_POINTS][3];
     double velocity[ELLIPSOID_MAX_FLOW_POINTS][3];
     double jacobian[ELLIPSOID_MAX_FLOW_POINTS][3][3];
-    double(*wanted)[3][3] = axis_derivatives ? jacobian : NULL;
+    double(*wanted)[3][3] = frame->by_q ? jacobian : NULL;
     int answer;
 
     for (int p = 0; p < count; p++)
     {
         const double *c = model->flow_point[p];
 
-        ellipsoid_combination(axis, c[0], c[1], c[2], points[p]);
+        ellipsoid_combination(frame->axis, c[0], c[1], c[2], points[p]);
         ellipsoid_add(points[p], x);
     }
     memset(velocity, 0, (size_t)count * sizeof *velocity);
@@ -135,17 +138,17 @@ ellipsoid_status ellipsoid_faxen(
         double rel[3], body[3], turning[3];
 
         ellipsoid_difference(velocity[p], centre_velocity, rel);
-        ellipsoid_product(axis, rel, body);
+        ellipsoid_product(frame->axis, rel, body);
         ellipsoid_cross(model->flow_point[p], body, turning);
         for (int i = 0; i < 3; i++)
         {
             free->u[i] += weight * rel[i];
             free->omega[i] += weight * turning[i];
         }
-        if (axis_derivatives)
+        if (wanted)
         {
             add_derivatives(model->flow_point[p], weight, rel, jacobian[p],
-                            axis, axis_derivatives, free);
+                            frame, free);
         }
     }
     for (int i = 0; i < 3; i++)

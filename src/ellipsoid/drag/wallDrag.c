@@ -5,19 +5,21 @@
 
     wallDrag.c - drag near walls.
 
-    The resistance of the free body and what each plane adds to it (wallResistance.c,
-    wallPlanes.c) make one matrix in the body frame, symmetric and positive
-    definite:
+    The resistance of the free body and what each plane adds to it
+    (wallResistance.c, wallPlanes.c) make one matrix in the body frame,
+    symmetric and positive definite:
         (F^, T^) = mu (diag(K^, C) + sum_planes weight A(n^, h))
                    (R^T (u_free - u), omega_free - w^).
 */
 #include "drag/drag.h"
 #include "drag/wallResistance.h"
 
-/* mu times resistance times rates, body frame */
-static void resist(const ellipsoid_model *m, const ellipsoid_planes *planes,
-                   const double rates[6], double action[6])
+/* mu times resistance times rates, body frame; 0 if one is singular */
+static int resist(const ellipsoid_model *m, const ellipsoid_planes *planes,
+                  const double rates[6], double action[6])
 {
+    int regular = 1;
+
     for (int i = 0; i < 3; i++)
     {
         action[i] = m->viscosity * m->resistance[i] * rates[i];
@@ -30,26 +32,33 @@ static void resist(const ellipsoid_model *m, const ellipsoid_planes *planes,
         const double factor = m->viscosity * plane->weight.value;
         double more[6];
 
-        ellipsoid_plane_resistance(m, plane->normal, plane->height.value, rates,
-                                   more, NULL);
+        regular = ellipsoid_plane_resistance(m, plane->normal,
+                                             plane->height.value, rates, more,
+                                             NULL)
+               && regular;
         for (int i = 0; i < 6; i++)
         {
             action[i] += factor * more[i];
         }
     }
+    return regular;
 }
 
-/* The whole of it as a symmetric matrix. */
-static void set_matrix(const ellipsoid_model *m, const ellipsoid_planes *planes,
-                       double matrix[6][6])
+/* The whole of it as a symmetric matrix; 0 if one is singular. */
+static int set_matrix(const ellipsoid_model *m, const ellipsoid_planes *planes,
+                      double matrix[6][6])
 {
+    int regular = 1;
+
     memset(matrix, 0, 6 * sizeof(*matrix));
     for (int p = 0; p < planes->count; p++)
     {
         const ellipsoid_plane *plane = &planes->at[p];
         double more[6][6];
 
-        ellipsoid_plane_matrix(m, plane->normal, plane->height.value, more);
+        regular = ellipsoid_plane_matrix(m, plane->normal, plane->height.value,
+                                         more)
+               && regular;
         for (int i = 0; i < 6; i++)
         {
             for (int j = 0; j < 6; j++)
@@ -64,6 +73,7 @@ static void set_matrix(const ellipsoid_model *m, const ellipsoid_planes *planes,
         matrix[i][i] += m->viscosity * m->resistance[i];
         matrix[i + 3][i + 3] += m->viscosity * m->rotation_resistance[i];
     }
+    return regular;
 }
 
 /* (R^T first, second) */
@@ -80,25 +90,6 @@ static void add_lab(double axis[3][3], const double body[3], double lab[3])
 
     ellipsoid_combination(axis, body[0], body[1], body[2], turned);
     ellipsoid_add(lab, turned);
-}
-
-/* Adds to u and omega what force and torque do. */
-static void yield_to(const ellipsoid_model *m, const ellipsoid_planes *planes,
-                     double axis[3][3], const double force[3],
-                     const double torque[3], double u[3], double omega[3])
-{
-    double matrix[6][6], push[6], rates[6];
-
-    set_matrix(m, planes, matrix);
-    ellipsoid_invert6(matrix);
-    to_body(axis, force, torque, push);
-    for (int i = 0; i < 6; i++)
-    {
-        rates[i] = ellipsoid_dot(matrix[i], push)
-                 + ellipsoid_dot(matrix[i] + 3, push + 3);
-    }
-    add_lab(axis, rates, u);
-    ellipsoid_add(omega, rates + 3);
 }
 
 /* Adds to a column of the blocks, rows of u and omega apart by a stride. */
@@ -154,16 +145,24 @@ static void apply(double matrix[6][6], const double rates[6], double action[6])
     }
 }
 
-static void add_blocks(const ellipsoid_model *m, const ellipsoid_planes *planes,
-                       double axis[3][3], double d[4][3][3],
-                       const ellipsoid_free_motion *free, const double slip[3],
-                       const double rates[6], const double action[6],
-                       ellipsoid_blocks *b)
+/* The drag in the body frame, and what it comes from. */
+typedef struct wall_drag
 {
+    double slip[3];  /* lab */
+    double rates[6]; /* (R^T slip, omega_free - w^) */
+    double action[6];
+} wall_drag;
+
+static void add_blocks(const ellipsoid_model *m, const ellipsoid_planes *planes,
+                       ellipsoid_frame *frame,
+                       const ellipsoid_free_motion *free,
+                       const wall_drag *drag, ellipsoid_blocks *b)
+{
+    double(*axis)[3] = frame->axis;
     double matrix[6][6], change[ELLIPSOID_POSE_SIZE][6];
 
     set_matrix(m, planes, matrix);
-    pose_changes(m, planes, rates, change);
+    pose_changes(m, planes, drag->rates, change);
     for (int l = 0; l < 3; l++)
     {
         const double minus[3] = {-axis[0][l], -axis[1][l], -axis[2][l]};
@@ -190,7 +189,7 @@ static void add_blocks(const ellipsoid_model *m, const ellipsoid_planes *planes,
     {
         double moved[6], column[6], turned[3];
 
-        ellipsoid_product(d[n], slip, moved);
+        ellipsoid_product(frame->by_q[n], drag->slip, moved);
         for (int i = 0; i < 3; i++)
         {
             moved[i] += m->flow_points > 0
@@ -203,7 +202,8 @@ static void add_blocks(const ellipsoid_model *m, const ellipsoid_planes *planes,
         apply(matrix, moved, column);
         add_column(axis, column, &b->uq[0][n], &b->wq[0][n], 4);
         add_column(axis, change[n + 3], &b->uq[0][n], &b->wq[0][n], 4);
-        ellipsoid_combination(d[n], action[0], action[1], action[2], turned);
+        ellipsoid_combination(frame->by_q[n], drag->action[0], drag->action[1],
+                              drag->action[2], turned);
         for (int i = 0; i < 3; i++)
         {
             b->uq[i][n] += turned[i];
@@ -211,64 +211,49 @@ static void add_blocks(const ellipsoid_model *m, const ellipsoid_planes *planes,
     }
 }
 
-ellipsoid_status ellipsoid_wall_drag(
-    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
-    ellipsoid_facet_cache *cache, ellipsoid_state *state, int balanced,
-    double axis[3][3], double axis_derivatives[4][3][3],
-    const ellipsoid_free_motion *free, double force[3], double torque[3],
-    ellipsoid_blocks *blocks, int *acted)
+ellipsoid_status ellipsoid_add_wall_drag(const ellipsoid_model *model,
+                                         const ellipsoid_planes *planes,
+                                         ellipsoid_frame *frame,
+                                         const ellipsoid_free_motion *free,
+                                         const ellipsoid_state *state,
+                                         ellipsoid_body_wrench *wrench,
+                                         ellipsoid_blocks *blocks)
 {
-    ellipsoid_planes planes;
-    const ellipsoid_status status = ellipsoid_find_planes(
-        model, surroundings, state->x, state->q, axis,
-        blocks ? axis_derivatives : NULL, cache, &planes);
-    double slip[3], turn[3], rates[6], action[6];
+    double turn[3];
+    wall_drag drag;
 
-    *acted = status == ELLIPSOID_OK && planes.count > 0;
-    if (!*acted)
-    {
-        return status;
-    }
-    if (balanced)
-    {
-        ellipsoid_copy(free->u, state->u);
-        ellipsoid_copy(free->omega, state->omega);
-        yield_to(model, &planes, axis, force, torque, state->u, state->omega);
-        if (!blocks)
-        {
-            return ELLIPSOID_OK;
-        }
-    }
-    ellipsoid_difference(free->u, state->u, slip);
+    ellipsoid_difference(free->u, state->u, drag.slip);
     ellipsoid_difference(free->omega, state->omega, turn);
-    to_body(axis, slip, turn, rates);
-    resist(model, &planes, rates, action);
-    add_lab(axis, action, force);
-    ellipsoid_add(torque, action + 3);
+    to_body(frame->axis, drag.slip, turn, drag.rates);
+    if (!resist(model, planes, drag.rates, drag.action))
+    {
+        return ELLIPSOID_NON_FINITE;
+    }
+    add_lab(frame->axis, drag.action, wrench->force);
+    ellipsoid_add(wrench->torque, drag.action + 3);
     if (blocks)
     {
-        add_blocks(model, &planes, axis, axis_derivatives, free, slip, rates,
-                   action, blocks);
+        add_blocks(model, planes, frame, free, &drag, blocks);
     }
     return ELLIPSOID_OK;
 }
 
-ellipsoid_status ellipsoid_wall_mobility(
-    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
-    ellipsoid_facet_cache *cache, const double x[3], const double q[4],
-    const double force[3], const double torque[3], double u[3], double omega[3])
+ellipsoid_status
+ellipsoid_add_wall_mobility(const ellipsoid_model *model,
+                            const ellipsoid_planes *planes,
+                            ellipsoid_frame *frame,
+                            const ellipsoid_body_wrench *wrench,
+                            ellipsoid_state *state)
 {
-    const double opposite[4] = {q[0], q[1], q[2], -q[3]};
-    double axis[3][3];
-    ellipsoid_planes planes;
-    ellipsoid_status status;
+    double matrix[6][6], push[6], rates[6];
 
-    ellipsoid_rotation_inline(opposite, axis);
-    status = ellipsoid_find_planes(model, surroundings, x, q, axis, NULL, cache,
-                                   &planes);
-    if (status == ELLIPSOID_OK)
+    if (!set_matrix(model, planes, matrix) || !ellipsoid_invert6(matrix))
     {
-        yield_to(model, &planes, axis, force, torque, u, omega);
+        return ELLIPSOID_NON_FINITE;
     }
-    return status;
+    to_body(frame->axis, wrench->force, wrench->torque, push);
+    apply(matrix, push, rates);
+    add_lab(frame->axis, rates, state->u);
+    ellipsoid_add(state->omega, rates + 3);
+    return ELLIPSOID_OK;
 }

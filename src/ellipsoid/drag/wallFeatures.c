@@ -5,11 +5,11 @@
 
     wallFeatures.c - where a body would meet a facet near it.
 
-    The body, grown about its centre, meets the walls in places one after the
+    The body, grown about its centre, meets the walls in points one after the
     other: where y -> y.M y, M = R diag(1/a_i^2) R^T, has a local minimum on the
-    wall, y = w - x. The plane through such a place w on which the grown body
+    wall, y = w - x. The plane through such a point w on which the grown body
     rests has the normal n ~ -M (w - x). On a flat wall it is the wall itself,
-    however the body lies; and it cuts the body only if the wall does. The place
+    however the body lies; and it cuts the body only if the wall does. The point
     is inside a facet, on a convex edge or at a vertex under the conditions of
     facets.c, with the scalar product by M.
 */
@@ -17,12 +17,12 @@
 
 #include <math.h>
 
-/* Relative slack of conditions, as in facets.c. */
-static const double slack = 1e-9;
+/* Relative rounding that conditions allow, as in facets.c. */
+static const double rounding = 1e-9;
 
-/* r: from the place to the centre, body frame */
-static int set_place(ellipsoid_wall_feature *p, int feature, int k, double foot,
-                     const double r[3], const double covector[3])
+/* r: from the point to the centre, body frame */
+static int set_feature(ellipsoid_wall_feature *p, int feature, int k,
+                       double foot, const double r[3], const double covector[3])
 {
     const double length = ellipsoid_length(covector);
 
@@ -45,7 +45,7 @@ typedef struct corners
     double from[3][3], along[3][3]; /* vertex to centre; edges */
 } corners;
 
-static int place_on_edge(const ellipsoid_wall_search *s, const corners *c,
+static int feature_on_edge(const ellipsoid_wall_search *s, const corners *c,
                          int k, double foot, const double normal[3],
                          ellipsoid_wall_feature *p)
 {
@@ -57,13 +57,13 @@ static int place_on_edge(const ellipsoid_wall_search *s, const corners *c,
     }
     ellipsoid_shrink(s, r, w);
     ellipsoid_product(s->axis, p->facet->edge_inward[k], inward);
-    return ellipsoid_dot(w, inward) <= slack * ellipsoid_length(w)
-        && ellipsoid_dot(r, normal) >= -slack * ellipsoid_length(r)
-        && set_place(p, ELLIPSOID_ON_EDGE, k, foot, r, w);
+    return ellipsoid_dot(w, inward) <= rounding * ellipsoid_length(w)
+        && ellipsoid_dot(r, normal) >= -rounding * ellipsoid_length(r)
+        && set_feature(p, ELLIPSOID_ON_EDGE, k, foot, r, w);
 }
 
 /* bare: the square of the scaled distance to the facet's plane */
-static int place_at_vertex(const ellipsoid_wall_search *s, const corners *c,
+static int feature_at_vertex(const ellipsoid_wall_search *s, const corners *c,
                            const double normal[3], double bare,
                            ellipsoid_wall_feature *p)
 {
@@ -86,17 +86,18 @@ static int place_at_vertex(const ellipsoid_wall_search *s, const corners *c,
     ellipsoid_shrink(s, c->from[k], w);
     ellipsoid_combination(s->axis, w[0], w[1], w[2], lab);
     return (ellipsoid_facet_owns_vertex(facet, k)
-            || bare >= (1 - 2 * slack) * nearest)
-        && ellipsoid_facet_is_apex(facet, k, lab, slack * ellipsoid_length(w))
+            || bare >= (1 - 2 * rounding) * nearest)
+        && ellipsoid_facet_is_apex(facet, k, lab,
+                                   rounding * ellipsoid_length(w))
         && ellipsoid_dot(c->from[k], normal)
-               >= -slack * ellipsoid_length(c->from[k])
-        && set_place(p, ELLIPSOID_ON_VERTEX, k, 0, c->from[k], w);
+               >= -rounding * ellipsoid_length(c->from[k])
+        && set_feature(p, ELLIPSOID_ON_VERTEX, k, 0, c->from[k], w);
 }
 
-/* The place beside the facet's face, over a convex edge. */
-static int place_on_rim(const ellipsoid_wall_search *s, const double normal[3],
-                        double bare, const int outside[3],
-                        ellipsoid_wall_feature *p)
+/* The point beside the facet's face, over a convex edge. */
+static int feature_on_rim(const ellipsoid_wall_search *s,
+                          const double normal[3], double bare,
+                          const int outside[3], ellipsoid_wall_feature *p)
 {
     const ellipsoid_facet *facet = p->facet;
     double best = HUGE_VAL, foot = 0;
@@ -128,18 +129,19 @@ static int place_on_rim(const ellipsoid_wall_search *s, const double normal[3],
             foot = at;
         }
     }
-    if (best > 0 && place_at_vertex(s, &c, normal, bare, p))
+    if (best > 0 && feature_at_vertex(s, &c, normal, bare, p))
     {
         return 1;
     }
     p->over[(edge + 1) % 3] = foot > 1;
     p->over[(edge + 2) % 3] = foot < 0;
-    return place_on_edge(s, &c, edge, foot, normal, p);
+    return feature_on_edge(s, &c, edge, foot, normal, p);
 }
 
 /* Finds the plane that this facet gives; 0 if there is none. */
 int ellipsoid_find_feature(const ellipsoid_wall_search *s,
-                         const ellipsoid_facet *facet, ellipsoid_wall_feature *p)
+                           const ellipsoid_facet *facet,
+                           ellipsoid_wall_feature *p)
 {
     double from[3], normal[3], b[3], foot[3], height, support2, far;
     int outside[3], on_rim = 0;
@@ -185,7 +187,8 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
     p->facet = facet;
     if (on_rim)
     {
-        return place_on_rim(s, normal, height * height / support2, outside, p);
+        return feature_on_rim(s, normal, height * height / support2, outside,
+                              p);
     }
     p->feature = ELLIPSOID_ON_FACE;
     memcpy(p->over, outside, sizeof(p->over));

@@ -5,12 +5,12 @@
 
     wallPlanes.c - which planes stand for the walls near a cell.
 
-    Each place where the grown body would meet a facet (wallFeatures.c) gives one.
-    Over a seam that is not convex a place does not end at once: facets, and
-    edges beyond their ends, go on as if they were larger, and their plane fades
-    while the place moves away by a part of the height (lengths by M). So
-    nothing jumps where a wall goes on in other facets. How planes of nearly one
-    normal share is told in planeWeights.c.
+    Each point where the grown body would meet a facet (wallFeatures.c) gives
+    one. Over a seam that is not convex a plane does not end at once: facets,
+    and edges beyond their ends, go on as if they were larger, and the weight of
+    their plane falls to zero while the point moves away by a part of the height
+    (lengths by M). So nothing jumps where a wall goes on in other facets. How
+    planes of nearly one normal share is told in planeWeights.c.
 */
 #include "drag/wallResistance.h"
 
@@ -49,8 +49,9 @@ static void changed(const ellipsoid_wall_search *s, int n, int is_point,
     }
 }
 
-/* The place slides along the edge so that the covector stays across it. */
-static void slide(const ellipsoid_wall_search *s, const ellipsoid_wall_feature *p,
+/* The point slides along the edge so that the covector stays across it. */
+static void slide(const ellipsoid_wall_search *s,
+                  const ellipsoid_wall_feature *p,
                   int n, const double along_lab[3], const double w[3],
                   double change[3])
 {
@@ -160,9 +161,9 @@ static void set_window(const ellipsoid_wall_search *s, ellipsoid_plane *plane)
     }
 }
 
-/* How the place's distance from the centre, as seen by the body, changes: r =
+/* How the point's distance from the centre, as seen by the body, changes: r =
    D m h/p^2 */
-static void place_slope(const ellipsoid_wall_search *s,
+static void point_slope(const ellipsoid_wall_search *s,
                         const ellipsoid_plane *plane, double support2, int n,
                         double change[3])
 {
@@ -184,12 +185,12 @@ static void place_slope(const ellipsoid_wall_search *s,
 }
 
 /*
-    Takes from the window by how far the place lies beside the facet, over edge
+    Takes from the window by how far the point lies beside the facet, over edge
     k. With y = h/p the scaled height and d the scaled distance, u = d/(y f),
     the rest is 1 - u^2 (3 - 2 u).
 */
-static void fade(const ellipsoid_wall_search *s, const ellipsoid_wall_feature *p,
-                 int k, ellipsoid_plane *plane)
+static void fade(const ellipsoid_wall_search *s,
+                 const ellipsoid_wall_feature *p, int k, ellipsoid_plane *plane)
 {
     const double *m = plane->normal, *vertex = p->facet->vertex[k];
     double line[3], along[3], lab[3], zeta[3], epsilon[3], out[3];
@@ -232,7 +233,7 @@ static void fade(const ellipsoid_wall_search *s, const ellipsoid_wall_feature *p
 
         changed(s, n, 1, line, moved);
         changed(s, n, 0, lab, turned);
-        place_slope(s, plane, support2, n, slid);
+        point_slope(s, plane, support2, n, slid);
         for (int i = 0; i < 3; i++)
         {
             of_d += out[i] * (moved[i] - slid[i] - ratio * turned[i])
@@ -329,7 +330,7 @@ static void add_plane(const ellipsoid_wall_search *s,
 }
 
 /*
-    Could this facet be met while the centre moves by up to the margin? A place
+    Could this facet be met while the centre moves by up to the margin? A point
     within a face lies in a direction from the centre that makes no larger angle
     with the normal than tangents of the body allow: cos >= 2 a b/(a^2 + b^2)
     with the largest and the smallest semi-axis. Beside the face it has faded
@@ -358,7 +359,7 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
                                 const double x[3], double range,
                                 double slimness, ellipsoid_facet_cache *cache)
 {
-    /* a plane's place is up to so far beside its facet, not square to the way
+    /* a plane's point is up to so far beside its facet, not square to the way
        to it where the body is not a sphere */
     const double wide = range * (1 + ellipsoid_fading * slimness);
     const double margin = margin_part * range;
@@ -404,9 +405,8 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
 }
 
 /* Axes of length one, and their derivatives, from those of any q. */
-static void normalise_axes(const double q[4], double axis[3][3],
-                           double derivatives[4][3][3], double unit[3][3],
-                           double turned[4][3][3])
+static void normalise_axes(const double q[4], ellipsoid_frame *frame,
+                           double unit[3][3], double turned[4][3][3])
 {
     const double per = 1 / ellipsoid_square4(q);
 
@@ -414,11 +414,11 @@ static void normalise_axes(const double q[4], double axis[3][3],
     {
         for (int l = 0; l < 3; l++)
         {
-            unit[i][l] = per * axis[i][l];
-            for (int n = 0; derivatives && n < 4; n++)
+            unit[i][l] = per * frame->axis[i][l];
+            for (int n = 0; frame->by_q && n < 4; n++)
             {
                 turned[n][i][l] =
-                    per * (derivatives[n][i][l] - 2 * q[n] * unit[i][l]);
+                    per * (frame->by_q[n][i][l] - 2 * q[n] * unit[i][l]);
             }
         }
     }
@@ -427,17 +427,15 @@ static void normalise_axes(const double q[4], double axis[3][3],
 ellipsoid_status
 ellipsoid_find_planes(const ellipsoid_model *model,
                       const ellipsoid_surroundings *surroundings,
-                      const double x[3], const double q[4],
-                      double axis[3][3], double axis_derivatives[4][3][3],
-                      ellipsoid_facet_cache *cache,
-                      ellipsoid_planes *planes)
+                      const ellipsoid_state *state, ellipsoid_frame *frame,
+                      ellipsoid_facet_cache *cache, ellipsoid_planes *planes)
 {
     const double *a = model->options.semi_axes;
     const double range = model->options.wall_range;
     const double longest = fmax(a[0], fmax(a[1], a[2]));
     const double shortest = fmin(a[0], fmin(a[1], a[2]));
     const ellipsoid_status status =
-        collect(surroundings, x, range, longest / shortest, cache);
+        collect(surroundings, state->x, range, longest / shortest, cache);
     double unit[3][3], turned[4][3][3];
 
     planes->count = 0;
@@ -445,14 +443,12 @@ ellipsoid_find_planes(const ellipsoid_model *model,
     {
         return status;
     }
-    normalise_axes(q, axis, axis_derivatives, unit, turned);
+    normalise_axes(state->q, frame, unit, turned);
 
-    const ellipsoid_wall_search s = {x,
-                      {a[0] * a[0], a[1] * a[1], a[2] * a[2]},
-                      unit,
-                      axis_derivatives ? turned : NULL,
-                      range,
-                      longest};
+    const ellipsoid_wall_search s = {
+        state->x, {a[0] * a[0], a[1] * a[1], a[2] * a[2]},
+        unit,     frame->by_q ? turned : NULL,
+        range,    longest};
 
     for (int k = 0; k < cache->near_count; k++)
     {

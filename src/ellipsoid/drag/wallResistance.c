@@ -44,6 +44,7 @@ typedef struct plane_geometry
     double close;          /* p/h */
     double log_tail;       /* L */
     double arm[3];         /* -b/p: the nearest point */
+    int regular; /* has Z an inverse? */
 } plane_geometry;
 
 /* Their change with normal and height. */
@@ -74,8 +75,9 @@ static double log_tail(double s, double rest)
     return -log(rest) - s * (1 + s * (0.5 + s / 3));
 }
 
-/* Z with W^-1 = 16/9 - 8/9 n n and Q of the ellipsoid: see docs/theory.md. */
-static void set_far(plane_geometry *g)
+/* Z with W^-1 = 16/9 - 8/9 n n and Q of the ellipsoid: see docs/theory.md. 0 if
+   it cannot be inverted. */
+static int set_far(plane_geometry *g)
 {
     const double *k = g->model->resistance, *c = g->model->rotation_resistance;
     const double h = g->height;
@@ -95,8 +97,8 @@ static void set_far(plane_geometry *g)
                     - k[i] * same;
         }
     }
-    ellipsoid_invert3(z, g->inverse);
     g->rotlet = 1 / (8 * pi * h * h * h + fmax(c[0], fmax(c[1], c[2])));
+    return ellipsoid_invert3(z, g->inverse);
 }
 
 static plane_geometry geometry(const ellipsoid_model *model,
@@ -120,7 +122,7 @@ static plane_geometry geometry(const ellipsoid_model *model,
     g.height = g.support + g.gap;
     ellipsoid_set(g.arm, -g.b[0] / g.support, -g.b[1] / g.support,
                   -g.b[2] / g.support);
-    set_far(&g);
+    g.regular = set_far(&g);
 
     bb = ellipsoid_dot(g.b, g.b);
     g.s = a[0] * a[1] * a[2] / g.support2;
@@ -216,7 +218,7 @@ typedef struct response
     double at_surface[3], out, across[3]; /* u_s, u_n, u_t */
     double turning[3], wedge[3];          /* n x omega, v */
     double bent[3], raw[3];               /* rho v; E v */
-    double pull[3], lever[3];             /* 2 pi S L E v; rho of it */
+    double pull[3], moment[3];             /* 2 pi S L E v; rho of it */
     double force[3];                      /* at the nearest point */
     double pushed[3], far[3];             /* K u; (6 pi Z - K)^-1 K u */
     double spun[3], along;                /* C omega; n.C omega */
@@ -248,7 +250,7 @@ static response respond(plane_geometry *g, const double rates[6])
         r.force[i] = g->squeeze * r.out * g->m[i] + g->shear * r.across[i]
                    + 0.5 * r.pull[i];
     }
-    curved(g, r.pull, r.lever);
+    curved(g, r.pull, r.moment);
     ellipsoid_product(g->inverse, r.pushed, r.far);
     r.along = ellipsoid_dot(g->m, r.spun);
     return r;
@@ -261,7 +263,7 @@ static void sum_up(const plane_geometry *g, const response *r, double action[6])
     double turning[3], rolling[3];
 
     ellipsoid_cross(g->arm, r->force, turning);
-    ellipsoid_cross(g->m, r->lever, rolling);
+    ellipsoid_cross(g->m, r->moment, rolling);
     for (int i = 0; i < 3; i++)
     {
         action[i] = k[i] * r->far[i] + r->force[i];
@@ -303,7 +305,7 @@ static void respond_change(plane_geometry *g, const plane_change *d,
 {
     const double *k = g->model->resistance, *c = g->model->rotation_resistance;
     double at_surface[3], turning[3], rolled[3], more[3], wedge[3], across[3];
-    double bent[3], pull[3], force[3], lever[3], far[3], turn[6][3];
+    double bent[3], pull[3], force[3], moment[3], far[3], turn[6][3];
     const double along = ellipsoid_dot(d->m, r->spun);
     double out;
 
@@ -330,13 +332,13 @@ static void respond_change(plane_geometry *g, const plane_change *d,
                  + g->squeeze * r->out * d->m[i] + d->shear * r->across[i]
                  + g->shear * across[i] + 0.5 * pull[i];
     }
-    curved(g, pull, lever);
-    curved_change(g, d, r->pull, r->lever, more);
-    ellipsoid_add(lever, more);
+    curved(g, pull, moment);
+    curved_change(g, d, r->pull, r->moment, more);
+    ellipsoid_add(moment, more);
     ellipsoid_cross(d->arm, r->force, turn[0]);
     ellipsoid_cross(g->arm, force, turn[1]);
-    ellipsoid_cross(d->m, r->lever, turn[2]);
-    ellipsoid_cross(g->m, lever, turn[3]);
+    ellipsoid_cross(d->m, r->moment, turn[2]);
+    ellipsoid_cross(g->m, moment, turn[3]);
     far_change(g, d, r->far, turn[4]);
     ellipsoid_product(g->inverse, turn[4], far);
     for (int i = 0; i < 3; i++)
@@ -350,9 +352,9 @@ static void respond_change(plane_geometry *g, const plane_change *d,
     }
 }
 
-void ellipsoid_plane_matrix(const ellipsoid_model *model,
-                            const double normal[3], double height,
-                            double matrix[6][6])
+int ellipsoid_plane_matrix(const ellipsoid_model *model,
+                           const double normal[3], double height,
+                           double matrix[6][6])
 {
     plane_geometry g = geometry(model, normal, height);
 
@@ -365,12 +367,13 @@ void ellipsoid_plane_matrix(const ellipsoid_model *model,
         r = respond(&g, rates);
         sum_up(&g, &r, matrix[n]);
     }
+    return g.regular;
 }
 
-void ellipsoid_plane_resistance(const ellipsoid_model *model,
-                                const double normal[3], double height,
-                                const double rates[6], double action[6],
-                                double change[4][6])
+int ellipsoid_plane_resistance(const ellipsoid_model *model,
+                               const double normal[3], double height,
+                               const double rates[6], double action[6],
+                               double change[4][6])
 {
     plane_geometry g = geometry(model, normal, height);
     const response r = respond(&g, rates);
@@ -382,4 +385,5 @@ void ellipsoid_plane_resistance(const ellipsoid_model *model,
 
         respond_change(&g, &d, &r, change[n]);
     }
+    return g.regular;
 }

@@ -53,9 +53,10 @@ int main(void)
     {
         double rotation[3][3];
 
-        status = ellipsoid_advance(&model, &surroundings, &state, &t,
-                                   i * period / 20, &controller, &cache, NULL,
-                                   NULL, &statistics);
+        status = ellipsoid_advance(
+            &(ellipsoid_member){&model, &surroundings, &state, &controller,
+                                &cache, NULL, &statistics},
+            &t, i * period / 20, NULL);
         ellipsoid_rotation(state.q, rotation);
         printf("%.3f %+.8f %+.8f %+.8f %+.6e\n", t / period, rotation[0][1],
                rotation[1][1], rotation[2][1], state.omega[2]);

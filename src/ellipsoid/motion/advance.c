@@ -34,8 +34,8 @@ static int was_held_back(const ellipsoid_cell *p,
         p->inertial ? 1 / fmax(1 / h, p->rotation_rate) : 0;
     double force[3], torque[3], slight, made = 0, coming = 0, turned[4];
 
-    if (is->touching_beads >= was->touching_beads
-        && is->touched_cell_count >= was->touched_cell_count
+    if (is->bead_contacts >= was->bead_contacts
+        && is->cell_count >= was->cell_count
         && is->deepest >= 0.5 * was->deepest
         && is->cell_deepest >= 0.5 * was->cell_deepest)
     {
@@ -175,6 +175,61 @@ static void describe_step(const ellipsoid_group *g, int explicitly)
     }
 }
 
+/* Sets where an attempt begins. */
+static ellipsoid_status propose_step(ellipsoid_group *g, double t, double end,
+                                     double shortest, double *proposal)
+{
+    const double longest = g->cell[0].model->options.maximum_step;
+    const ellipsoid_status status =
+        *proposal > 0 ? ELLIPSOID_OK
+                      : ellipsoid_first_step(g, t, end, proposal);
+
+    *proposal = fmin(fmax(*proposal, shortest), longest);
+    return status == ELLIPSOID_OK && longest < shortest
+             ? ELLIPSOID_STEP_UNDERFLOW
+             : status;
+}
+
+static void count_attempt(const ellipsoid_group *g, int accepted)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        ellipsoid_statistics *statistics = g->cell[cell].statistics;
+
+        statistics->accepted += accepted;
+        statistics->rejected += !accepted;
+    }
+}
+
+/* Sets the times of an accepted step, all of it if it is observed, and the
+   controller. largest: the factor by which the next may be longer. */
+static void accept_step(ellipsoid_group *g, const ellipsoid_plan *planned,
+                        int explicitly, double error, double largest,
+                        double proposal, ellipsoid_controller *controller)
+{
+    const double factor = ellipsoid_step_factor(g->stages[0].order, error,
+                                                controller->previous_error);
+
+    controller->step = planned->h * fmin(factor, largest);
+    if (planned->shortened)
+    {
+        controller->step = fmax(controller->step, proposal);
+    }
+    else
+    {
+        controller->previous_error = fmax(error, 1e-4);
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        g->step[cell].start = planned->start;
+        g->step[cell].end = planned->end;
+    }
+    if (g->observed)
+    {
+        describe_step(g, explicitly);
+    }
+}
+
 /*
     Takes one step from the start, shortened until it succeeds. Sets next, the
     steps and the controller.
@@ -187,77 +242,36 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
     const double shortest =
         fmax(o->minimum_step, 4 * DBL_EPSILON * fmax(fabs(t), DBL_MIN));
     double largest_factor = 5, proposal = controller->step;
+    ellipsoid_status status = propose_step(g, t, end, shortest, &proposal);
 
-    if (!(proposal > 0))
+    if (status != ELLIPSOID_OK)
     {
-        const ellipsoid_status status =
-            ellipsoid_first_step(g, t, end, &proposal);
-
-        if (status != ELLIPSOID_OK)
-        {
-            return status;
-        }
+        return status;
     }
-    if (o->maximum_step < shortest)
-    {
-        return ELLIPSOID_STEP_UNDERFLOW;
-    }
-    proposal = fmin(fmax(proposal, shortest), o->maximum_step);
     while (*attempts < o->maximum_steps)
     {
         const ellipsoid_plan planned = ellipsoid_plan_step(proposal, t, end);
         double error = 0;
         int explicitly;
-        ellipsoid_status status;
 
-        g->culprit = -1;
+        g->failed = -1;
         status = try_step(g, &planned, &error, &explicitly);
-
-        const int accepted = status == ELLIPSOID_OK && error <= 1;
-        const int order = g->stages[0].order;
-
         ++*attempts;
-        for (int cell = 0; cell < g->count; cell++)
+        count_attempt(g, status == ELLIPSOID_OK && error <= 1);
+        if (status == ELLIPSOID_OK && error <= 1)
         {
-            ellipsoid_statistics *statistics = g->cell[cell].statistics;
-
-            statistics->accepted += accepted;
-            statistics->rejected += !accepted;
-        }
-        if (accepted)
-        {
-            controller->step =
-                planned.h
-                * fmin(ellipsoid_step_factor(order, error,
-                                             controller->previous_error),
-                       largest_factor);
-            if (planned.shortened)
-            {
-                controller->step = fmax(controller->step, proposal);
-            }
-            else
-            {
-                controller->previous_error = fmax(error, 1e-4);
-            }
-            for (int cell = 0; cell < g->count; cell++)
-            {
-                g->step[cell].start = planned.start;
-                g->step[cell].end = planned.end;
-            }
-            if (g->observed)
-            {
-                describe_step(g, explicitly);
-            }
+            accept_step(g, &planned, explicitly, error, largest_factor,
+                        proposal, controller);
             return ELLIPSOID_OK;
         }
         if (status != ELLIPSOID_OK && !ellipsoid_may_recover(status))
         {
             return status;
         }
-        proposal =
-            planned.h
-            * (status == ELLIPSOID_OK ? ellipsoid_step_factor(order, error, 0)
-                                      : 0.25);
+        proposal = planned.h
+                 * (status == ELLIPSOID_OK
+                        ? ellipsoid_step_factor(g->stages[0].order, error, 0)
+                        : 0.25);
         largest_factor = 1;
         if (proposal < shortest)
         {
@@ -304,7 +318,7 @@ static ellipsoid_status begin(ellipsoid_group *g,
     for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
         status = set_start(g->inertial, members[cell].state, &g->start[cell]);
-        g->culprit = status == ELLIPSOID_OK ? -1 : cell;
+        g->failed = status == ELLIPSOID_OK ? -1 : cell;
     }
     if (status == ELLIPSOID_OK)
     {
@@ -336,8 +350,9 @@ static ellipsoid_controller common(const ellipsoid_group *g,
     return all;
 }
 
-/* Hands the step to the members. Does one want to stop? */
-static int hand_over(ellipsoid_group *g, const ellipsoid_member members[],
+/* Gives the members their state at the end of the step. Does one want to
+   stop? */
+static int update_members(ellipsoid_group *g, const ellipsoid_member members[],
                      const ellipsoid_controller *controller,
                      ellipsoid_observer observer)
 {
@@ -358,7 +373,7 @@ static int hand_over(ellipsoid_group *g, const ellipsoid_member members[],
             && !stopped)
         {
             stopped = 1;
-            g->culprit = cell;
+            g->failed = cell;
         }
     }
     return stopped;
@@ -381,7 +396,7 @@ ellipsoid_status ellipsoid_group_advance(ellipsoid_group *g,
             ellipsoid_evaluation *finished = g->start;
 
             *t = g->step[0].end;
-            if (hand_over(g, members, &controller, observer))
+            if (update_members(g, members, &controller, observer))
             {
                 status = ELLIPSOID_STOPPED;
             }

@@ -73,9 +73,9 @@ static void add_torque_of_dipole(const double dipole[3], double axis[3][3],
 /* F_E = charge E (paper eq. (1), second form), T^_E = dipole x R^T E. */
 static ellipsoid_status add_electric(const ellipsoid_model *m,
                                      const ellipsoid_surroundings *surroundings,
-                                     const double x[3], double axis[3][3],
-                                     double d[4][3][3], double force[3],
-                                     double torque[3], ellipsoid_blocks *b)
+                                     const double x[3], ellipsoid_frame *frame,
+                                     ellipsoid_body_wrench *wrench,
+                                     ellipsoid_blocks *b)
 {
     const ellipsoid_options *o = &m->options;
     double field[3] = {0, 0, 0}, jacobian[3][3] = {{0}};
@@ -84,7 +84,7 @@ static ellipsoid_status add_electric(const ellipsoid_model *m,
     {
         const int answer =
             surroundings->field(surroundings->field_context, surroundings->time,
-                                x, field, d ? jacobian : NULL);
+                                x, field, b ? jacobian : NULL);
 
         if (answer != 0)
         {
@@ -94,28 +94,28 @@ static ellipsoid_status add_electric(const ellipsoid_model *m,
     ellipsoid_add(field, o->electric_field);
     for (int i = 0; i < 3; i++)
     {
-        force[i] += o->charge * field[i];
+        wrench->force[i] += o->charge * field[i];
     }
-    add_torque_of_dipole(o->dipole, axis, field, torque);
+    add_torque_of_dipole(o->dipole, frame->axis, field, wrench->torque);
 
-    for (int l = 0; d && l < 3; l++)
+    for (int l = 0; b && l < 3; l++)
     {
         const double column[3] = {jacobian[0][l], jacobian[1][l],
                                   jacobian[2][l]};
         double turning[3] = {0, 0, 0};
 
-        add_torque_of_dipole(o->dipole, axis, column, turning);
+        add_torque_of_dipole(o->dipole, frame->axis, column, turning);
         for (int i = 0; i < 3; i++)
         {
             b->ux[i][l] += o->charge * column[i];
             b->wx[i][l] += turning[i];
         }
     }
-    for (int n = 0; d && n < 4; n++)
+    for (int n = 0; b && n < 4; n++)
     {
         double turning[3] = {0, 0, 0};
 
-        add_torque_of_dipole(o->dipole, d[n], field, turning);
+        add_torque_of_dipole(o->dipole, frame->by_q[n], field, turning);
         for (int i = 0; i < 3; i++)
         {
             b->wq[i][n] += turning[i];
@@ -127,7 +127,7 @@ static ellipsoid_status add_electric(const ellipsoid_model *m,
 /* The external force and torque of a callback. */
 static ellipsoid_status add_external(const ellipsoid_surroundings *surroundings,
                                      const ellipsoid_state *state,
-                                     double force[3], double torque[3],
+                                     ellipsoid_body_wrench *wrench,
                                      ellipsoid_blocks *b)
 {
     static const double ones[3] = {1, 1, 1};
@@ -141,8 +141,8 @@ static ellipsoid_status add_external(const ellipsoid_surroundings *surroundings,
     {
         return answer > 0 ? ELLIPSOID_STEP_UNDERFLOW : ELLIPSOID_FORCE_FAILED;
     }
-    ellipsoid_add(force, more);
-    ellipsoid_add(torque, turning);
+    ellipsoid_add(wrench->force, more);
+    ellipsoid_add(wrench->torque, turning);
     if (b)
     {
         ellipsoid_add_to_blocks(&jacobian, 1, ones, b);
@@ -150,17 +150,19 @@ static ellipsoid_status add_external(const ellipsoid_surroundings *surroundings,
     return ELLIPSOID_OK;
 }
 
-ellipsoid_status ellipsoid_add_body_forces(
-    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
-    const ellipsoid_state *state, double axis[3][3],
-    double axis_derivatives[4][3][3], ellipsoid_flow_sample *flow,
-    double force[3], double torque[3], ellipsoid_blocks *blocks)
+ellipsoid_status
+ellipsoid_add_body_forces(const ellipsoid_model *model,
+                          const ellipsoid_surroundings *surroundings,
+                          const ellipsoid_state *state, ellipsoid_frame *frame,
+                          ellipsoid_flow_sample *flow,
+                          ellipsoid_body_wrench *wrench,
+                          ellipsoid_blocks *blocks)
 {
     ellipsoid_status status = ELLIPSOID_OK;
 
     if (flow)
     {
-        add_pressure_gradient(model, flow, force);
+        add_pressure_gradient(model, flow, wrench->force);
         if (blocks)
         {
             add_pressure_gradient_blocks(model, surroundings->unsteady, flow,
@@ -169,12 +171,12 @@ ellipsoid_status ellipsoid_add_body_forces(
     }
     if (model->electric)
     {
-        status = add_electric(model, surroundings, state->x, axis,
-                              axis_derivatives, force, torque, blocks);
+        status = add_electric(model, surroundings, state->x, frame, wrench,
+                              blocks);
     }
     if (status == ELLIPSOID_OK && surroundings->force)
     {
-        status = add_external(surroundings, state, force, torque, blocks);
+        status = add_external(surroundings, state, wrench, blocks);
     }
     return status;
 }

@@ -18,6 +18,14 @@
 #include <math.h>
 #include <string.h>
 
+/* A call that is left out of line keeps what it is given the address of out of
+   registers: a twentieth of an evaluation's instructions. */
+#ifdef __GNUC__
+#define INLINED static inline __attribute__((always_inline))
+#else
+#define INLINED static inline
+#endif
+
 _Static_assert(sizeof(ellipsoid_state) == ELLIPSOID_STATE_SIZE * sizeof(double),
                "the state is thirteen doubles without padding");
 
@@ -41,7 +49,7 @@ typedef struct evaluation
     With G^ = R^T G R that is p G^_kj - m G^_jk, p = (1 + s_i)/2,
     m = (1 - s_i)/2: strain and vorticity merge.
 */
-static inline double free_spin_about(const evaluation *e, int i, int j, int k)
+INLINED double free_spin_about(const evaluation *e, int i, int j, int k)
 {
     const double p = 0.5 + 0.5 * e->model->strain_factor[i];
     const double m = 0.5 - 0.5 * e->model->strain_factor[i];
@@ -50,7 +58,7 @@ static inline double free_spin_about(const evaluation *e, int i, int j, int k)
          - m * ellipsoid_dot(e->axis[j], e->stretch[k]);
 }
 
-static inline void set_free_motion(evaluation *e)
+INLINED void set_free_motion(evaluation *e)
 {
     ellipsoid_product(e->flow->gradient, e->axis[0], e->stretch[0]);
     ellipsoid_product(e->flow->gradient, e->axis[1], e->stretch[1]);
@@ -65,7 +73,7 @@ static inline void set_free_motion(evaluation *e)
     As omega_free,i = r_k . (p G - m G^T) r_j, a change of the axes adds
     dr_k . (p G - m G^T) r_j + dr_j . (p G^T - m G) r_k.
 */
-static inline void free_spin_derivatives(evaluation *e, double d[4][3][3],
+INLINED void free_spin_derivatives(evaluation *e, double d[4][3][3],
                                          double back[3][3],
                                          double change[3][3][3], int i, int j,
                                          int k)
@@ -118,7 +126,7 @@ static void set_free_derivatives(evaluation *e, double d[4][3][3])
 /* ------------------------------------------------------------------ drag */
 
 /* u and omega with which the drag balances all other forces. */
-static inline void balance(evaluation *e, double u[3], double omega[3])
+INLINED void balance(evaluation *e, double u[3], double omega[3])
 {
     const double *m = e->model->mobility, *w = e->model->rotation_mobility;
     double slip[3];
@@ -134,7 +142,7 @@ static inline void balance(evaluation *e, double u[3], double omega[3])
 }
 
 /* Oberbeck (1876), Jeffery (1922), Brenner (1964): see above. */
-static inline void add_drag(evaluation *e, double slip[3], double resisted[3])
+INLINED void add_drag(evaluation *e, double slip[3], double resisted[3])
 {
     const double mu = e->model->viscosity, *k = e->model->resistance;
     const double *c = e->model->rotation_resistance;
@@ -209,38 +217,61 @@ static void add_drag_blocks(evaluation *e, double d[4][3][3],
     }
 }
 
-/* Drag where walls are near; copies for the same reason as in set_free(). */
-static inline ellipsoid_status
-add_wall_drag(evaluation *e, const ellipsoid_surroundings *surroundings,
-              ellipsoid_state *state, int balanced,
-              ellipsoid_facet_cache *cache, double d[4][3][3],
-              ellipsoid_blocks *blocks, int *acted)
+/*
+    Drag where walls are near; where none is, *acted is 0 and nothing done. The
+    copies are for those who want an address: so the compiler need not give the
+    originals one.
+*/
+static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
+                                      ellipsoid_state *state, int balanced,
+                                      double d[4][3][3],
+                                      ellipsoid_blocks *blocks, int *acted)
 {
     const ellipsoid_free_motion free = e->free;
-    double axis[3][3], force[3], torque[3];
+    ellipsoid_frame frame = {.by_q = blocks ? d : NULL};
+    ellipsoid_body_wrench wrench;
+    ellipsoid_planes planes;
     ellipsoid_status status;
 
-    memcpy(axis, e->axis, sizeof(axis));
-    ellipsoid_copy(e->force, force);
-    ellipsoid_copy(e->torque, torque);
-    status = ellipsoid_wall_drag(e->model, surroundings, cache, state, balanced,
-                                 axis, d, &free, force, torque, blocks, acted);
-    ellipsoid_copy(force, e->force);
-    ellipsoid_copy(torque, e->torque);
+    memcpy(frame.axis, e->axis, sizeof(frame.axis));
+    status = ellipsoid_find_planes(cell->model, &cell->surroundings, state,
+                                   &frame, cell->cache, &planes);
+    *acted = status == ELLIPSOID_OK && planes.count > 0;
+    if (!*acted)
+    {
+        return status;
+    }
+    ellipsoid_copy(e->force, wrench.force);
+    ellipsoid_copy(e->torque, wrench.torque);
+    if (balanced)
+    {
+        ellipsoid_copy(free.u, state->u);
+        ellipsoid_copy(free.omega, state->omega);
+        status = ellipsoid_add_wall_mobility(cell->model, &planes, &frame,
+                                             &wrench, state);
+    }
+    if (status == ELLIPSOID_OK && (blocks || !balanced))
+    {
+        status = ellipsoid_add_wall_drag(cell->model, &planes, &frame, &free,
+                                         state, &wrench, blocks);
+    }
+    ellipsoid_copy(wrench.force, e->force);
+    ellipsoid_copy(wrench.torque, e->torque);
     return status;
 }
 
 /* --------------------------------------------------------------- contact */
 
 /* F_W and T^_W. */
-static inline ellipsoid_status
-add_contact(evaluation *e, const ellipsoid_surroundings *surroundings,
-            ellipsoid_facet_cache *cache, ellipsoid_contact *contact,
-            ellipsoid_blocks *b)
+INLINED ellipsoid_status add_contact(evaluation *e,
+                                           const ellipsoid_cell *cell,
+                                           ellipsoid_contact *contact,
+                                           ellipsoid_blocks *b)
 {
     ellipsoid_wrench_jacobian jacobian;
     const ellipsoid_status status = ellipsoid_contact_evaluate(
-        e->model, surroundings, e->state, cache, contact, b ? &jacobian : NULL);
+        e->model, &cell->surroundings, e->state, cell->cache, contact,
+        b ? &jacobian : NULL);
 
     if (status != ELLIPSOID_OK)
     {
@@ -248,7 +279,7 @@ add_contact(evaluation *e, const ellipsoid_surroundings *surroundings,
     }
     ellipsoid_add(e->force, contact->force);
     ellipsoid_add(e->torque, contact->torque);
-    if (b && contact->touching_beads > 0)
+    if (b && contact->bead_contacts > 0)
     {
         static const double ones[3] = {1, 1, 1};
 
@@ -260,14 +291,14 @@ add_contact(evaluation *e, const ellipsoid_surroundings *surroundings,
 /* --------------------------------------------------------------- the sum */
 
 /* I w x w */
-static inline double gyroscopic(const double inertia[3], const double w[3],
+INLINED double gyroscopic(const double inertia[3], const double w[3],
                                 int j, int k)
 {
     return (inertia[j] - inertia[k]) * w[j] * w[k];
 }
 
 /* Forces to accelerations, paper eqs. (1) and (3). */
-static inline void accelerations(const evaluation *e, int inertial,
+INLINED void accelerations(const evaluation *e, int inertial,
                                  ellipsoid_state *derivative)
 {
     const double *inertia = e->model->inertia, *f = e->force, *t = e->torque;
@@ -322,14 +353,13 @@ static void finish_blocks(const evaluation *e, int inertial,
 }
 
 /* Kinematics, paper eqs. (2) and (4). One NaN or infinity makes the sum one. */
-static inline ellipsoid_status finish(const double u[3], const double omega[3],
-                                      const double at[4],
+INLINED ellipsoid_status finish(const ellipsoid_state *state,
                                       ellipsoid_state *derivative)
 {
     double q[4];
 
-    ellipsoid_set(derivative->x, u[0], u[1], u[2]);
-    ellipsoid_spin(omega, at, q);
+    ellipsoid_copy(state->u, derivative->x);
+    ellipsoid_spin(state->omega, state->q, q);
     for (int n = 0; n < 4; n++)
     {
         derivative->q[n] = 0.5 * q[n];
@@ -341,22 +371,20 @@ static inline ellipsoid_status finish(const double u[3], const double omega[3],
              : ELLIPSOID_NON_FINITE;
 }
 
-/* The motion that the flow would give a free body. The copy is for those who
-   want an address: so the compiler need not give the original one. */
-static inline ellipsoid_status
+/* The motion that the flow would give a free body; copies as above. */
+INLINED ellipsoid_status
 set_free(evaluation *e, const ellipsoid_surroundings *surroundings,
          double d[4][3][3], int derivatives)
 {
     if (e->model->flow_points > 0)
     {
-        double axis[3][3];
+        ellipsoid_frame frame = {.by_q = derivatives ? d : NULL};
         ellipsoid_free_motion motion;
         ellipsoid_status status;
 
-        memcpy(axis, e->axis, sizeof(axis));
+        memcpy(frame.axis, e->axis, sizeof(frame.axis));
         status = ellipsoid_faxen(e->model, surroundings, e->state->x,
-                                     e->flow->velocity, axis,
-                                     derivatives ? d : NULL, &motion);
+                                 e->flow->velocity, &frame, &motion);
         if (status == ELLIPSOID_OK)
         {
             e->free = motion;
@@ -372,7 +400,7 @@ set_free(evaluation *e, const ellipsoid_surroundings *surroundings,
 }
 
 /* All but drag and contact. */
-static inline ellipsoid_status
+INLINED ellipsoid_status
 set_forces(evaluation *e, const ellipsoid_surroundings *surroundings,
            const ellipsoid_noise *noise, double d[4][3][3],
            ellipsoid_blocks *blocks)
@@ -403,42 +431,95 @@ set_forces(evaluation *e, const ellipsoid_surroundings *surroundings,
     if (blocks || noise || m->electric || surroundings->force
         || m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
     {
-        double axis[3][3], force[3], torque[3];
+        ellipsoid_frame frame = {.by_q = blocks ? d : NULL};
+        ellipsoid_body_wrench wrench;
         ellipsoid_status status;
 
-        memcpy(axis, e->axis, sizeof(axis));
-        ellipsoid_copy(e->force, force);
-        ellipsoid_copy(e->torque, torque);
-        status = ellipsoid_add_body_forces(m, surroundings, e->state, axis,
-                                      blocks ? d : NULL, e->flow, force, torque,
-                                      blocks);
+        memcpy(frame.axis, e->axis, sizeof(frame.axis));
+        ellipsoid_copy(e->force, wrench.force);
+        ellipsoid_copy(e->torque, wrench.torque);
+        status = ellipsoid_add_body_forces(m, surroundings, e->state, &frame,
+                                           e->flow, &wrench, blocks);
         if (noise)
         {
-            ellipsoid_add_noise(noise, axis, d, force, torque, blocks);
+            ellipsoid_add_noise(noise, &frame, &wrench, blocks);
         }
-        ellipsoid_copy(force, e->force);
-        ellipsoid_copy(torque, e->torque);
+        ellipsoid_copy(wrench.force, e->force);
+        ellipsoid_copy(wrench.torque, e->torque);
         return status;
     }
     return ELLIPSOID_OK;
 }
 
+/* The sample of the flow at the state. To clear velocity and gradient, too,
+   would cost a tenth of an evaluation: stores and loads of different widths
+   follow one another (tests/benchmarks). */
+INLINED ellipsoid_status
+sample_flow(const ellipsoid_surroundings *surroundings,
+            const ellipsoid_state *state, int reads_more, int derivatives,
+            ellipsoid_flow_sample *flow)
+{
+    if (derivatives)
+    {
+        memset(flow->velocity_jacobian, 0,
+               sizeof(*flow)
+                   - offsetof(ellipsoid_flow_sample, velocity_jacobian));
+    }
+    if (reads_more)
+    {
+        ellipsoid_set(flow->pressure_gradient, 0, 0, 0);
+        ellipsoid_set(flow->local_acceleration, 0, 0, 0);
+    }
+
+    const int answer = surroundings->flow(surroundings->flow_context,
+                                          surroundings->time, state->x,
+                                          derivatives, flow);
+
+    return answer == 0 ? ELLIPSOID_OK : ellipsoid_answer_status(answer);
+}
+
+/* The drag of a body that no wall is near, or the u and omega that it
+   balances. */
+INLINED void add_free_drag(evaluation *e, ellipsoid_state *state,
+                                 int balanced, double d[4][3][3],
+                                 ellipsoid_blocks *blocks)
+{
+    double slip[3], resisted[3];
+
+    if (balanced)
+    {
+        double u[3], omega[3];
+
+        balance(e, u, omega);
+        ellipsoid_copy(u, state->u);
+        ellipsoid_copy(omega, state->omega);
+    }
+    if (blocks || !balanced)
+    {
+        add_drag(e, slip, resisted);
+    }
+    if (blocks)
+    {
+        add_drag_blocks(e, d, slip, resisted, blocks);
+    }
+}
+
 /* Inlined below, with constants that tell the compiler what to leave
    out; e has no address taken, so that it stays in registers. */
-static inline ellipsoid_status
-evaluate(const ellipsoid_model *model,
-         const ellipsoid_surroundings *surroundings,
-         const ellipsoid_noise *noise, ellipsoid_state *state, int balanced,
-         ellipsoid_facet_cache *cache, ellipsoid_state *derivative,
-         ellipsoid_contact *contact, ellipsoid_blocks *blocks)
+INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
+                                        ellipsoid_evaluation *at, int balanced,
+                                        int with_blocks)
 {
+    const ellipsoid_model *model = cell->model;
+    const ellipsoid_surroundings *surroundings = &cell->surroundings;
     const int inertial = model->options.motion == ELLIPSOID_MOTION_INERTIAL;
     const int drag = model->options.drag && surroundings->flow;
+    ellipsoid_state *state = &at->state, *derivative = &at->derivative;
+    ellipsoid_blocks *blocks = with_blocks ? &at->blocks : NULL;
     const double *q = state->q;
     double d[4][3][3];
     ellipsoid_status status = ELLIPSOID_OK;
     ellipsoid_flow_sample flow;
-    double u[3], omega[3];
     int resisted_by_walls = 0;
     evaluation e;
 
@@ -452,18 +533,11 @@ evaluate(const ellipsoid_model *model,
     }
     if (surroundings->flow)
     {
-        memset(&flow, 0,
-               blocks ? sizeof(flow)
-                      : offsetof(ellipsoid_flow_sample, velocity_jacobian));
-
-        const int answer = surroundings->flow(
-            surroundings->flow_context, surroundings->time, state->x,
-            blocks != NULL, &flow);
-
-        if (answer != 0)
-        {
-            return ellipsoid_answer_status(answer);
-        }
+        status = sample_flow(surroundings, state,
+                             surroundings->unsteady
+                                 || model->options.pressure_gradient
+                                        == ELLIPSOID_PRESSURE_GRADP,
+                             with_blocks, &flow);
         e.flow = &flow;
     }
 
@@ -471,48 +545,31 @@ evaluate(const ellipsoid_model *model,
     const double opposite[4] = {q[0], q[1], q[2], -q[3]};
 
     ellipsoid_rotation_inline(opposite, e.axis);
-    if (drag)
+    if (status == ELLIPSOID_OK && drag)
     {
-        status = set_free(&e, surroundings, d, blocks != NULL);
+        status = set_free(&e, surroundings, d, with_blocks);
     }
     if (status == ELLIPSOID_OK)
     {
-        status = set_forces(&e, surroundings, noise, d, blocks);
+        status = set_forces(&e, surroundings, cell->noise, d, blocks);
     }
     if (status == ELLIPSOID_OK && ellipsoid_has_walls(model, surroundings))
     {
-        status = add_contact(&e, surroundings, cache, contact, blocks);
+        status = add_contact(&e, cell, &at->contact, blocks);
+    }
+    if (status == ELLIPSOID_OK && drag
+        && ellipsoid_has_near_walls(model, surroundings))
+    {
+        status = add_wall_drag(&e, cell, state, balanced, d, blocks,
+                               &resisted_by_walls);
     }
     if (status != ELLIPSOID_OK)
     {
         return status;
     }
-    if (drag && ellipsoid_has_near_walls(model, surroundings))
+    if (drag && !resisted_by_walls)
     {
-        status = add_wall_drag(&e, surroundings, state, balanced, cache, d,
-                               blocks, &resisted_by_walls);
-        if (status != ELLIPSOID_OK)
-        {
-            return status;
-        }
-    }
-    ellipsoid_copy(state->u, u);
-    ellipsoid_copy(state->omega, omega);
-    if (balanced && !resisted_by_walls)
-    {
-        balance(&e, u, omega);
-        ellipsoid_copy(u, state->u);
-        ellipsoid_copy(omega, state->omega);
-    }
-    if (drag && !resisted_by_walls && (blocks || !balanced))
-    {
-        double slip[3], resisted[3];
-
-        add_drag(&e, slip, resisted);
-        if (blocks)
-        {
-            add_drag_blocks(&e, d, slip, resisted, blocks);
-        }
+        add_free_drag(&e, state, balanced, d, blocks);
     }
     if (blocks)
     {
@@ -527,25 +584,16 @@ evaluate(const ellipsoid_model *model,
     {
         accelerations(&e, inertial, derivative);
     }
-    return finish(u, omega, q, derivative);
+    return finish(state, derivative);
 }
 
-ellipsoid_status ellipsoid_evaluate(
-    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
-    const ellipsoid_noise *noise, ellipsoid_state *state, int balanced,
-    ellipsoid_facet_cache *cache, ellipsoid_state *derivative,
-    ellipsoid_contact *contact, ellipsoid_blocks *blocks)
+ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
+                                    ellipsoid_evaluation *at, int balanced,
+                                    int with_blocks)
 {
-    if (blocks)
+    if (with_blocks)
     {
-        return evaluate(model, surroundings, noise, state, balanced, cache,
-                        derivative, contact, blocks);
+        return evaluate(cell, at, balanced, 1);
     }
-    if (balanced)
-    {
-        return evaluate(model, surroundings, noise, state, 1, cache, derivative,
-                        contact, NULL);
-    }
-    return evaluate(model, surroundings, noise, state, 0, cache, derivative,
-                    contact, NULL);
+    return balanced ? evaluate(cell, at, 1, 0) : evaluate(cell, at, 0, 0);
 }

@@ -8,10 +8,11 @@
     Drag alone is linear in u and omega, and equations.c inverts it. Friction,
     damping and external forces are not, and they couple the cells of a group:
     Newton's method, with the linear system of a step whose length vanishes. It
-    begins at rest, so that the result is that of the poses alone. From there, where friction
-    holds, towards sliding, its tangents fall short; where one goes too far the
-    change is shortened. Where that does not do, as many beads slide at speeds
-    far above the slip speed, this comes down to its value by and by.
+    begins at rest, so that the result is that of the poses alone. From there,
+    where friction holds, towards sliding, its tangents fall short; where one
+    goes too far the change is shortened. Where that does not converge, as where
+    many beads slide at speeds far above the slip speed, the slip speed is
+    raised first and lowered to its value in steps.
 */
 #include "motion/motion.h"
 
@@ -61,7 +62,8 @@ static double power_along(const ellipsoid_group *g,
     return power;
 }
 
-static void move(const ellipsoid_group *g, double part, ellipsoid_evaluation *points)
+static void move(const ellipsoid_group *g, double part,
+                 ellipsoid_evaluation *points)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
@@ -76,8 +78,8 @@ static void move(const ellipsoid_group *g, double part, ellipsoid_evaluation *po
 }
 
 /* Are the changes a small part of the velocities and the slip speed? */
-static int are_small(const ellipsoid_group *g, const ellipsoid_evaluation *points,
-                     double part)
+static int are_small(const ellipsoid_group *g,
+                     const ellipsoid_evaluation *points, double part)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
@@ -128,7 +130,8 @@ static int set_changes(ellipsoid_group *g, ellipsoid_evaluation *points)
     return regular;
 }
 
-static ellipsoid_status iterate(ellipsoid_group *g, ellipsoid_evaluation *points)
+static ellipsoid_status iterate(ellipsoid_group *g,
+                                ellipsoid_evaluation *points)
 {
     ellipsoid_status status = ellipsoid_group_evaluate_once(g, points, 0, 1);
     double previous = HUGE_VAL;
@@ -172,20 +175,20 @@ static void be_at_rest(const ellipsoid_group *g, ellipsoid_evaluation *points)
     }
 }
 
-/* First as it is; then with slip speeds that fall to their values. Models
-   without gyroscopic torque stand in meanwhile. */
+/* First as it is; then with slip speeds that fall to their values; in both
+   without the gyroscopic torque. */
 static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
                                          ellipsoid_evaluation *points,
-                                         ellipsoid_balance_model *stand_in)
+                                         ellipsoid_smoothed_model *smoothed)
 {
     ellipsoid_status status;
 
     for (int cell = 0; cell < g->count; cell++)
     {
-        stand_in[cell].own = g->cell[cell].model;
-        stand_in[cell].model = *g->cell[cell].model;
-        stand_in[cell].model.options.motion = ELLIPSOID_MOTION_INERTIALESS;
-        g->cell[cell].model = &stand_in[cell].model;
+        smoothed[cell].own = g->cell[cell].model;
+        smoothed[cell].model = *g->cell[cell].model;
+        smoothed[cell].model.options.motion = ELLIPSOID_MOTION_INERTIALESS;
+        g->cell[cell].model = &smoothed[cell].model;
     }
     be_at_rest(g, points);
     status = iterate(g, points);
@@ -198,26 +201,26 @@ static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
         {
             for (int cell = 0; cell < g->count; cell++)
             {
-                stand_in[cell].model.options.slip_speed =
-                    smooth * stand_in[cell].own->options.slip_speed;
+                smoothed[cell].model.options.slip_speed =
+                    smooth * smoothed[cell].own->options.slip_speed;
             }
             status = iterate(g, points);
         }
     }
     for (int cell = 0; cell < g->count; cell++)
     {
-        g->cell[cell].model = stand_in[cell].own;
+        g->cell[cell].model = smoothed[cell].own;
     }
     return status;
 }
 
-/* One cell has no memory of its own for a stand-in. */
+/* One cell has no memory of its own for that model. */
 static ellipsoid_status iterate_alone(ellipsoid_group *g,
                                       ellipsoid_evaluation *points)
 {
-    ellipsoid_balance_model stand_in;
+    ellipsoid_smoothed_model smoothed;
 
-    return iterate_smoothly(g, points, &stand_in);
+    return iterate_smoothly(g, points, &smoothed);
 }
 
 ellipsoid_status ellipsoid_friction_balance(ellipsoid_group *g,
@@ -240,7 +243,7 @@ ellipsoid_status ellipsoid_friction_balance(ellipsoid_group *g,
         return status;
     }
     g->has_blocks = 0; /* the couplings are no longer those of the start */
-    status = g->pairs ? iterate_smoothly(g, points, g->pairs->stand_in)
+    status = g->pairs ? iterate_smoothly(g, points, g->pairs->smoothed)
                       : iterate_alone(g, points);
     if (status == ELLIPSOID_OK)
     {

@@ -102,7 +102,7 @@ static ellipsoid_status advance(ellipsoid_group *g,
     {
         return ELLIPSOID_OK;
     }
-    g->culprit = -1;
+    g->failed = -1;
     g->stiff = g->dissipative = g->unsteady = 0;
     g->observed = observer != NULL;
     for (int cell = 0; cell < g->count; cell++)
@@ -125,7 +125,7 @@ static ellipsoid_status advance(ellipsoid_group *g,
                                             members[cell].surroundings, *t,
                                             &noise[cell]);
             }
-            if (noise[cell].end < end - noise[cell].slack)
+            if (noise[cell].end < end - noise[cell].tolerance)
             {
                 until = noise[cell].end;
             }
@@ -139,20 +139,11 @@ static ellipsoid_status advance(ellipsoid_group *g,
     return status;
 }
 
-ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
-                                   const ellipsoid_surroundings *surroundings,
-                                   ellipsoid_state *state, double *t,
-                                   double end, ellipsoid_controller *controller,
-                                   ellipsoid_facet_cache *cache,
-                                   ellipsoid_observer observer,
-                                   void *observer_context,
-                                   ellipsoid_statistics *statistics)
+ellipsoid_status ellipsoid_advance(const ellipsoid_member *alone, double *t,
+                                   double end, ellipsoid_observer observer)
 {
     ellipsoid_statistics unused = {0};
-    const ellipsoid_member member = {
-        model,      surroundings, state,
-        controller, cache,        observer_context,
-        statistics ? statistics : &unused};
+    ellipsoid_member member;
     ellipsoid_cell cell;
     ellipsoid_evaluation start, next;
     ellipsoid_stages stages;
@@ -170,7 +161,13 @@ ellipsoid_status ellipsoid_advance(const ellipsoid_model *model,
         .noise = &noise,
     };
 
-    return t ? advance(&g, &member, t, end, observer) : ELLIPSOID_BAD_ARGUMENT;
+    if (!alone || !t)
+    {
+        return ELLIPSOID_BAD_ARGUMENT;
+    }
+    member = *alone;
+    member.statistics = alone->statistics ? alone->statistics : &unused;
+    return advance(&g, &member, t, end, observer);
 }
 
 /* ---------------------------------------------------------------- memory */
@@ -213,7 +210,7 @@ size_t ellipsoid_group_lay_out(int count, void *memory, ellipsoid_group *g,
         take(memory, &used, sizeof(*pairs->near), pairs->near_capacity + 1);
     pairs->listed_at = take(memory, &used, sizeof(*pairs->listed_at), count);
     pairs->body = take(memory, &used, sizeof(*pairs->body), count);
-    pairs->stand_in = take(memory, &used, sizeof(*pairs->stand_in), count);
+    pairs->smoothed = take(memory, &used, sizeof(*pairs->smoothed), count);
     bead = take(memory, &used, sizeof(*bead), count);
     for (int cell = 0; memory && cell < count; cell++)
     {
@@ -260,6 +257,6 @@ ellipsoid_status ellipsoid_advance_group(int count,
         g.pairs = NULL;
     }
     status = advance(&g, members, t, end, observer);
-    *which = status == ELLIPSOID_OK ? -1 : g.culprit;
+    *which = status == ELLIPSOID_OK ? -1 : g.failed;
     return status;
 }

@@ -10,6 +10,29 @@
 
 #include <math.h>
 
+/* Adds to the change of u and omega what the other cells' force and torque do
+   against the resistance near walls. */
+static ellipsoid_status move_near_walls(const ellipsoid_cell *p,
+                                         const ellipsoid_contact *c,
+                                         ellipsoid_state *change)
+{
+    const double *q = change->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
+    ellipsoid_frame frame = {.by_q = NULL};
+    ellipsoid_body_wrench wrench;
+    ellipsoid_planes planes;
+    ellipsoid_status status;
+
+    ellipsoid_rotation_inline(opposite, frame.axis);
+    ellipsoid_copy(c->cell_force, wrench.force);
+    ellipsoid_copy(c->cell_torque, wrench.torque);
+    status = ellipsoid_find_planes(p->model, &p->surroundings, change, &frame,
+                                   p->cache, &planes);
+    return status == ELLIPSOID_OK
+             ? ellipsoid_add_wall_mobility(p->model, &planes, &frame, &wrench,
+                                           change)
+             : status;
+}
+
 /* Adds force and torque of the other cells at a point that has been evaluated
    without. */
 static ellipsoid_status add_wrench(const ellipsoid_cell *p,
@@ -18,7 +41,8 @@ static ellipsoid_status add_wrench(const ellipsoid_cell *p,
     const ellipsoid_model *m = p->model;
     const ellipsoid_contact *c = &at->contact;
     ellipsoid_state *slope = &at->derivative, *state = &at->state;
-    double moved[3], omega[3], turned[4];
+    ellipsoid_state change = *state;
+    double turned[4];
     ellipsoid_status status = ELLIPSOID_OK;
 
     if (!balanced)
@@ -30,14 +54,11 @@ static ellipsoid_status add_wrench(const ellipsoid_cell *p,
         }
         return ELLIPSOID_OK;
     }
+    ellipsoid_set(change.u, 0, 0, 0);
+    ellipsoid_set(change.omega, 0, 0, 0);
     if (ellipsoid_has_near_walls(m, &p->surroundings))
     {
-        memset(moved, 0, sizeof(moved));
-        memset(omega, 0, sizeof(omega));
-        status = ellipsoid_wall_mobility(m, &p->surroundings, p->cache,
-                                         state->x,
-                                      state->q, c->cell_force, c->cell_torque,
-                                      moved, omega);
+        status = move_near_walls(p, c, &change);
     }
     else
     {
@@ -48,14 +69,14 @@ static ellipsoid_status add_wrench(const ellipsoid_cell *p,
         for (int i = 0; i < 3; i++)
         {
             body[i] *= m->mobility[i];
-            omega[i] = m->rotation_mobility[i] * c->cell_torque[i];
+            change.omega[i] = m->rotation_mobility[i] * c->cell_torque[i];
         }
-        ellipsoid_product(r, body, moved);
+        ellipsoid_product(r, body, change.u);
     }
-    ellipsoid_add(state->u, moved);
-    ellipsoid_add(state->omega, omega);
+    ellipsoid_add(state->u, change.u);
+    ellipsoid_add(state->omega, change.omega);
     ellipsoid_copy(state->u, slope->x);
-    ellipsoid_spin(omega, state->q, turned);
+    ellipsoid_spin(change.omega, state->q, turned);
     for (int n = 0; n < 4; n++)
     {
         slope->q[n] += 0.5 * turned[n];
@@ -65,9 +86,9 @@ static ellipsoid_status add_wrench(const ellipsoid_cell *p,
 
 static void list_cell(ellipsoid_contact *contact, uint32_t id)
 {
-    if (contact->touched_cell_count < ELLIPSOID_MAX_TOUCHED)
+    if (contact->cell_count < ELLIPSOID_MAX_SURFACES)
     {
-        contact->touched_cell[contact->touched_cell_count++] = id;
+        contact->cell_id[contact->cell_count++] = id;
     }
 }
 
@@ -110,9 +131,9 @@ static void add_to_point(ellipsoid_group *g, ellipsoid_evaluation *points,
     }
 }
 
-static ellipsoid_status add_pair(ellipsoid_group *g, ellipsoid_evaluation *points,
-                                 const ellipsoid_near_pair *near,
-                                 int with_blocks)
+static ellipsoid_status
+add_pair(ellipsoid_group *g, ellipsoid_evaluation *points,
+         const ellipsoid_near_pair *near, int with_blocks)
 {
     const int a = near->a, b = near->b;
     const ellipsoid_options *of_a = &g->cell[a].model->options;
@@ -138,7 +159,7 @@ static ellipsoid_status add_pair(ellipsoid_group *g, ellipsoid_evaluation *point
     if (m.contacts > 0 && with_blocks
         && g->pairs->count + 2 > g->pairs->capacity)
     {
-        g->culprit = b;
+        g->failed = b;
         return ELLIPSOID_TOO_MANY_CELLS;
     }
     add_to_point(g, points, &m, &on_a, a, b);
@@ -162,7 +183,7 @@ ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *g,
         memset(c->cell_torque, 0, sizeof(c->cell_torque));
         c->cell_gap = ellipsoid_pair_horizon(model, model);
         c->cell_deepest = 0;
-        c->touched_cell_count = 0;
+        c->cell_count = 0;
         g->pairs->body[cell].model = NULL;
     }
     for (int n = 0; status == ELLIPSOID_OK && n < g->pairs->near_count; n++)
@@ -171,10 +192,10 @@ ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *g,
     }
     for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
-        if (points[cell].contact.touched_cell_count > 0)
+        if (points[cell].contact.cell_count > 0)
         {
             status = add_wrench(&g->cell[cell], &points[cell], balanced);
-            g->culprit = status == ELLIPSOID_OK ? -1 : cell;
+            g->failed = status == ELLIPSOID_OK ? -1 : cell;
         }
     }
     return status;

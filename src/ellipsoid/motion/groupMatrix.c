@@ -13,7 +13,7 @@
 */
 #include "motion/motion.h"
 
-/* The block in this place, NULL if it is absent. */
+/* The block of this row and column, NULL if it is absent. */
 static double (*block_at(const ellipsoid_group *g, int row, int column))[6]
 {
     const int n = g->pairs->block[row * g->count + column];

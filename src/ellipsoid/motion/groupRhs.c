@@ -7,8 +7,9 @@
 */
 #include "motion/motion.h"
 
-static ellipsoid_status evaluate(ellipsoid_group *g, ellipsoid_evaluation *points,
-                                 int balanced, int with_blocks)
+static ellipsoid_status evaluate(ellipsoid_group *g,
+                                 ellipsoid_evaluation *points, int balanced,
+                                 int with_blocks)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
@@ -17,7 +18,7 @@ static ellipsoid_status evaluate(ellipsoid_group *g, ellipsoid_evaluation *point
 
         if (status != ELLIPSOID_OK)
         {
-            g->culprit = cell;
+            g->failed = cell;
             return status;
         }
     }

@@ -55,30 +55,16 @@ extern const ellipsoid_rosenbrock_table
 
 /* -------------------------------------------------------- the equations */
 
-/* Adds to force [N, lab] and torque [N m, body], and to the blocks if wanted,
-   what is not drag, contact, constant or DUDT; of that the blocks alone
-   (bodyForces.c). flow may be NULL. */
-ellipsoid_status ellipsoid_add_body_forces(
-    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
-    const ellipsoid_state *state, double axis[3][3],
-    double axis_derivatives[4][3][3], ellipsoid_flow_sample *flow,
-    double force[3], double torque[3], ellipsoid_blocks *blocks);
-
-/*
-    One evaluation of the equations: derivative, the contact met (may be NULL
-    where there are no walls) and, if not NULL, the blocks. balanced: the
-    state's u and omega are first set to those that balance the forces; their
-    derivatives are then zero. noise may be NULL. Returns STEP_UNDERFLOW where a
-    callback asks for a shorter step.
-*/
-ellipsoid_status ellipsoid_evaluate(const ellipsoid_model *model,
-                                    const ellipsoid_surroundings *surroundings,
-                                    const ellipsoid_noise *noise,
-                                    ellipsoid_state *state, int balanced,
-                                    ellipsoid_facet_cache *cache,
-                                    ellipsoid_state *derivative,
-                                    ellipsoid_contact *contact,
-                                    ellipsoid_blocks *blocks);
+/* Adds to the wrench, and to the blocks if wanted, what is not drag, contact,
+   constant or DUDT; of that the blocks alone (bodyForces.c). flow may be
+   NULL. */
+ellipsoid_status
+ellipsoid_add_body_forces(const ellipsoid_model *model,
+                          const ellipsoid_surroundings *surroundings,
+                          const ellipsoid_state *state, ellipsoid_frame *frame,
+                          ellipsoid_flow_sample *flow,
+                          ellipsoid_body_wrench *wrench,
+                          ellipsoid_blocks *blocks);
 
 /* --------------------------------------------------------------- a cell */
 
@@ -112,8 +98,18 @@ typedef struct ellipsoid_evaluation
         double slope[UNKNOWNS];
     };
     ellipsoid_blocks blocks;
-    ellipsoid_contact contact;
+    ellipsoid_contact contact; /* left as it is where there are no walls */
 } ellipsoid_evaluation;
+
+/*
+    The equations of one cell in the state of `at`, without contact with other
+    cells (equations.c). balanced: u and omega are first set to those that
+    balance the forces; their derivatives are then zero. STEP_UNDERFLOW: a
+    callback asks for a shorter step.
+*/
+ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
+                                    ellipsoid_evaluation *at, int balanced,
+                                    int with_blocks);
 
 #define ELLIPSOID_MAX_STAGES 7
 
@@ -126,8 +122,8 @@ typedef struct ellipsoid_stages
     double y[UNKNOWNS]; /* result */
     double error[UNKNOWNS];
     int order; /* of the error estimate in the step */
-    /* Where contact is felt: poses, in the order of their time, and the gap [m]
-       that a bead may cross there with nothing in its way */
+    /* Where contact was evaluated: poses, in the order of their time, and the
+       gap [m] that a bead may cross there with nothing in its way */
     int sampled;
     const int *in_time;
     double x[ELLIPSOID_MAX_STAGES][3], q[ELLIPSOID_MAX_STAGES][4];
@@ -163,8 +159,8 @@ typedef struct ellipsoid_reduced
 /* Returns 0 if the step is so long that the matrix is singular
    (stageMatrix.c). */
 int ellipsoid_stage_matrix_prepare(ellipsoid_stage_matrix *system,
-                                   const ellipsoid_evaluation *start, int inertial,
-                                   double h);
+                                   const ellipsoid_evaluation *start,
+                                   int inertial, double h);
 
 /* r and k may be the same. */
 void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *system,
@@ -193,11 +189,11 @@ typedef struct ellipsoid_coupling
 } ellipsoid_coupling;
 
 /* A model that differs, for a time, from that of a cell (forceBalance.c). */
-typedef struct ellipsoid_balance_model
+typedef struct ellipsoid_smoothed_model
 {
     const ellipsoid_model *own;
     ellipsoid_model model;
-} ellipsoid_balance_model;
+} ellipsoid_smoothed_model;
 
 /* What a group of several needs; arrays in the caller's memory. */
 typedef struct ellipsoid_pairs
@@ -209,7 +205,7 @@ typedef struct ellipsoid_pairs
     int is_listed;
     ellipsoid_state *listed_at; /* where the near pairs were listed */
     ellipsoid_body *body;       /* in the poses of an evaluation */
-    ellipsoid_balance_model *stand_in; /* for each cell */
+    ellipsoid_smoothed_model *smoothed; /* for each cell */
     int *block;             /* [count][count]: number of a 6x6 block, or -1 */
     double (*blocks)[6][6]; /* of the factorised matrix */
     double (*rates)[6];     /* right-hand sides, solutions */
@@ -232,7 +228,7 @@ typedef struct ellipsoid_group
     ellipsoid_noise *noise;
     ellipsoid_pairs *pairs; /* NULL: alone */
     int has_blocks, next_has_blocks;
-    int culprit; /* who failed last, or -1 */
+    int failed;  /* the cell that failed or stopped last, or -1 */
 } ellipsoid_group;
 
 /* Lays a group of several out in memory, which may be NULL; returns the bytes
@@ -247,7 +243,7 @@ ellipsoid_force_is_dissipative(const ellipsoid_surroundings *surroundings)
     return surroundings->force && surroundings->force_depends_on_velocity;
 }
 
-/* Does it feel anything? */
+/* Can it touch anything? */
 static inline int ellipsoid_has_contact(const ellipsoid_group *g, int cell)
 {
     return g->pairs != NULL || g->cell[cell].walls;
@@ -271,9 +267,7 @@ ellipsoid_cell_evaluate(const ellipsoid_cell *p, ellipsoid_evaluation *at,
 {
     p->statistics->rhs++;
     p->statistics->jacobians += with_blocks;
-    return ellipsoid_evaluate(p->model, &p->surroundings, p->noise, &at->state,
-                              balanced, p->cache, &at->derivative, &at->contact,
-                              with_blocks ? &at->blocks : NULL);
+    return ellipsoid_evaluate(p, at, balanced, with_blocks);
 }
 
 /* For several cells, contacts between them included (group.c). */
@@ -303,7 +297,7 @@ ellipsoid_group_evaluate_once(ellipsoid_group *g, ellipsoid_evaluation *points,
     {
         return ellipsoid_group_rhs(g, points, balanced, with_blocks);
     }
-    g->culprit = 0;
+    g->failed = 0;
     return ellipsoid_cell_evaluate(g->cell, points, balanced, with_blocks);
 }
 
@@ -335,8 +329,9 @@ const ellipsoid_body *ellipsoid_placed_body(ellipsoid_group *group,
 
 /* Sees to it that all pairs that may touch in these states are listed.
    TOO_MANY_CELLS: there is no memory for so many. */
-ellipsoid_status ellipsoid_near_pairs_collect(ellipsoid_group *group,
-                                              const ellipsoid_evaluation *points);
+ellipsoid_status
+ellipsoid_near_pairs_collect(ellipsoid_group *group,
+                             const ellipsoid_evaluation *points);
 
 /* Adds the forces between the cells to points that have been evaluated
    without (pairContact.c). */

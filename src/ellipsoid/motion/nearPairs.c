@@ -81,7 +81,8 @@ static ellipsoid_status collect(ellipsoid_group *g,
             if (ellipsoid_pair_is_exact(of_a, of_b))
             {
                 near->listed =
-                    ellipsoid_surface_gap(&pairs->body[a], &pairs->body[b]) < far;
+                    ellipsoid_surface_gap(&pairs->body[a], &pairs->body[b])
+                    < far;
             }
             else
             {
@@ -94,7 +95,7 @@ static ellipsoid_status collect(ellipsoid_group *g,
             if (pairs->near_count > pairs->near_capacity)
             {
                 pairs->is_listed = 0;
-                g->culprit = b;
+                g->failed = b;
                 return ELLIPSOID_TOO_MANY_CELLS;
             }
         }
@@ -102,8 +103,9 @@ static ellipsoid_status collect(ellipsoid_group *g,
     return ELLIPSOID_OK;
 }
 
-ellipsoid_status ellipsoid_near_pairs_collect(ellipsoid_group *g,
-                                              const ellipsoid_evaluation *points)
+ellipsoid_status
+ellipsoid_near_pairs_collect(ellipsoid_group *g,
+                             const ellipsoid_evaluation *points)
 {
     ellipsoid_pairs *pairs = g->pairs;
     int current = pairs->is_listed;

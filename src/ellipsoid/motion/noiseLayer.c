@@ -13,8 +13,8 @@
 
 #include <float.h>
 
-/* Intervals of so many relaxation times are long. */
-static const double many = 30;
+/* [relaxation times] from which on an interval is long */
+static const double long_interval = 30;
 
 /* Is the layer at t, where the noise of this cell jumps, to be crossed? */
 static int is_thin(const ellipsoid_cell *p, double t, double until)
@@ -25,7 +25,7 @@ static int is_thin(const ellipsoid_cell *p, double t, double until)
 
     return noise
         && fabs(t - noise->start) <= 8 * DBL_EPSILON * fmax(fabs(t), until - t)
-        && until - t >= many * slowest;
+        && until - t >= long_interval * slowest;
 }
 
 /* Displaces `after`, which has its balanced u and omega, see below. */
@@ -61,8 +61,8 @@ static void displace(const ellipsoid_model *m, const ellipsoid_state *before,
     Leading order of matched asymptotics. u_b being the balanced velocity,
         m du/dt = mu R K^ R^T (u_b - u)
     leaves x displaced by R m (mu K^)^-1 R^T (u - u_b), and u = u_b; and
-   likewise the rotation. A cell that touches is not displaced: a stiff wall
-   does not let it drift on.
+    likewise the rotation. A cell that touches is not displaced: a stiff wall
+    does not let it drift on.
 */
 ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *g, double t,
                                        double until)

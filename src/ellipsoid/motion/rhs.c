@@ -17,8 +17,10 @@ ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
                                ellipsoid_state *derivative)
 {
     const int balanced = model->options.motion == ELLIPSOID_MOTION_INERTIALESS;
-    ellipsoid_state at = *state;
-    ellipsoid_contact contact;
+    const ellipsoid_cell cell = {
+        .model = model, .surroundings = *surroundings, .cache = cache};
+    ellipsoid_evaluation at = {.state = *state};
+    ellipsoid_status status;
 
     if (balanced && !surroundings->flow)
     {
@@ -26,10 +28,12 @@ ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
     }
     if (balanced)
     {
-        return ellipsoid_force_balance(model, surroundings, &at, cache, derivative);
+        return ellipsoid_force_balance(model, surroundings, &at.state, cache,
+                                       derivative);
     }
-    return ellipsoid_evaluate(model, surroundings, NULL, &at, 0, cache,
-                              derivative, &contact, NULL);
+    status = ellipsoid_evaluate(&cell, &at, 0, 0);
+    *derivative = at.derivative;
+    return status;
 }
 
 ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
@@ -44,7 +48,8 @@ ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
     {
         return ELLIPSOID_BAD_OPTION;
     }
-    status = ellipsoid_force_balance(model, surroundings, &at, cache, &derivative);
+    status =
+        ellipsoid_force_balance(model, surroundings, &at, cache, &derivative);
     if (status == ELLIPSOID_OK)
     {
         *state = at;
@@ -72,11 +77,11 @@ ellipsoid_jacobian(const ellipsoid_model *model,
                    const ellipsoid_state *state, ellipsoid_facet_cache *cache,
                    double jacobian[ELLIPSOID_STATE_SIZE][ELLIPSOID_STATE_SIZE])
 {
-    ellipsoid_contact contact;
-    ellipsoid_state at = *state, derivative;
-    ellipsoid_blocks b;
-    const ellipsoid_status status = ellipsoid_evaluate(
-        model, surroundings, NULL, &at, 0, cache, &derivative, &contact, &b);
+    const ellipsoid_cell cell = {
+        .model = model, .surroundings = *surroundings, .cache = cache};
+    ellipsoid_evaluation at = {.state = *state};
+    const ellipsoid_status status = ellipsoid_evaluate(&cell, &at, 0, 1);
+    const ellipsoid_blocks b = at.blocks;
     const double *w = state->omega, *q = state->q;
     /* 1/2 Q(omega) and the derivative of 1/2 Q(omega) q by omega */
     const double qq[4][4] = {{0, w[2], -w[1], w[0]},

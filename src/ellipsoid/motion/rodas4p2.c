@@ -7,8 +7,8 @@
 
     Steinebach, Improvement of Rosenbrock-Wanner method RODASP, in: Progress in
     Differential-Algebraic Equations II (2020): six stages, order 4(3),
-    L-stable, stiffly accurate, of order 2 with a Jacobian that is not exact. Of four sets
-    it takes the fewest steps (tests/benchmarks).
+    L-stable, stiffly accurate, of order 2 with a Jacobian that is not exact. Of
+    four sets it takes the fewest steps (tests/benchmarks).
 */
 #include "motion/motion.h"
 

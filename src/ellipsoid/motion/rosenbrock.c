@@ -133,22 +133,10 @@ static void add_time_derivatives(const ellipsoid_group *g, int stage, double h)
     }
 }
 
-/* All of the step for `count` cells; inlined for one and for several. */
-static inline ellipsoid_status take(ellipsoid_group *g, int count,
-                                    const ellipsoid_plan *plan)
+/* The first stage, and mass over h. */
+static inline void take_first_stage(ellipsoid_group *g, int count, double h,
+                                    double mass[UNKNOWNS])
 {
-    const double h = plan->h;
-    double mass[UNKNOWNS]; /* over h */
-
-    if (g->unsteady)
-    {
-        const ellipsoid_status status = set_time_derivatives(g, plan);
-
-        if (status != ELLIPSOID_OK)
-        {
-            return status;
-        }
-    }
     for (int n = 0; n < UNKNOWNS; n++)
     {
         mass[n] = ellipsoid_is_rate(n) && !g->inertial ? 0 : 1 / h;
@@ -171,7 +159,25 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count,
         add_time_derivatives(g, 0, h);
     }
     ellipsoid_group_solve(g, 0);
+}
 
+/* All of the step for `count` cells; inlined for one and for several. */
+static inline ellipsoid_status take(ellipsoid_group *g, int count,
+                                    const ellipsoid_plan *plan)
+{
+    const double h = plan->h;
+    double mass[UNKNOWNS]; /* over h */
+
+    if (g->unsteady)
+    {
+        const ellipsoid_status status = set_time_derivatives(g, plan);
+
+        if (status != ELLIPSOID_OK)
+        {
+            return status;
+        }
+    }
+    take_first_stage(g, count, h, mass);
     for (int i = 1; i < ELLIPSOID_ROSENBROCK_STAGES; i++)
     {
         ellipsoid_status status;

@@ -4,7 +4,7 @@
     SPDX-License-Identifier: GPL-3.0-or-later
 
     rungeKutta.c - one explicit step of inertialess motion, and its dense
-   output.
+    output.
 
     Tsitouras, Comput. Math. Appl. 62, 770 (2011): order 5(4), the last stage
     is the first of the next step, with a continuous extension of order 4. Its
@@ -94,7 +94,7 @@ static void stage_sum(double k[][UNKNOWNS], int stage, double sum[UNKNOWNS])
 }
 
 /* A stage's slopes: of x, and of q; and, for dense output, omega itself in
-   the place of its derivative. */
+   that of its derivative. */
 static inline void keep_slopes(const ellipsoid_state *state,
                                const ellipsoid_state *derivative,
                                double k[UNKNOWNS])
@@ -105,8 +105,9 @@ static inline void keep_slopes(const ellipsoid_state *state,
 }
 
 /* Sets the state of a stage; the last one is the result. */
-static inline int set_stage(const ellipsoid_evaluation *start, int stage, double h,
-                            ellipsoid_stages *s, ellipsoid_evaluation *at)
+static inline int set_stage(const ellipsoid_evaluation *start, int stage,
+                            double h, ellipsoid_stages *s,
+                            ellipsoid_evaluation *at)
 {
     double change[UNKNOWNS];
 

@@ -126,8 +126,8 @@ static void fill_quaternion_part(const elimination *e,
 }
 
 int ellipsoid_stage_matrix_prepare(ellipsoid_stage_matrix *s,
-                                   const ellipsoid_evaluation *start, int inertial,
-                                   double h)
+                                   const ellipsoid_evaluation *start,
+                                   int inertial, double h)
 {
     const elimination e = of_step(&start->state, h);
     ellipsoid_reduced reduced;

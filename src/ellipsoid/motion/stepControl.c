@@ -46,7 +46,8 @@ static double lasting_error(const ellipsoid_model *m,
     slip speed, or each step would find it slipping another way.
 */
 static double slip_error(const ellipsoid_cell *p,
-                         const ellipsoid_evaluation *start, const double error[])
+                         const ellipsoid_evaluation *start,
+                         const double error[])
 {
     const ellipsoid_options *o = &p->model->options;
 
@@ -93,7 +94,7 @@ static double scaled_error(const ellipsoid_cell *p,
 }
 
 /*
-    The walls are felt only at the poses where the equations are evaluated. A
+    Contact is evaluated only at the poses where the equations are evaluated. A
     bead that passes through a wall between two of them unseen has to leave the
     one gap, the wall by two radii less an overlap, and the other gap. So none
     does if none travels farther than both gaps and a bead radius: the farthest
@@ -135,9 +136,9 @@ static double unseen_travel(const ellipsoid_cell *p,
 ellipsoid_plan ellipsoid_plan_step(double proposal, double t, double end)
 {
     const double left = end - t;
-    const double slack = 4 * DBL_EPSILON * fmax(fabs(t), proposal);
+    const double tolerance = 4 * DBL_EPSILON * fmax(fabs(t), proposal);
 
-    if (fabs(left - proposal) <= slack)
+    if (fabs(left - proposal) <= tolerance)
     {
         return (ellipsoid_plan){proposal, t, end, 1, 0};
     }

@@ -26,7 +26,7 @@
 #include <math.h>
 
 /* As in facets.c */
-static const double slack = 1e-9;
+static const double rounding = 1e-9;
 
 /* A contact point farther beside a flat edge, relative to the support, is there
    neither by rounding nor because the edge is not quite flat. */
@@ -195,9 +195,9 @@ static int at_vertex(const ellipsoid_facet *facet, int k, double reach,
 {
     const double upright = ellipsoid_dot(c->normal, facet->normal);
 
-    return c->height < reach && upright >= -slack
-        && (ellipsoid_facet_owns_vertex(facet, k) || upright >= 1 - slack)
-        && ellipsoid_facet_is_apex(facet, k, c->normal, slack);
+    return c->height < reach && upright >= -rounding
+        && (ellipsoid_facet_owns_vertex(facet, k) || upright >= 1 - rounding)
+        && ellipsoid_facet_is_apex(facet, k, c->normal, rounding);
 }
 
 /* The lowest of the vertices in the set, bit by bit. */
@@ -298,16 +298,16 @@ int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
         }
         ellipsoid_difference(from[k], contact->arm, foot);
 
-        const double place = ellipsoid_dot(foot, contact->edge) / size;
+        const double part = ellipsoid_dot(foot, contact->edge) / size;
 
-        if (place >= 0 && place <= 1)
+        if (part >= 0 && part <= 1)
         {
             return facet->edge[k] != ELLIPSOID_EDGE_CONCAVE
                 && ellipsoid_dot(contact->normal, facet->edge_inward[k])
-                       <= slack
-                && ellipsoid_dot(contact->normal, n) >= -slack;
+                       <= rounding
+                && ellipsoid_dot(contact->normal, n) >= -rounding;
         }
-        candidates |= 1 << (place < 0 ? k : (k + 1) % 3);
+        candidates |= 1 << (part < 0 ? k : (k + 1) % 3);
     }
     if (outside)
     {

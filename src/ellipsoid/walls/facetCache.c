@@ -24,7 +24,7 @@
     for few poses for each facet searched, halved if for many.
 */
 static const double first_margin = 0.5, widest = 1, narrowest = 1.0 / 32;
-static const double few = 0.06, many = 0.4; /* poses for each facet listed */
+static const double seldom = 0.06, often = 0.4; /* uses for each facet listed */
 
 /* Where facets are too many: smaller margins, each by this factor, down to the
    narrowest. */
@@ -34,7 +34,7 @@ static const double smaller = 0.5;
 static void invalidate(ellipsoid_facet_cache *cache)
 {
     cache->valid = 0;
-    cache->served = 0;
+    cache->uses = 0;
     cache->margin = 0;
     cache->clearance = 0;
     cache->facets = NULL;
@@ -153,10 +153,10 @@ static double next_margin(const ellipsoid_facet_cache *cache, double radius)
         return first_margin * radius;
     }
 
-    const double per_facet = (double)cache->served / (cache->listed + 64);
+    const double per_facet = (double)cache->uses / (cache->listed + 64);
 
-    return per_facet < few    ? fmin(2 * cache->margin, widest * radius)
-           : per_facet > many ? fmax(cache->margin / 2, narrowest * radius)
+    return per_facet < seldom ? fmin(2 * cache->margin, widest * radius)
+           : per_facet > often ? fmax(cache->margin / 2, narrowest * radius)
                               : cache->margin;
 }
 
@@ -236,7 +236,7 @@ ellipsoid_facet_cache_update(ellipsoid_facet_cache *cache,
 {
     if (is_current(cache, model, x, q, moved))
     {
-        cache->served += cache->served < INT_MAX;
+        cache->uses += cache->uses < INT_MAX;
         return ELLIPSOID_OK;
     }
     *moved = 0;

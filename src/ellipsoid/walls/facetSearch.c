@@ -167,7 +167,8 @@ static int search_beads(const ellipsoid_facet_list *list, const bead_set *beads,
                                       beads->x[2][b]};
 
             if (beyond[b] > 0 || fabs(height[b]) > far - size
-                || !ellipsoid_facet_may_be_nearest(facet, centre, reach, margin))
+                || !ellipsoid_facet_may_be_nearest(facet, centre, reach,
+                                                   margin))
             {
                 continue;
             }

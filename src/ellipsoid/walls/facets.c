@@ -18,8 +18,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Relative tolerance of 'not nearer': closes the gaps that rounding leaves. */
-static const double slack = 1e-9;
+/* What "not nearer" allows, relative: closes the gaps that rounding leaves. */
+static const double rounding = 1e-9;
 
 /* A smaller angle between facets [rad] is the mesh's rounding. */
 static const double flat = 1e-6;
@@ -54,7 +54,7 @@ int ellipsoid_facet_is_apex(const ellipsoid_facet *facet, int k,
 static int set_boundary_nearest(const ellipsoid_facet *facet, const double r[3],
                     double length, ellipsoid_nearest *nearest)
 {
-    if (ellipsoid_dot(r, facet->normal) < -slack * length)
+    if (ellipsoid_dot(r, facet->normal) < -rounding * length)
     {
         return 0; /* from behind */
     }
@@ -92,7 +92,7 @@ static int nearest_on_edge(const ellipsoid_facet *facet, int k, double foot,
 
     nearest->feature = length > 0 ? ELLIPSOID_ON_EDGE : ELLIPSOID_ON_FACE;
     return length < reach && facet->edge[k] != ELLIPSOID_EDGE_CONCAVE
-        && ellipsoid_dot(r, facet->edge_inward[k]) <= slack * length
+        && ellipsoid_dot(r, facet->edge_inward[k]) <= rounding * length
         && set_boundary_nearest(facet, r, length, nearest);
 }
 
@@ -158,9 +158,9 @@ int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
     nearest->feature = length > 0 ? ELLIPSOID_ON_VERTEX : ELLIPSOID_ON_FACE;
     return length < reach
         && (ellipsoid_facet_owns_vertex(facet, closest)
-            || fabs(height) >= (1 - slack) * length)
+            || fabs(height) >= (1 - rounding) * length)
         && ellipsoid_facet_is_apex(facet, closest, from[closest],
-                                   slack * length)
+                                   rounding * length)
         && set_boundary_nearest(facet, from[closest], length, nearest);
 }
 
@@ -192,7 +192,7 @@ int ellipsoid_facet_may_be_nearest(const ellipsoid_facet *facet,
                              double margin)
 {
     /* each condition changes by no more than the point moves */
-    const double wide = margin + 2 * slack * (reach + margin);
+    const double wide = margin + 2 * rounding * (reach + margin);
     const double far = reach + wide;
     int face = 1;
 

@@ -12,7 +12,7 @@
 
 #include "body/body.h"
 
-/* Are walls felt at all? */
+/* Do walls touch such a body at all? */
 static inline int ellipsoid_has_walls(const ellipsoid_model *model,
                                       const ellipsoid_surroundings *around)
 {
@@ -143,8 +143,8 @@ int ellipsoid_surface_may_reach(const ellipsoid_facet *facet,
 int ellipsoid_surface_cuts(const ellipsoid_facet *facet,
                          const ellipsoid_surface *body);
 
-/* As ellipsoid_surface_nearest() for the facet's plane in place of the facet, if
-   that is cut; the centre is in front of it. */
+/* As ellipsoid_surface_nearest() for the facet's plane in place of the facet,
+   if that is cut; the centre is in front of it. */
 int ellipsoid_surface_cut_plane(const ellipsoid_facet *facet,
                                const ellipsoid_surface *body,
                                ellipsoid_surface_contact *contact);

@@ -13,6 +13,7 @@ License
 #include "argList.H"
 #include "cloud.H"
 #include "OSspecific.H"
+#include "plainLists.H"
 #include "polyMesh.H"
 #include "PstreamReduceOps.H"
 #include "SHA1.H"
@@ -81,24 +82,14 @@ namespace Foam
     //- The time directories of all ranks, in ascending order; collective
     static std::set<namedTime> allTimes(const fileName& path)
     {
-        List<wordList> names(Pstream::nProcs());
-
-        for (const instant& time : Time::findTimes(path))
-        {
-            names[Pstream::myProcNo()].append(time.name());
-        }
-        Pstream::gatherList(names);
-        Pstream::scatterList(names);
-
         std::set<namedTime> times;
-        for (const wordList& some : names)
+        for (const instantList& some : fromAllRanks(Time::findTimes(path)))
         {
-            for (const word& name : some)
+            for (const instant& time : some)
             {
-                scalar value;
-                if (readScalar(name, value))
+                if (time.name() != "constant")
                 {
-                    times.insert({value, name});
+                    times.insert({time.value(), time.name()});
                 }
             }
         }
@@ -141,115 +132,114 @@ namespace Foam
 
         return string();
     }
-}
 
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-Foam::fileName Foam::checkpoint::markFile(const fileName& path)
-{
-    return path/"uniform"/"ellipsoidCloudFiles";
-}
-
-
-Foam::fileName Foam::checkpoint::unfinishedFile(const fileName& path)
-{
-    return path/"uniform"/"ellipsoidCloudUnfinished";
-}
-
-
-Foam::fileName Foam::checkpoint::cellFolder(const fileName& path)
-{
-    return path/cloud::prefix/"ellipsoidCloud";
-}
-
-
-Foam::string Foam::checkpoint::readMark(const fileName& path)
-{
-    if (sharedFiles() && !isFile(markFile(path)))
+    //- Paths in a time directory
+    static fileName markFile(const fileName& path)
     {
-        // Where decomposePar puts a copy
-        const word parts("processors" + Foam::name(Pstream::nProcs()));
-        return textOf(markFile(path.path().path()/parts/path.name()));
+        return path/"uniform"/"ellipsoidCloudFiles";
     }
 
-    return textOf(markFile(path));
-}
-
-
-bool Foam::checkpoint::copied(const dictionary& mark, const fileName& path)
-{
-    const bool copy =
-        !mark.empty()
-     && (
-            Foam::type(path/"uniform", false) == fileName::LINK
-         || mark.get<label>("rank") != Pstream::myProcNo()
-         || mark.get<label>("ranks") != Pstream::nProcs()
-        );
-
-    return returnReduce(copy, orOp<bool>());
-}
-
-
-bool Foam::checkpoint::begun(const fileName& path)
-{
-    return
-        isFile(markFile(path))
-     || isFile(unfinishedFile(path))
-     || isDir(cellFolder(path));
-}
-
-
-Foam::string Foam::checkpoint::findDamage(const dictionary& mark) const
-{
-    for (const entry& e : mark.subDict("files"))
+    static fileName unfinishedFile(const fileName& path)
     {
-        const fileName file(cellFolder(path_)/e.keyword());
-
-        if (!isFile(file))
-        {
-            return file + " is missing";
-        }
-
-        const std::string found(textOf(file));
-        const int64_t bytes(e.dict().get<scalar>("bytes"));
-
-        if (int64_t(found.size()) != bytes)
-        {
-            return
-                file + " is damaged: it holds " + Foam::name(found.size())
-              + " bytes where " + Foam::name(bytes) + " were written";
-        }
-        if (SHA1(found).str() != e.dict().get<string>("digest"))
-        {
-            return file + " is damaged: it is not what was written";
-        }
+        return path/"uniform"/"ellipsoidCloudUnfinished";
     }
 
-    return string();
-}
-
-
-Foam::string Foam::checkpoint::findOtherName(const Time& time)
-{
-    for (const instant& other : time.times())
+    static fileName cellFolder(const fileName& path)
     {
-        if
-        (
-            other.name() != time.timeName()
-         && mag(other.value() - time.value()) < 1e-6*time.deltaTValue()
-         && begun(time.path()/other.name())
-        )
-        {
-            return
-                "the cells of this time are in the directory " + other.name()
-              + ", which by timeFormat and timePrecision of controlDict is now "
-              + time.timeName()
-              + "\n    Put these entries back, or rename the directory";
-        }
+        return path/cloud::prefix/"ellipsoidCloud";
     }
 
-    return string();
+    //- What the mark in a time directory says, empty if there is none
+    static string readMark(const fileName& path)
+    {
+        if (sharedFiles() && !isFile(markFile(path)))
+        {
+            // Where decomposePar puts a copy
+            const word parts("processors" + Foam::name(Pstream::nProcs()));
+            return textOf(markFile(path.path().path()/parts/path.name()));
+        }
+
+        return textOf(markFile(path));
+    }
+
+    //- Has a rank not made the mark that it finds, but decomposePar or
+    //  reconstructPar? Collective
+    static bool copied(const dictionary& mark, const fileName& path)
+    {
+        const bool copy =
+            !mark.empty()
+         && (
+                Foam::type(path/"uniform", false) == fileName::LINK
+             || mark.get<label>("rank") != Pstream::myProcNo()
+             || mark.get<label>("ranks") != Pstream::nProcs()
+            );
+
+        return returnReduce(copy, orOp<bool>());
+    }
+
+    //- Was a state begun in a time directory, be it complete or not?
+    static bool begun(const fileName& path)
+    {
+        return
+            isFile(markFile(path))
+         || isFile(unfinishedFile(path))
+         || isDir(cellFolder(path));
+    }
+
+    //- Say what is wrong with the files of this rank in a time directory, if
+    //  anything
+    static string findDamage(const dictionary& mark, const fileName& path)
+    {
+        for (const entry& e : mark.subDict("files"))
+        {
+            const fileName file(cellFolder(path)/e.keyword());
+
+            if (!isFile(file))
+            {
+                return file + " is missing";
+            }
+
+            const std::string found(textOf(file));
+            const int64_t bytes(e.dict().get<scalar>("bytes"));
+
+            if (int64_t(found.size()) != bytes)
+            {
+                return
+                    file + " is damaged: it holds " + Foam::name(found.size())
+                  + " bytes where " + Foam::name(bytes) + " were written";
+            }
+            if (SHA1(found).str() != e.dict().get<string>("digest"))
+            {
+                return file + " is damaged: it is not what was written";
+            }
+        }
+
+        return string();
+    }
+
+    //- Say under which other name this rank has a state of the present time, if
+    //  any; collective
+    static string findOtherName(const Time& time)
+    {
+        for (const instant& other : time.times())
+        {
+            if
+            (
+                other.name() != time.timeName()
+             && mag(other.value() - time.value()) < 1e-6*time.deltaTValue()
+             && begun(time.path()/other.name())
+            )
+            {
+                return
+                    "the cells of this time are in the directory "
+                  + other.name() + ", which by timeFormat and timePrecision "
+                  + "of controlDict is now " + time.timeName()
+                  + "\n    Put these entries back, or rename the directory";
+            }
+        }
+
+        return string();
+    }
 }
 
 
@@ -257,14 +247,9 @@ Foam::string Foam::checkpoint::findOtherName(const Time& time)
 
 Foam::checkpoint::checkpoint(const Time& time)
 :
-    path_(time.path()/time.timeName()),
-    notes_()
+    path_(time.path()/time.timeName())
 {
-    List<string> marks(Pstream::nProcs());
-    marks[Pstream::myProcNo()] = readMark(path_);
-    Pstream::gatherList(marks);
-    Pstream::scatterList(marks);
-
+    const List<string> marks(fromAllRanks(readMark(path_)));
     const fileName name(markFile(path_));
     const dictionary mark(parsed(marks[Pstream::myProcNo()], name));
     bool all = true;
@@ -295,7 +280,7 @@ Foam::checkpoint::checkpoint(const Time& time)
     }
     else if (found() && !copies)
     {
-        complaint = findDamage(mark);
+        complaint = findDamage(mark, path_);
     }
 
     if (some && !complaint.empty())
@@ -307,9 +292,7 @@ Foam::checkpoint::checkpoint(const Time& time)
     }
 
     // The first of any rank, said once
-    List<string> complaints(Pstream::nProcs());
-    complaints[Pstream::myProcNo()] = complaint;
-    Pstream::gatherList(complaints);
+    const List<string> complaints(gathered(complaint));
     const masterGate once;
 
     for (const string& text : complaints)

@@ -8,30 +8,73 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "ellipsoidCloud.H"
+#include "atomicWrite.H"
+#include "caseSummary.H"
+#include "electricField.H"
 #include "masterGate.H"
 #include "inletFlux.H"
 #include "clockTime.H"
 #include "surfaceFields.H"
 #include "volFields.H"
 
-#include <algorithm>
 #include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- The present time of the run [s], without the rounding that a run adds up
+    //  step by step: a restart is to find the same times
+    static scalar presentTime(const Time& time)
+    {
+        if (!(time.deltaTValue() > 0))
+        {
+            const masterGate once;
+            FatalIOErrorInFunction(time.controlDict())
+                << "deltaT " << time.deltaTValue() << nl
+                << "    allowed: above 0 s" << exit(FatalIOError);
+        }
+
+        const scalar steps = time.value()/time.deltaTValue();
+        const scalar nearest = std::round(steps);
+
+        return
+            mag(steps - nearest) < 1e-6
+          ? nearest*time.deltaTValue()
+          : time.value();
+    }
+
+    //- Say that a cell is lost, and why; on the master
+    static void reportLost(const cellSweep& cell)
+    {
+        Info<< "ellipsoidCloud: cell " << cell.state.id << " is lost at t = "
+            << cell.state.time << " s, " << cell.state.centre() << " m: "
+            << ellipsoid_status_text(ellipsoid_status(cell.status));
+
+        if (cell.refused == frozenFlow::pBeyondCoupled)
+        {
+            Info<< " at a cyclic or symmetry patch, which it must not reach";
+        }
+        Info<< endl;
+    }
+}
+
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::ellipsoidCloud::makeInjections()
 {
     const dictionary& dict = properties_.subDict("injection");
-    const cellInjection::setting from
-    {
-        *undecomposed_, *flow_, *walls_, population_, properties_.seed()
-    };
-
     label nCells = 0;
 
     for (const entry& e : dict)
     {
-        injections_.append(cellInjection::New(e.dict(), from, nCells).ptr());
+        const cellInjection::setting from
+        {
+            e.dict(), *undecomposed_, *domain_, population_, nCells
+        };
+
+        injections_.append(cellInjection::New(from).ptr());
         {
             const masterGate once;
             injections_.last().check();
@@ -44,65 +87,81 @@ void Foam::ellipsoidCloud::makeInjections()
 }
 
 
-Foam::scalar Foam::ellipsoidCloud::presentTime(const Time& time)
+void Foam::ellipsoidCloud::checkClock() const
 {
-    const scalar steps = time.value()/time.deltaTValue();
-    const scalar nearest = std::round(steps);
+    const Time& time = mesh_.time();
+    const masterGate once;
 
-    return
-        mag(steps - nearest) < 1e-6
-      ? nearest*time.deltaTValue()
-      : time.value();
+    if (!earlier_.found() && !(time.endTime() > time))
+    {
+        FatalIOErrorInFunction(time.controlDict())
+            << "endTime " << time.endTime().value() << " s is not after the"
+            << " start at " << time.timeName() << " s: no cell would move"
+            << exit(FatalIOError);
+    }
+    if
+    (
+        Pstream::parRun()
+     && time.writeFormat() == IOstream::ASCII
+     && IOstream::defaultPrecision() < 17
+    )
+    {
+        Warning
+            << "writePrecision " << IOstream::defaultPrecision()
+            << " is below 17: decomposePar rounds the flow, by which parallel"
+            << " and serial runs will differ" << nl << endl;
+    }
+}
+
+
+void Foam::ellipsoidCloud::checkTimes() const
+{
+    const scalar end = mesh_.time().endTime().value();
+    scalar first = VGREAT;
+    scalar last = -VGREAT;
+    label inTime = 0;
+
+    for (const cellInjection& injection : injections_)
+    {
+        for (const Tuple2<scalar, label>& cell : injection.times())
+        {
+            first = min(first, cell.first());
+            last = max(last, cell.first());
+            inTime += cell.first() >= time_ && cell.first() < end;
+        }
+    }
+
+    Info<< "case: " << inTime << " cells enter from " << time_ << " to " << end
+        << " s" << endl;
+
+    if (!inTime && !earlier_.found())
+    {
+        const masterGate once;
+        FatalIOErrorInFunction(properties_.subDict("injection"))
+            << "no cell enters while the run lasts, from "
+            << shortText(time_).c_str() << " to " << shortText(end).c_str()
+            << " s: they are to enter from " << shortText(first).c_str()
+            << " to " << shortText(last).c_str() << " s" << nl << "    Correct start of the injections, or startTime"
+            << " and endTime of controlDict" << exit(FatalIOError);
+    }
 }
 
 
 void Foam::ellipsoidCloud::addNew(const scalar start, const scalar end)
 {
-    DynamicList<cellInjection::newCell> newCells;
+    DynamicList<cellState> newCells;
 
     for (const cellInjection& injection : injections_)
     {
         injection.append(start, end, newCells);
     }
 
-    for (const cellInjection::newCell& cell : newCells)
+    for (const cellState& cell : newCells)
     {
-        const cellSize size(population_.drawn(cell.id));
-        population_.take(cell.id, size);
-        cells_.append(cell.state(*flow_, size));
+        population_.take(cell.id, cellSize{cell.length, cell.width});
     }
-
-    if (newCells.size())
-    {
-        sortCells();
-    }
-}
-
-
-void Foam::ellipsoidCloud::sortCells()
-{
-    std::sort
-    (
-        cells_.begin(),
-        cells_.end(),
-        [](const cellState& a, const cellState& b) { return a.id < b.id; }
-    );
-}
-
-
-void Foam::ellipsoidCloud::reportLost(const cellSweep& cell)
-{
-    const scalar* x = cell.state.body.x;
-
-    Info<< "ellipsoidCloud: cell " << cell.state.id << " is lost at t = "
-        << cell.state.time << " s, " << point(x[0], x[1], x[2]) << " m: "
-        << ellipsoid_status_text(ellipsoid_status(cell.status));
-
-    if (cell.refused == frozenFlow::pBeyondCoupled)
-    {
-        Info<< " at a cyclic or symmetry patch, which it must not reach";
-    }
-    Info<< endl;
+    cells_.append(newCells);
+    Foam::sort(cells_);
 }
 
 
@@ -114,23 +173,15 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
     properties_(mesh),
     earlier_(mesh.time()),
     undecomposed_(new undecomposedFlow(mesh)),
-    field_(new electricField(properties_.section("forces"), mesh)),
+    field_
+    (
+        electricField::read(properties_.section("forces"), mesh, *undecomposed_)
+    ),
     population_(properties_),
-    flow_(),
-    walls_(),
-    cellRank_(undecomposed_->cellRank()),
-    cellLocal_(undecomposed_->cellLocal()),
-    injections_(),
-    cells_(),
+    localCells_(undecomposed_->localCells()),
     criterion_(properties_.section("capture"), mesh.boundaryMesh()),
-    statistics_(),
-    tracks_(),
-    interval_(),
-    meshNotes_(),
     time_(presentTime(mesh.time())),
-    firstTime_(mesh.time().timeName()),
-    trackingTime_(0),
-    reportTime_(0)
+    firstTime_(mesh.time().timeName())
 {
     {
         const masterGate once;
@@ -142,7 +193,17 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
         }
     }
 
+    checkClock();
     makeTables();
+
+    {
+        const masterGate once;
+
+        if (Pstream::master())
+        {
+            reportCase(undecomposed_->mesh(), properties_, criterion_);
+        }
+    }
     if (earlier_.found())
     {
         readCells();
@@ -162,47 +223,43 @@ void Foam::ellipsoidCloud::setFlow
 {
     undecomposed_->gather(U, p, phi);
 
-    flow_.reset
-    (
-        new frozenFlow
-        (
-            *undecomposed_,
-            fluidDensity(),
-            properties_.scheme(),
-            field_->onUndecomposed(*undecomposed_)
-        )
-    );
-    walls_.reset
-    (
-        new wallFacets
-        (
-            Pstream::master() ? &undecomposed_->mesh() : nullptr,
-            longestSemiAxis(properties_.options())
-        )
-    );
-
+    domain_.reset(new cellDomain(properties_, *undecomposed_, field_));
     criterion_.setInletSpeed(inletFlux::speedOf(*undecomposed_));
+    reportReynolds(inletFlux(U, phi), properties_.options().kinematic_viscosity);
 
     checkPlaces();
     makeInjections();
+    checkTimes();
     field_.clear();
     undecomposed_.clear();
 
     interval_.reset
     (
-        new groupScheduler
-        (
-            population_, *flow_, *walls_, properties_, tracks_.get()
-        )
+        new groupScheduler(population_, *domain_, tracks_.get())
     );
 
-    // Nothing on the disk is changed before all has been checked
-    statistics_->open();
-    tracks_->open();
-
-    Info<< "ellipsoidCloud: " << flow_->nTets() << " tetrahedra, "
-        << walls_->size() << " wall facets; slow is below "
+    Info<< "ellipsoidCloud: " << domain_->flow.nTets() << " tetrahedra, "
+        << domain_->walls.size() << " wall facets; slow is below "
         << criterion_.slowSpeed() << " m/s" << endl;
+}
+
+
+void Foam::ellipsoidCloud::begin()
+{
+    const fileName folder(statistics_->log.name().path());
+
+    if (Pstream::master() && !earlier_.found() && isDir(folder))
+    {
+        if (!mvBak(folder, "bak"))
+        {
+            cannotWrite(folder);
+        }
+        Info<< "ellipsoidCloud: the tables that were in " << folder.c_str()
+            << " are kept beside it, as .bak" << endl;
+    }
+
+    statistics_->log.open();
+    tracks_->file.open();
 }
 
 

@@ -15,13 +15,9 @@ Description
 #include "ellipsoidCloud.H"
 #include "ellipsoidParcel.H"
 #include "masterGate.H"
-#include "plainLists.H"
 #include "fvMesh.H"
-#include "HashSet.H"
-#include "StringStream.H"
 #include "atomicWrite.H"
 
-#include <algorithm>
 #include <cmath>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -43,40 +39,27 @@ void Foam::ellipsoidCloud::makeTables()
         mesh_.time().globalPath()/"postProcessing"/"ellipsoidCloud"/firstTime_
     );
 
-    statistics_.reset
-    (
-        new captureStatistics
-        (
-            mesh_.boundaryMesh().names(),
-            criterion_.sieves(),
-            population_,
-            folder,
-            tables.subOrEmptyDict("events")
-        )
-    );
-    tracks_.reset
-    (
-        new cellTracks
-        (
-            cellTracks::setting(properties_.section("tracks")),
-            mesh_.boundaryMesh().names(),
-            population_,
-            folder,
-            tables.subOrEmptyDict("tracks")
-        )
-    );
+    const tableSet set
+    {
+        mesh_.boundaryMesh().names(), population_, folder, tables
+    };
+
+    statistics_.reset(new captureStatistics(set, criterion_.sieves()));
+    tracks_.reset(new cellTracks(set));
 }
 
 
 void Foam::ellipsoidCloud::readCells()
 {
-    const List<cellState> mine(ellipsoidParcel::read(mesh_));
-
-    for (const List<cellState>& some : fromAllRanks(mine))
+    for
+    (
+        const List<cellState>& some
+      : fromAllRanks(ellipsoidParcel::read(mesh_))
+    )
     {
         cells_.append(some);
     }
-    sortCells();
+    Foam::sort(cells_);
 
     const masterGate once;
     for (const cellState& cell : cells_)
@@ -126,15 +109,16 @@ void Foam::ellipsoidCloud::checkPlaces() const
         if
         (
             cell.tet < 0
-         || cell.tet >= flow_->nTets()
+         || cell.tet >= domain_->flow.nTets()
          || !(mag(x) < GREAT)
-         || flow_->locate(x, at) != frozenFlow::pInside
+         || domain_->flow.locate(x, at) != frozenFlow::pInside
         )
         {
-            OStringStream os;
-            os.precision(6);
-            os << "cell " << cell.id << " at " << x << " is outside the mesh";
-            refuseCells(os.str());
+            refuseCells
+            (
+                "cell " + Foam::name(cell.id) + " at " + shortText(x)
+              + " is outside the mesh"
+            );
         }
     }
 }
@@ -187,14 +171,12 @@ void Foam::ellipsoidCloud::writeParcels() const
 
     for (const cellState& cell : cells_)
     {
-        const label celli = flow_->cell(frozenFlow::probe{cell.tet, -1});
+        const frozenFlow::probe at{cell.tet, -1};
+        const label celli = localCells_[domain_->flow.cell(at)];
 
-        if (cellRank_[celli] == Pstream::myProcNo())
+        if (celli >= 0)
         {
-            parcels.addParticle
-            (
-                new ellipsoidParcel(mesh_, cellLocal_[celli], cell)
-            );
+            parcels.addParticle(new ellipsoidParcel(mesh_, celli, cell));
         }
     }
 
@@ -228,12 +210,7 @@ void Foam::ellipsoidCloud::report()
 
 void Foam::ellipsoidCloud::reportWork() const
 {
-    List<groupAdvance::account> ranks
-    (
-        Pstream::nProcs(), groupAdvance::account()
-    );
-    ranks[Pstream::myProcNo()] = interval_->done();
-    Pstream::gatherList(ranks);
+    const List<groupAdvance::account> ranks(gathered(interval_->done()));
 
     groupAdvance::account sum = {};
     scalar longest = VSMALL;
@@ -287,8 +264,8 @@ void Foam::ellipsoidCloud::write()
     writeParcels();
 
     dictionary tables;
-    tables.add("events", statistics_->notes());
-    tables.add("tracks", tracks_->notes());
+    tables.add("events", statistics_->log.notes());
+    tables.add("tracks", tracks_->file.notes());
 
     dictionary notes;
     notes.add("time", time_);

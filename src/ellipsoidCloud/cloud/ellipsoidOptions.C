@@ -11,48 +11,33 @@ License
 #include "electricField.H"
 #include "Switch.H"
 
-#include <algorithm>
-#include <cstring>
+#include <vector>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
     //- The core's list of options
-    struct coreOptions
+    static std::vector<ellipsoid_option> coreOptions()
     {
-        int size;
-        const ellipsoid_option* first;
+        int size = 0;
+        const ellipsoid_option* first = ellipsoid_option_list(&size);
 
-        coreOptions()
-        :
-            size(0),
-            first(ellipsoid_option_list(&size))
-        {}
-
-        const ellipsoid_option* begin() const
-        {
-            return first;
-        }
-
-        const ellipsoid_option* end() const
-        {
-            return first + size;
-        }
-    };
+        return std::vector<ellipsoid_option>(first, first + size);
+    }
 
     //- What options.def says of a member
-    static const ellipsoid_option& optionOf(const char* member)
+    static ellipsoid_option optionOf(const word& member)
     {
-        const coreOptions all;
+        const std::vector<ellipsoid_option> all(coreOptions());
 
         return *std::find_if
         (
             all.begin(),
             all.end(),
-            [=](const ellipsoid_option& option)
+            [&](const ellipsoid_option& option)
             {
-                return std::strcmp(option.member, member) == 0;
+                return option.member == member;
             }
         );
     }
@@ -234,7 +219,7 @@ void Foam::ellipsoidProperties::checkOptions() const
         return;
     }
 
-    const ellipsoid_option& option = optionOf(member);
+    const ellipsoid_option option(optionOf(member));
     const dictionary& dict = section(option.section);
 
     if (dict.found(option.entry))

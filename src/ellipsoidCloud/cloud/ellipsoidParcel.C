@@ -14,7 +14,6 @@ License
 #include "passiveParticleCloud.H"
 
 #include <cstddef>
-#include <cstring>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -43,51 +42,42 @@ namespace Foam
     //- What a file holds of a cell
     enum fieldType { labels, scalars, vectors };
 
-    //- A file of the cells
+    //- A member of a cell: a file, or one for each of its components
     struct cellField
     {
         const char* name;
         std::size_t offset;
         fieldType type;
+        int count;
     };
 
     //- All members of cellState in their order: all reading and writing goes by
     //  this list
     static constexpr cellField cellFields[] =
     {
-        { "U", offsetof(cellState, body.u), vectors },
-        { "x", offsetof(cellState, body.x), vectors },
-        { "omega", offsetof(cellState, body.omega), vectors },
-        { "q0", offsetof(cellState, body.q[0]), scalars },
-        { "q1", offsetof(cellState, body.q[1]), scalars },
-        { "q2", offsetof(cellState, body.q[2]), scalars },
-        { "q3", offsetof(cellState, body.q[3]), scalars },
-        { "step", offsetof(cellState, controller.step), scalars },
+        { "U", offsetof(cellState, body.u), vectors, 1 },
+        { "x", offsetof(cellState, body.x), vectors, 1 },
+        { "omega", offsetof(cellState, body.omega), vectors, 1 },
+        { "q", offsetof(cellState, body.q), scalars, 4 },
+        { "step", offsetof(cellState, controller.step), scalars, 1 },
         {
             "previousError",
-            offsetof(cellState, controller.previous_error), scalars
+            offsetof(cellState, controller.previous_error), scalars, 1
         },
-        { "time", offsetof(cellState, time), scalars },
-        { "planned", offsetof(cellState, planned), scalars },
-        { "slowTime", offsetof(cellState, slowTime), scalars },
-        { "imbalance", offsetof(cellState, imbalance), scalars },
-        { "nextRow", offsetof(cellState, nextRow), scalars },
-        { "lastRow0", offsetof(cellState, lastRow[0]), scalars },
-        { "lastRow1", offsetof(cellState, lastRow[1]), scalars },
-        { "lastRow2", offsetof(cellState, lastRow[2]), scalars },
-        { "lastRow3", offsetof(cellState, lastRow[3]), scalars },
-        { "lastRow4", offsetof(cellState, lastRow[4]), scalars },
-        { "lastRow5", offsetof(cellState, lastRow[5]), scalars },
-        { "lastRow6", offsetof(cellState, lastRow[6]), scalars },
-        { "lastRow7", offsetof(cellState, lastRow[7]), scalars },
-        { "deepest", offsetof(cellState, deepest), scalars },
-        { "deepestCell", offsetof(cellState, deepestCell), scalars },
-        { "length", offsetof(cellState, length), scalars },
-        { "width", offsetof(cellState, width), scalars },
-        { "id", offsetof(cellState, id), labels },
-        { "tet", offsetof(cellState, tet), labels },
-        { "fate", offsetof(cellState, fate), labels },
-        { "patch", offsetof(cellState, patch), labels }
+        { "time", offsetof(cellState, time), scalars, 1 },
+        { "planned", offsetof(cellState, planned), scalars, 1 },
+        { "slowTime", offsetof(cellState, slowTime), scalars, 1 },
+        { "imbalance", offsetof(cellState, imbalance), scalars, 1 },
+        { "nextRow", offsetof(cellState, nextRow), scalars, 1 },
+        { "lastRow", offsetof(cellState, lastRow), scalars, 8 },
+        { "deepest", offsetof(cellState, deepest), scalars, 1 },
+        { "deepestCell", offsetof(cellState, deepestCell), scalars, 1 },
+        { "length", offsetof(cellState, length), scalars, 1 },
+        { "width", offsetof(cellState, width), scalars, 1 },
+        { "id", offsetof(cellState, id), labels, 1 },
+        { "tet", offsetof(cellState, tet), labels, 1 },
+        { "fate", offsetof(cellState, fate), labels, 1 },
+        { "patch", offsetof(cellState, patch), labels, 1 }
     };
 
     //- Size [bytes] of what a file holds of a cell
@@ -106,61 +96,78 @@ namespace Foam
             i == sizeof(cellFields)/sizeof(cellFields[0])
           ? byte == sizeof(cellState)
           : cellFields[i].offset == byte
-         && fills(i + 1, byte + sizeOf(cellFields[i].type));
+         && fills(i + 1, byte + cellFields[i].count*sizeOf(cellFields[i].type));
     }
 
     static_assert(fills(0, 0), "cellFields lacks a member of cellState");
 
-    //- Read a file into the states
+    //- Name of the file of a component
+    static word fileOf(const cellField& field, const int component)
+    {
+        return
+            field.count > 1
+          ? word(field.name + Foam::name(component))
+          : word(field.name);
+    }
+
+    //- Where a state has a member
+    static char* memberOf(cellState& state, const cellField& field)
+    {
+        void* bytes = &state;
+        return static_cast<char*>(bytes) + field.offset;
+    }
+
+    //- Read a member of the states
     template<class Type>
-    static void readFile
+    static void readMember
     (
         const passiveParticleCloud& c,
-        const cellField& file,
+        const cellField& field,
         List<cellState>& cells
     )
     {
-        const IOField<Type> values
-        (
-            c.fieldIOobject(file.name, IOobject::MUST_READ), c.size() > 0
-        );
-        c.checkFieldIOobject(c, values);
-
-        forAll(cells, i)
+        for (int d = 0; d < field.count; ++d)
         {
-            void* state = &cells[i];
-            std::memcpy
+            const IOField<Type> values
             (
-                static_cast<char*>(state) + file.offset,
-                &values[i],
-                sizeof(Type)
+                c.fieldIOobject(fileOf(field, d), IOobject::MUST_READ),
+                c.size() > 0
             );
+            c.checkFieldIOobject(c, values);
+
+            forAll(cells, i)
+            {
+                char* member = memberOf(cells[i], field);
+                std::memcpy(member + d*sizeof(Type), &values[i], sizeof(Type));
+            }
         }
     }
 
-    //- Write a file of the states
+    //- Write a member of the states
     template<class Type>
-    static void writeFile
+    static void writeMember
     (
         const Cloud<ellipsoidParcel>& c,
-        const cellField& file
+        const cellField& field,
+        List<cellState>& cells
     )
     {
-        IOField<Type> values
-        (
-            c.fieldIOobject(file.name, IOobject::NO_READ), c.size()
-        );
-
-        label i = 0;
-        for (const ellipsoidParcel& parcel : c)
+        for (int d = 0; d < field.count; ++d)
         {
-            char bytes[sizeof(cellState)];
-            std::memcpy(bytes, &parcel.state(), sizeof(bytes));
-            void* value = &values[i++];
-            std::memcpy(value, bytes + file.offset, sizeof(Type));
-        }
+            IOField<Type> values
+            (
+                c.fieldIOobject(fileOf(field, d), IOobject::NO_READ), c.size()
+            );
 
-        atomicWrite(values, c.size() > 0);
+            forAll(cells, i)
+            {
+                const char* member = memberOf(cells[i], field);
+                void* value = &values[i];
+                std::memcpy(value, member + d*sizeof(Type), sizeof(Type));
+            }
+
+            atomicWrite(values, c.size() > 0);
+        }
     }
 }
 
@@ -192,13 +199,13 @@ Foam::List<Foam::cellState> Foam::ellipsoidParcel::read(const polyMesh& mesh)
     const passiveParticleCloud c(mesh, cloudName, false);
     List<cellState> cells(c.size());
 
-    for (const cellField& file : cellFields)
+    for (const cellField& field : cellFields)
     {
-        switch (file.type)
+        switch (field.type)
         {
-            case labels: readFile<label>(c, file, cells); break;
-            case scalars: readFile<scalar>(c, file, cells); break;
-            case vectors: readFile<vector>(c, file, cells); break;
+            case labels: readMember<label>(c, field, cells); break;
+            case scalars: readMember<scalar>(c, field, cells); break;
+            case vectors: readMember<vector>(c, field, cells); break;
         }
     }
 
@@ -208,6 +215,13 @@ Foam::List<Foam::cellState> Foam::ellipsoidParcel::read(const polyMesh& mesh)
 
 void Foam::ellipsoidParcel::writeFields(const Cloud<ellipsoidParcel>& c)
 {
+    List<cellState> cells(c.size());
+    label i = 0;
+    for (const ellipsoidParcel& parcel : c)
+    {
+        cells[i++] = parcel.state();
+    }
+
     // What OpenFOAM's own particles have
     typedef cloud::geometryType geometry;
 
@@ -218,7 +232,7 @@ void Foam::ellipsoidParcel::writeFields(const Cloud<ellipsoidParcel>& c)
     }
 
     const std::size_t id = offsetof(cellState, id);
-    writeFile<label>(c, {"origId", id, labels});
+    writeMember<label>(c, {"origId", id, labels, 1}, cells);
 
     IOField<label> zeros
     (
@@ -227,13 +241,13 @@ void Foam::ellipsoidParcel::writeFields(const Cloud<ellipsoidParcel>& c)
     );
     atomicWrite(zeros, c.size() > 0);
 
-    for (const cellField& file : cellFields)
+    for (const cellField& field : cellFields)
     {
-        switch (file.type)
+        switch (field.type)
         {
-            case labels: writeFile<label>(c, file); break;
-            case scalars: writeFile<scalar>(c, file); break;
-            case vectors: writeFile<vector>(c, file); break;
+            case labels: writeMember<label>(c, field, cells); break;
+            case scalars: writeMember<scalar>(c, field, cells); break;
+            case vectors: writeMember<vector>(c, field, cells); break;
         }
     }
 }

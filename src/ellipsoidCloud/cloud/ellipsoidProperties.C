@@ -11,32 +11,13 @@ License
 #include "cellTracks.H"
 #include "masterGate.H"
 #include "readViscosity.H"
-#include "StringStream.H"
 #include "captureCriterion.H"
 #include "cellInjection.H"
-#include "cellPopulation.H"
-#include "dimensionedScalar.H"
 #include "emptyPolyPatch.H"
 #include "processorPolyPatch.H"
 #include "stringListOps.H"
 #include "wedgePolyPatch.H"
 #include "Time.H"
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-    //- A value as one would write it
-    template<class Type>
-    static string textOf(const Type& value)
-    {
-        OStringStream text;
-        text.precision(6);
-        text << value;
-        return text.str();
-    }
-}
-
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -148,20 +129,18 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
             IOobject::NO_WRITE
         )
     ),
-    options_(ellipsoid_options_default()),
-    scheme_(frozenFlow::stCellPoint),
-    seed_(1),
-    pushing_(true),
-    empty_()
+    options_(ellipsoid_options_default())
 {
     options_.kinematic_viscosity = readViscosity(mesh).value();
 
     // No reading of files, for which ranks would have to meet, from here on
     const masterGate once;
 
-    scheme_ =
-        frozenFlow::schemeNames.getOrDefault("interpolation", *this, scheme_);
-    seed_ = getOrDefault<label>("seed", seed_);
+    scheme_ = frozenFlow::schemeNames.getOrDefault
+    (
+        "interpolation", *this, frozenFlow::stCellPoint
+    );
+    seed_ = getOrDefault<label>("seed", 1);
 
     readOptions();
     checkOptions();
@@ -172,21 +151,6 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-ellipsoid_model Foam::ellipsoidProperties::model() const
-{
-    ellipsoid_model made = ellipsoid_model();
-
-    if (ellipsoid_model_init(&made, &options_) != ELLIPSOID_OK)
-    {
-        FatalIOErrorInFunction(*this)
-            << "the options are not those that were checked"
-            << abort(FatalIOError);
-    }
-
-    return made;
-}
-
-
 void Foam::ellipsoidProperties::checkKeywords
 (
     const dictionary& dict,
@@ -195,7 +159,8 @@ void Foam::ellipsoidProperties::checkKeywords
 {
     for (const entry& e : dict)
     {
-        if (!allowed.found(e.keyword()))
+        // _NAME is a variable for other entries
+        if (!allowed.found(e.keyword()) && e.keyword()[0] != '_')
         {
             FatalIOErrorInFunction(dict)
                 << "unknown keyword " << e.keyword();
@@ -228,7 +193,7 @@ void Foam::ellipsoidProperties::refuse
     // With fewer digits than files have
     for (const token& t : static_cast<const tokenList&>(is))
     {
-        FatalIOError<< ' ' << textOf(t).c_str();
+        FatalIOError<< ' ' << shortText(t).c_str();
     }
 
     FatalIOError
@@ -237,117 +202,55 @@ void Foam::ellipsoidProperties::refuse
 }
 
 
-Foam::scalar Foam::ellipsoidProperties::getAbove
+Foam::string Foam::entryRange::text(const bool whole) const
+{
+    const string from(whole ? Foam::name(label(low)) : Foam::name(low));
+
+    if (high < VGREAT)
+    {
+        const string to(whole ? Foam::name(label(high)) : Foam::name(high));
+        return (whole ? "whole numbers from " : "") + from + " to " + to;
+    }
+
+    return
+        open ? "above " + from
+      : (whole ? "a whole number, " : "") + from + " or more";
+}
+
+
+template<class Type>
+Type Foam::ellipsoidProperties::number
 (
     const dictionary& dict,
     const word& keyword,
-    const scalar bound
+    const entryRange& allowed
 )
 {
-    const scalar value = dict.get<scalar>(keyword);
+    const Type value = dict.get<Type>(keyword);
 
-    if (!(value > bound && value < VGREAT))
+    if (!allowed.contains(value))
     {
-        refuse(dict, keyword, keyword, "above " + textOf(bound));
+        const bool whole = std::is_integral<Type>::value;
+        refuse(dict, keyword, keyword, allowed.text(whole));
     }
 
     return value;
 }
 
-
-Foam::label Foam::ellipsoidProperties::getWhole
+// What entries are
+template Foam::label Foam::ellipsoidProperties::number
 (
-    const dictionary& dict,
-    const word& keyword,
-    const label least
-)
-{
-    const label value = dict.get<label>(keyword);
+    const dictionary&,
+    const word&,
+    const entryRange&
+);
 
-    if (value < least)
-    {
-        refuse
-        (
-            dict, keyword, keyword,
-            "a whole number, " + textOf(least) + " or more"
-        );
-    }
-
-    return value;
-}
-
-
-Foam::label Foam::ellipsoidProperties::getWholeOrDefault
+template Foam::scalar Foam::ellipsoidProperties::number
 (
-    const dictionary& dict,
-    const word& keyword,
-    const label least,
-    const label deflt
-)
-{
-    return dict.found(keyword) ? getWhole(dict, keyword, least) : deflt;
-}
-
-
-Foam::scalar Foam::ellipsoidProperties::getAboveOrDefault
-(
-    const dictionary& dict,
-    const word& keyword,
-    const scalar bound,
-    const scalar deflt
-)
-{
-    return dict.found(keyword) ? getAbove(dict, keyword, bound) : deflt;
-}
-
-
-Foam::scalar Foam::ellipsoidProperties::getWithinOrDefault
-(
-    const dictionary& dict,
-    const word& keyword,
-    const scalar low,
-    const scalar high,
-    const scalar deflt
-)
-{
-    const scalar value = dict.getOrDefault<scalar>(keyword, deflt);
-
-    if (!(value >= low && value <= high))
-    {
-        refuse
-        (
-            dict, keyword, keyword,
-            Foam::name(low) + " to " + Foam::name(high)
-        );
-    }
-
-    return value;
-}
-
-
-Foam::label Foam::ellipsoidProperties::getWholeWithinOrDefault
-(
-    const dictionary& dict,
-    const word& keyword,
-    const label least,
-    const label largest,
-    const label deflt
-)
-{
-    const label value = dict.getOrDefault(keyword, deflt);
-
-    if (value < least || value > largest)
-    {
-        refuse
-        (
-            dict, keyword, keyword,
-            "whole numbers from " + Foam::name(least) + " to "
-          + Foam::name(largest)
-        );
-    }
-
-    return value;
-}
+    const dictionary&,
+    const word&,
+    const entryRange&
+);
 
 
 // ************************************************************************* //

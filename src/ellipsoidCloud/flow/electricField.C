@@ -24,120 +24,83 @@ namespace Foam
 
     //- What may stand in it
     static const wordList entries({"field", "potential"});
-}
 
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-template<class FieldType>
-Foam::autoPtr<FieldType> Foam::electricField::read
-(
-    const dictionary& dict,
-    const word& entry,
-    const dimensionSet& dimensions,
-    const fvMesh& mesh
-)
-{
-    const word name(dict.get<word>(entry));
-
-    IOobject io
+    //- Read what an entry names, or end the run; collective
+    template<class FieldType>
+    static autoPtr<FieldType> readField
     (
-        name,
-        mesh.time().findInstance
+        const dictionary& dict,
+        const word& entry,
+        const dimensionSet& dimensions,
+        const fvMesh& mesh
+    )
+    {
+        const word name(dict.get<word>(entry));
+
+        IOobject io
         (
-            mesh.dbDir(), name, IOobject::READ_IF_PRESENT
-        ),
-        mesh,
-        IOobject::MUST_READ,
-        IOobject::NO_WRITE
-    );
+            name,
+            mesh.time().findInstance
+            (
+                mesh.dbDir(), name, IOobject::READ_IF_PRESENT
+            ),
+            mesh,
+            IOobject::MUST_READ,
+            IOobject::NO_WRITE
+        );
 
-    const bool there =
-        returnReduce(io.typeHeaderOk<FieldType>(false), andOp<bool>());
-    const bool fits = returnReduce
-    (
-        there && io.headerClassName() == FieldType::typeName,
-        andOp<bool>()
-    );
-
-    autoPtr<FieldType> field;
-    if (fits)
-    {
-        field.reset(new FieldType(io, mesh));
-    }
-
-    OStringStream fault;
-    if (!there)
-    {
-        fault
-            << "there is no such field in " << mesh.time().timeName()
-            << " or before";
-    }
-    else if (!fits)
-    {
-        fault
-            << (io.instance()/name).c_str() << " is a " << io.headerClassName()
-            << ", not a " << FieldType::typeName;
-    }
-    else if (field->dimensions() != dimensions)
-    {
-        fault
-            << (io.instance()/name).c_str() << " has the dimensions "
-            << field->dimensions() << ", not " << dimensions;
-    }
-
-    const masterGate once;
-
-    if (fault.str().size())
-    {
-        FatalIOErrorInFunction
+        const bool there =
+            returnReduce(io.typeHeaderOk<FieldType>(false), andOp<bool>());
+        const bool fits = returnReduce
         (
-            dict.lookupEntry(entry, keyType::LITERAL).stream()
-        )
-            << keyword << '/' << entry << ' ' << name << ": "
-            << fault.str().c_str() << exit(FatalIOError);
-    }
+            there && io.headerClassName() == FieldType::typeName,
+            andOp<bool>()
+        );
 
-    return field;
-}
+        autoPtr<FieldType> field;
+        if (fits)
+        {
+            field.reset(new FieldType(io, mesh));
+        }
 
+        OStringStream fault;
+        if (!there)
+        {
+            fault
+                << "there is no such field in " << mesh.time().timeName()
+                << " or before";
+        }
+        else if (!fits)
+        {
+            fault
+                << (io.instance()/name).c_str() << " is a "
+                << io.headerClassName() << ", not a " << FieldType::typeName;
+        }
+        else if (field->dimensions() != dimensions)
+        {
+            fault
+                << (io.instance()/name).c_str() << " has the dimensions "
+                << field->dimensions() << ", not " << dimensions;
+        }
 
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+        const masterGate once;
 
-Foam::electricField::electricField
-(
-    const dictionary& forces,
-    const fvMesh& mesh
-)
-:
-    field_(),
-    potential_()
-{
-    if (!isNamed(forces))
-    {
-        return;
-    }
+        if (fault.str().size())
+        {
+            FatalIOErrorInFunction
+            (
+                dict.lookupEntry(entry, keyType::LITERAL).stream()
+            )
+                << keyword << '/' << entry << ' ' << name << ": "
+                << fault.str().c_str() << exit(FatalIOError);
+        }
 
-    const dictionary& dict = forces.subDict(keyword);
-    const dimensionSet volt(1, 2, -3, 0, 0, -1, 0);
-
-    if (dict.found("field"))
-    {
-        field_ = read<volVectorField>(dict, "field", volt/dimLength, mesh);
-    }
-    else
-    {
-        potential_ = read<volScalarField>(dict, "potential", volt, mesh);
+        return field;
     }
 }
 
 
-// * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
-
-Foam::electricField::~electricField() = default;
-
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
 bool Foam::electricField::isNamed(const dictionary& forces)
 {
@@ -162,27 +125,43 @@ void Foam::electricField::checkEntries(const dictionary& forces)
 }
 
 
-Foam::autoPtr<Foam::volVectorField> Foam::electricField::onUndecomposed
+Foam::autoPtr<Foam::volVectorField> Foam::electricField::read
 (
+    const dictionary& forces,
+    const fvMesh& mesh,
     const undecomposedFlow& undecomposed
-) const
+)
 {
-    if (field_.valid())
-    {
-        return undecomposed.gather(*field_);
-    }
-
     autoPtr<volVectorField> E;
 
-    if (potential_.valid())
+    if (!isNamed(forces))
     {
-        const autoPtr<volScalarField> V(undecomposed.gather(*potential_));
+        return E;
+    }
 
-        if (Pstream::master())
-        {
-            const undecomposedFlow::serialScope serial;
-            E.reset(new volVectorField(-fvc::grad(*V)));
-        }
+    const dictionary& dict = forces.subDict(keyword);
+    const dimensionSet volt(1, 2, -3, 0, 0, -1, 0);
+
+    if (dict.found("field"))
+    {
+        return undecomposed.gather
+        (
+            *readField<volVectorField>(dict, "field", volt/dimLength, mesh)
+        );
+    }
+
+    const autoPtr<volScalarField> V
+    (
+        undecomposed.gather
+        (
+            *readField<volScalarField>(dict, "potential", volt, mesh)
+        )
+    );
+
+    if (Pstream::master())
+    {
+        const undecomposedFlow::serialScope serial;
+        E.reset(new volVectorField(-fvc::grad(*V)));
     }
 
     return E;

@@ -8,7 +8,6 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "frozenFlow.H"
-#include "baffleSides.H"
 #include "indexedOctree.H"
 #include "inletFlux.H"
 #include "treeDataPoint.H"
@@ -16,8 +15,6 @@ License
 #include "volFields.H"
 #include "wallPolyPatch.H"
 #include "treeBoundBox.H"
-
-#include <algorithm>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -40,6 +37,29 @@ namespace Foam
     static inline void copy(const tensor& from, scalar (*to)[3])
     {
         std::copy_n(from.v_, 9, &to[0][0]);
+    }
+
+    //- End the run if what should be an open end is a wall to the flow
+    static void checkOpenPatches(const undecomposedFlow& undecomposed)
+    {
+        const inletFlux through(undecomposed.U(), undecomposed.phi());
+
+        forAll(through.patches, i)
+        {
+            const polyPatch& pp =
+                undecomposed.mesh().boundaryMesh()[through.patches[i]];
+
+            if (pp.size() && through.isRounding(through.magFlux[i]))
+            {
+                FatalErrorInFunction
+                    << "nothing flows through patch " << pp.name()
+                    << " of type " << pp.type() << nl
+                    << "    Cells would leave there. If it is a wall, make it "
+                    << "one: type wall in "
+                    << undecomposed.mesh().meshDir()/"boundary"
+                    << exit(FatalError);
+            }
+        }
     }
 }
 
@@ -142,65 +162,6 @@ Foam::frozenFlow::locationType Foam::frozenFlow::walk
 }
 
 
-void Foam::frozenFlow::velocity
-(
-    const tetCoordinates& c,
-    scalar velocity[3],
-    scalar (*jacobian)[3]
-) const
-{
-    const auto u =
-        [&](const label i) -> const vector& { return vertices_[i].u; };
-
-    vector value(c.value<vector>(u));
-    tensor derivatives(jacobian ? c.derivatives(u) : tensor::zero);
-
-    for (int a = 0; scheme_ == stCellPointQuadratic && a < 3; ++a)
-    {
-        for (int b = a + 1; b < 4; ++b)
-        {
-            // Change of the slope along the edge from a to b
-            const flowVertex& va = vertices_[c.vertices[a]];
-            const flowVertex& vb = vertices_[c.vertices[b]];
-            const vector bend((va.gradient - vb.gradient) & (vb.x - va.x));
-
-            value += 0.5*c.weight[a]*c.weight[b]*bend;
-            derivatives +=
-                (0.5*bend)
-               *(c.weight[b]*c.gradient[a] + c.weight[a]*c.gradient[b]);
-        }
-    }
-
-    copy(value, velocity);
-    if (jacobian)
-    {
-        copy(derivatives, jacobian);
-    }
-}
-
-
-void Foam::frozenFlow::checkOpenPatches(const undecomposedFlow& undecomposed)
-{
-    const inletFlux through(undecomposed.U(), undecomposed.phi());
-
-    forAll(through.patches, i)
-    {
-        const polyPatch& pp =
-            undecomposed.mesh().boundaryMesh()[through.patches[i]];
-
-        if (pp.size() && through.isRounding(through.magFlux[i]))
-        {
-            FatalErrorInFunction
-                << "nothing flows through patch " << pp.name() << " of type "
-                << pp.type() << nl
-                << "    Cells would leave there. If it is a wall, make it one: "
-                << "type wall in " << undecomposed.mesh().meshDir()/"boundary"
-                << exit(FatalError);
-        }
-    }
-}
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::frozenFlow::frozenFlow
@@ -217,16 +178,7 @@ Foam::frozenFlow::frozenFlow
     {
         const undecomposedFlow::serialScope serial;
 
-        const baffleSides baffles(undecomposed.mesh());
-
-        makeTets(undecomposed.mesh(), baffles);
-        makeVertices(undecomposed, rho, baffles);
-
-        if (E.valid())
-        {
-            makeField(*E, baffles);
-        }
-
+        make(undecomposed, rho, E);
         checkOpenPatches(undecomposed);
 
         for (const polyPatch& pp : undecomposed.mesh().boundaryMesh())
@@ -308,22 +260,26 @@ Foam::frozenFlow::locationType Foam::frozenFlow::locate
 }
 
 
-int Foam::frozenFlow::sample
+bool Foam::frozenFlow::reach
 (
     const scalar x[3],
     probe& at,
+    tetCoordinates& c
+) const
+{
+    const locationType location = walk(pointOf(x), at, c);
+
+    return location == pInside || location == pBeyondOpen;
+}
+
+
+void Foam::frozenFlow::sample
+(
+    const tetCoordinates& c,
     const bool derivatives,
     ellipsoid_flow_sample& sample
 ) const
 {
-    tetCoordinates c;
-    const locationType location = walk(pointOf(x), at, c);
-
-    if (location == pBeyondWall || location == pBeyondCoupled)
-    {
-        return 1;
-    }
-
     const auto gradient =
         [&](const label i) -> const tensor& { return vertices_[i].gradient; };
     const auto gradp =
@@ -358,27 +314,53 @@ int Foam::frozenFlow::sample
             }
         }
     }
-
-    return 0;
 }
 
 
-int Foam::frozenFlow::field
+void Foam::frozenFlow::velocity
 (
-    const scalar x[3],
-    probe& at,
+    const tetCoordinates& c,
+    scalar velocity[3],
+    scalar (*jacobian)[3]
+) const
+{
+    const auto u =
+        [&](const label i) -> const vector& { return vertices_[i].u; };
+
+    vector value(c.value<vector>(u));
+    tensor derivatives(jacobian ? c.derivatives(u) : tensor::zero);
+
+    for (int a = 0; scheme_ == stCellPointQuadratic && a < 3; ++a)
+    {
+        for (int b = a + 1; b < 4; ++b)
+        {
+            // Change of the slope along the edge from a to b
+            const flowVertex& va = vertices_[c.vertices[a]];
+            const flowVertex& vb = vertices_[c.vertices[b]];
+            const vector bend((va.gradient - vb.gradient) & (vb.x - va.x));
+
+            value += 0.5*c.weight[a]*c.weight[b]*bend;
+            derivatives +=
+                (0.5*bend)
+               *(c.weight[b]*c.gradient[a] + c.weight[a]*c.gradient[b]);
+        }
+    }
+
+    copy(value, velocity);
+    if (jacobian)
+    {
+        copy(derivatives, jacobian);
+    }
+}
+
+
+void Foam::frozenFlow::field
+(
+    const tetCoordinates& c,
     scalar field[3],
     scalar (*jacobian)[3]
 ) const
 {
-    tetCoordinates c;
-    const locationType location = walk(pointOf(x), at, c);
-
-    if (location == pBeyondWall || location == pBeyondCoupled)
-    {
-        return 1;
-    }
-
     const auto E = [&](const label i) -> const vector& { return field_[i]; };
 
     copy(c.value<vector>(E), field);
@@ -386,8 +368,6 @@ int Foam::frozenFlow::field
     {
         copy(c.derivatives(E), jacobian);
     }
-
-    return 0;
 }
 
 

@@ -65,8 +65,8 @@ namespace Foam
     (
         const GeometricField<Type, fvPatchField, volMesh>& field,
         const baffleSides& baffles,
-        const char* name,
-        const char* advice
+        const char* name = "flow",
+        const char* advice = "solve the flow again from clean fields"
     )
     {
         const label nCells = field.mesh().nCells();
@@ -99,175 +99,192 @@ namespace Foam
 
         return values;
     }
+
+    //- Split a cell into tetrahedra from a first on, with the first tetrahedra
+    //  of all faces on both sides
+    static void splitCell
+    (
+        const polyMesh& mesh,
+        const baffleSides& baffles,
+        const UList<labelPair>& faceTets,
+        const label celli,
+        label teti,
+        List<flowTet>& tets
+    )
+    {
+        // The tetrahedron, and its face, at each edge of the cell's surface
+        // until the one on the other side is there
+        EdgeMap<labelPair> open(4*mesh.cells()[celli].size());
+
+        for (const label facei : mesh.cells()[celli])
+        {
+            const face& f = mesh.faces()[facei];
+            const label owned = (mesh.faceOwner()[facei] == celli);
+            const label base = max(mesh.tetBasePtIs()[facei], label(0));
+            const label patchi = mesh.boundaryMesh().whichPatch(facei);
+
+            for (label trii = 1; trii < f.size() - 1; ++trii, ++teti)
+            {
+                // The normal of a face points out of its owner
+                const label corners[3] =
+                {
+                    f[base],
+                    f[(base + trii + 1 - owned) % f.size()],
+                    f[(base + trii + owned) % f.size()]
+                };
+
+                flowTet& tet = tets[teti];
+                tet.vertices[0] = celli;
+                tet.neighbours[0] =
+                    patchi < 0
+                  ? faceTets[facei][owned] + trii - 1
+                  : -1 - patchi;
+
+                for (label i = 0; i < 3; ++i)
+                {
+                    tet.vertices[i + 1] =
+                        mesh.nCells() + baffles.vertex(corners[i], celli);
+
+                    const edge e(corners[(i + 1) % 3], corners[(i + 2) % 3]);
+
+                    if (!open.insert(e, labelPair(teti, i + 1)))
+                    {
+                        const labelPair other(open[e]);
+                        tet.neighbours[i + 1] = other.first();
+                        tets[other.first()].neighbours[other.second()] = teti;
+                        open.erase(e);
+                    }
+                }
+            }
+        }
+
+        if (open.size())
+        {
+            FatalErrorInFunction
+                << "cell " << celli << " at " << mesh.cellCentres()[celli]
+                << " is not closed: checkMesh says more" << exit(FatalError);
+        }
+    }
+
+    //- The tetrahedra of a mesh, and the first of each cell
+    static List<flowTet> makeTets
+    (
+        const polyMesh& mesh,
+        const baffleSides& baffles,
+        labelList& cellTets
+    )
+    {
+        // Triangles of a face, in fan order, are tetrahedra first + 0, 1, ...
+        // of its owner, and second + 0, 1, ... of its neighbour
+        List<labelPair> faceTets(mesh.nFaces(), labelPair(-1, -1));
+        label nTets = 0;
+
+        cellTets.setSize(mesh.nCells() + 1);
+        forAll(mesh.cells(), celli)
+        {
+            cellTets[celli] = nTets;
+
+            for (const label facei : mesh.cells()[celli])
+            {
+                faceTets[facei][mesh.faceOwner()[facei] != celli] = nTets;
+                nTets += mesh.faces()[facei].size() - 2;
+            }
+        }
+        cellTets[mesh.nCells()] = nTets;
+
+        List<flowTet> tets(nTets);
+
+        forAll(mesh.cells(), celli)
+        {
+            splitCell(mesh, baffles, faceTets, celli, cellTets[celli], tets);
+        }
+
+        return tets;
+    }
+
+    //- The flow at the vertices
+    static List<flowVertex> makeVertices
+    (
+        const undecomposedFlow& undecomposed,
+        const scalar rho,
+        const baffleSides& baffles
+    )
+    {
+        const fvMesh& mesh = undecomposed.mesh();
+        const volVectorField& flow = undecomposed.U();
+        const label nCells = mesh.nCells();
+        const vectorField U(atVertices(flow, baffles));
+        const tensorField gradU(atVertices(fvc::grad(flow)(), baffles));
+        const vectorField gradp
+        (
+            atVertices((rho*fvc::grad(undecomposed.p()))(), baffles)
+        );
+
+        // A point that a wall shares with an open patch moves with the wall,
+        // either side of a baffle by itself
+        vectorField wallU(U.size() - nCells, Zero);
+        labelList nWallFaces(wallU.size(), Zero);
+
+        for (const polyPatch& pp : mesh.boundaryMesh())
+        {
+            const vectorField& Up = flow.boundaryField()[pp.index()];
+            const label nFaces = isA<wallPolyPatch>(pp) ? pp.size() : 0;
+
+            for (label i = 0; i < nFaces; ++i)
+            {
+                for (const label pointi : pp[i])
+                {
+                    const label j = baffles.vertex(pointi, pp.faceCells()[i]);
+                    wallU[j] += Up[i];
+                    ++nWallFaces[j];
+                }
+            }
+        }
+
+        List<flowVertex> vertices(U.size());
+
+        forAll(vertices, i)
+        {
+            const label j = i - nCells;
+            const label pointi =
+                j < mesh.nPoints()
+              ? j
+              : baffles.sides()[j - mesh.nPoints()].point;
+
+            vertices[i].x =
+                j < 0 ? mesh.cellCentres()[i] : mesh.points()[pointi];
+            vertices[i].u =
+                j >= 0 && nWallFaces[j] ? wallU[j]/scalar(nWallFaces[j]) : U[i];
+            vertices[i].gradient = gradU[i].T();
+            vertices[i].pressureGradient = gradp[i];
+        }
+
+        return vertices;
+    }
 }
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::frozenFlow::makeTets
-(
-    const polyMesh& mesh,
-    const baffleSides& baffles
-)
-{
-    // Triangles of a face, in fan order, are tetrahedra first + 0, 1, ... of
-    // its owner, and second + 0, 1, ... of its neighbour
-    List<labelPair> faceTets(mesh.nFaces(), labelPair(-1, -1));
-    label nTets = 0;
-
-    cellTets_.setSize(mesh.nCells() + 1);
-    forAll(mesh.cells(), celli)
-    {
-        cellTets_[celli] = nTets;
-
-        for (const label facei : mesh.cells()[celli])
-        {
-            faceTets[facei][mesh.faceOwner()[facei] != celli] = nTets;
-            nTets += mesh.faces()[facei].size() - 2;
-        }
-    }
-    cellTets_[mesh.nCells()] = nTets;
-    tets_.setSize(nTets);
-
-    forAll(mesh.cells(), celli)
-    {
-        splitCell(mesh, baffles, faceTets, celli);
-    }
-}
-
-
-void Foam::frozenFlow::splitCell
-(
-    const polyMesh& mesh,
-    const baffleSides& baffles,
-    const UList<labelPair>& faceTets,
-    const label celli
-)
-{
-    // The tetrahedron, and its face, at each edge of the cell's surface until
-    // the one on the other side is there
-    EdgeMap<labelPair> open(4*mesh.cells()[celli].size());
-
-    label teti = cellTets_[celli];
-
-    for (const label facei : mesh.cells()[celli])
-    {
-        const face& f = mesh.faces()[facei];
-        const label owned = (mesh.faceOwner()[facei] == celli);
-        const label base = max(mesh.tetBasePtIs()[facei], label(0));
-        const label patchi = mesh.boundaryMesh().whichPatch(facei);
-
-        for (label trii = 1; trii < f.size() - 1; ++trii, ++teti)
-        {
-            // The normal of a face points out of its owner
-            const label corners[3] =
-            {
-                f[base],
-                f[(base + trii + 1 - owned) % f.size()],
-                f[(base + trii + owned) % f.size()]
-            };
-
-            flowTet& tet = tets_[teti];
-            tet.vertices[0] = celli;
-            tet.neighbours[0] =
-                patchi < 0 ? faceTets[facei][owned] + trii - 1 : -1 - patchi;
-
-            for (label i = 0; i < 3; ++i)
-            {
-                tet.vertices[i + 1] =
-                    mesh.nCells() + baffles.vertex(corners[i], celli);
-
-                const edge e(corners[(i + 1) % 3], corners[(i + 2) % 3]);
-
-                if (!open.insert(e, labelPair(teti, i + 1)))
-                {
-                    const labelPair other(open[e]);
-                    tet.neighbours[i + 1] = other.first();
-                    tets_[other.first()].neighbours[other.second()] = teti;
-                    open.erase(e);
-                }
-            }
-        }
-    }
-
-    if (open.size())
-    {
-        FatalErrorInFunction
-            << "cell " << celli << " at " << mesh.cellCentres()[celli]
-            << " is not closed: checkMesh says more" << exit(FatalError);
-    }
-}
-
-
-void Foam::frozenFlow::makeVertices
+void Foam::frozenFlow::make
 (
     const undecomposedFlow& undecomposed,
     const scalar rho,
-    const baffleSides& baffles
+    const autoPtr<volVectorField>& E
 )
 {
-    const fvMesh& mesh = undecomposed.mesh();
-    const label nCells = mesh.nCells();
-    const char* advice = "solve the flow again from clean fields";
+    const baffleSides baffles(undecomposed.mesh());
 
-    vectorField U(atVertices(undecomposed.U(), baffles, "flow", advice));
-    const tensorField gradU
-    (
-        atVertices(fvc::grad(undecomposed.U())(), baffles, "flow", advice)
-    );
-    const vectorField gradp
-    (
-        atVertices((rho*fvc::grad(undecomposed.p()))(), baffles, "flow", advice)
-    );
+    tets_ = makeTets(undecomposed.mesh(), baffles, cellTets_);
+    vertices_ = makeVertices(undecomposed, rho, baffles);
 
-    // A point that a wall shares with an open patch moves with the wall,
-    // either side of a baffle by itself
-    vectorField wallU(U.size() - nCells, Zero);
-    labelList nWallFaces(wallU.size(), Zero);
-
-    for (const polyPatch& pp : mesh.boundaryMesh())
+    if (E.valid())
     {
-        const vectorField& Up = undecomposed.U().boundaryField()[pp.index()];
-        const label nFaces = isA<wallPolyPatch>(pp) ? pp.size() : 0;
-
-        for (label i = 0; i < nFaces; ++i)
-        {
-            for (const label pointi : pp[i])
-            {
-                const label j = baffles.vertex(pointi, pp.faceCells()[i]);
-                wallU[j] += Up[i];
-                ++nWallFaces[j];
-            }
-        }
+        field_ = atVertices
+        (
+            *E, baffles, "electric", "look at what forces/electricField names"
+        );
     }
-
-    vertices_.setSize(U.size());
-
-    forAll(vertices_, i)
-    {
-        const label j = i - nCells;
-        const label pointi =
-            j < mesh.nPoints() ? j : baffles.sides()[j - mesh.nPoints()].point;
-
-        vertices_[i].x = j < 0 ? mesh.cellCentres()[i] : mesh.points()[pointi];
-        vertices_[i].u =
-            j >= 0 && nWallFaces[j] ? wallU[j]/scalar(nWallFaces[j]) : U[i];
-        vertices_[i].gradient = gradU[i].T();
-        vertices_[i].pressureGradient = gradp[i];
-    }
-}
-
-
-void Foam::frozenFlow::makeField
-(
-    const volVectorField& E,
-    const baffleSides& baffles
-)
-{
-    field_ = atVertices
-    (
-        E, baffles, "electric", "look at what forces/electricField names"
-    );
 }
 
 

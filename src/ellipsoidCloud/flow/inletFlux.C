@@ -13,6 +13,30 @@ License
 #include "volFields.H"
 #include "wallPolyPatch.H"
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- Labels of the patches that the fluid can pass
+    static labelList openPatches(const polyBoundaryMesh& patches)
+    {
+        DynamicList<label> open(patches.size());
+
+        for (const polyPatch& pp : patches)
+        {
+            const bool wall = isA<wallPolyPatch>(pp);
+
+            if (!wall && !polyPatch::constraintType(pp.type()))
+            {
+                open.append(pp.index());
+            }
+        }
+
+        return labelList(std::move(open));
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::inletFlux::inletFlux
@@ -88,22 +112,6 @@ Foam::scalar Foam::inletFlux::speedOf(const undecomposedFlow& undecomposed)
     Pstream::scatter(speed);
 
     return speed;
-}
-
-
-Foam::labelList Foam::inletFlux::openPatches(const polyBoundaryMesh& patches)
-{
-    DynamicList<label> open(patches.size());
-
-    for (const polyPatch& pp : patches)
-    {
-        if (!isA<wallPolyPatch>(pp) && !polyPatch::constraintType(pp.type()))
-        {
-            open.append(pp.index());
-        }
-    }
-
-    return labelList(std::move(open));
 }
 
 

@@ -10,7 +10,6 @@ License
 #include "readViscosity.H"
 #include "ellipsoidProperties.H"
 #include "masterGate.H"
-#include "IOdictionary.H"
 #include "Time.H"
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
@@ -49,6 +48,20 @@ Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
         FatalIOErrorInFunction(dict)
             << "nu " << nuEntry.toString() << " does not end in a positive"
             << " number [m2/s]" << exit(FatalIOError);
+    }
+
+    if (nuEntry.size() > 1 && nuEntry.first() == token::BEGIN_SQR)
+    {
+        ITstream is(nuEntry);
+        dimensionSet dimensions(dimless);
+        is >> dimensions;
+
+        if (dimensions != dimViscosity)
+        {
+            FatalIOErrorInFunction(dict)
+                << "nu " << nuEntry.toString() << " is not in m2/s, the"
+                << " dimensions " << dimViscosity << exit(FatalIOError);
+        }
     }
 
     const dimensionedScalar nu("nu", dimViscosity, dict);

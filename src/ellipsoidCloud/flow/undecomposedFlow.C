@@ -51,8 +51,60 @@ namespace Foam
             )
         );
     }
+
+    //- A list of a size, filled with the values of all ranks by their addresses
+    //  in it; empty but on the master; collective
+    template<class Type>
+    static Field<Type> putTogether
+    (
+        const UList<Type>& values,
+        const labelUList& addresses,
+        const label size
+    )
+    {
+        const List<List<Type>> allValues(gathered(List<Type>(values)));
+        const List<labelList> allAddresses(gathered(labelList(addresses)));
+
+        if (!Pstream::master())
+        {
+            return Field<Type>();
+        }
+
+        Field<Type> result(size, Zero);
+        forAll(allValues, ranki)
+        {
+            UIndirectList<Type>(result, allAddresses[ranki]) = allValues[ranki];
+        }
+
+        return result;
+    }
+
+    //- Boundary values of a field by the faces of this rank
+    template<class GeoField>
+    static Field<typename GeoField::value_type> boundaryValues
+    (
+        const GeoField& field,
+        const label nFaces
+    )
+    {
+        typedef typename GeoField::value_type Type;
+        Field<Type> values(nFaces, Zero);
+
+        for (const auto& pf : field.boundaryField())
+        {
+            // Faces of processor patches are inner ones of the other mesh
+            if (!isA<processorPolyPatch>(pf.patch().patch()))
+            {
+                SubList<Type>(values, pf.size(), pf.patch().start()) = pf;
+            }
+        }
+
+        return values;
+    }
 }
 
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::undecomposedFlow::serialScope::serialScope()
 :
@@ -119,73 +171,6 @@ void Foam::undecomposedFlow::readMesh(const Time& runTime)
 }
 
 
-template<class Type>
-Foam::Field<Type> Foam::undecomposedFlow::gathered
-(
-    const UList<Type>& values,
-    const labelUList& addresses,
-    const label size
-)
-{
-    List<List<Type>> allValues(Pstream::nProcs());
-    List<labelList> allAddresses(Pstream::nProcs());
-
-    allValues[Pstream::myProcNo()] = values;
-    allAddresses[Pstream::myProcNo()] = addresses;
-    Pstream::gatherList(allValues);
-    Pstream::gatherList(allAddresses);
-
-    if (!Pstream::master())
-    {
-        return Field<Type>();
-    }
-
-    Field<Type> result(size, Zero);
-    forAll(allValues, ranki)
-    {
-        UIndirectList<Type>(result, allAddresses[ranki]) = allValues[ranki];
-    }
-
-    return result;
-}
-
-
-template<class GeoField>
-Foam::Field<typename GeoField::value_type> Foam::undecomposedFlow::valuesOfFaces
-(
-    const GeoField& field,
-    const bool onFaces
-) const
-{
-    typedef typename GeoField::value_type Type;
-    Field<Type> values(part_.nFaces(), Zero);
-
-    if (onFaces)
-    {
-        SubList<Type>(values, field.size()) = field.primitiveField();
-    }
-    for (const auto& pf : field.boundaryField())
-    {
-        // Faces of processor patches are inner ones of the undecomposed mesh
-        if (onFaces || !isA<processorPolyPatch>(pf.patch().patch()))
-        {
-            SubList<Type>(values, pf.size(), pf.patch().start()) = pf;
-        }
-    }
-
-    // A flux is signed by the direction of its face
-    forAll(values, facei)
-    {
-        if (onFaces && faceAddressing_[facei] < 0)
-        {
-            values[facei] = -values[facei];
-        }
-    }
-
-    return values;
-}
-
-
 template<class Type, template<class> class PatchField, class GeoMesh>
 Foam::autoPtr<Foam::GeometricField<Type, PatchField, GeoMesh>>
 Foam::undecomposedFlow::gather
@@ -194,24 +179,24 @@ Foam::undecomposedFlow::gather
 ) const
 {
     typedef GeometricField<Type, PatchField, GeoMesh> fieldType;
-    const bool onFaces = std::is_same<GeoMesh, surfaceMesh>::value;
-
-    labelList faces(faceAddressing_);
-    for (label& facei : faces)
-    {
-        facei = mag(facei) - 1;
-    }
 
     const Field<Type> faceValues
     (
-        gathered(valuesOfFaces(field, onFaces), faces, mesh().nFaces())
+        putTogether
+        (
+            boundaryValues(field, part_.nFaces()),
+            faceAddressing_,
+            mesh().nFaces()
+        )
     );
-    const Field<Type> values
-    (
-        onFaces
-      ? faceValues
-      : gathered(field.primitiveField(), cellAddressing_, mesh().nCells())
-    );
+    Field<Type> values;
+    if (std::is_same<GeoMesh, volMesh>::value)
+    {
+        values = putTogether
+        (
+            field.primitiveField(), cellAddressing_, mesh().nCells()
+        );
+    }
 
     if (!Pstream::master())
     {
@@ -239,7 +224,7 @@ Foam::undecomposedFlow::gather
         )
     );
 
-    forAll(*result, i)
+    forAll(values, i)
     {
         (*result)[i] = values[i];
     }
@@ -260,21 +245,17 @@ Foam::undecomposedFlow::gather
 
 Foam::undecomposedFlow::undecomposedFlow(const fvMesh& mesh)
 :
-    part_(mesh),
-    cellAddressing_(),
-    faceAddressing_(),
-    time_(),
-    mesh_(),
-    U_(),
-    p_(),
-    phi_(),
-    cellRank_(),
-    cellLocal_()
+    part_(mesh)
 {
     if (Pstream::parRun())
     {
         cellAddressing_ = readAddressing("cellProcAddressing", mesh);
         faceAddressing_ = readAddressing("faceProcAddressing", mesh);
+        for (label& facei : faceAddressing_)
+        {
+            // From 1, negative where the normal is the opposite there
+            facei = mag(facei) - 1;
+        }
 
         if (Pstream::master())
         {
@@ -301,22 +282,7 @@ Foam::undecomposedFlow::undecomposedFlow(const fvMesh& mesh)
     else
     {
         cellAddressing_ = identity(mesh.nCells());
-        faceAddressing_ = identity(mesh.nFaces(), 1);
-    }
-
-    const List<labelList> allCells(fromAllRanks(cellAddressing_));
-    const label nCells = returnReduce(mesh.nCells(), sumOp<label>());
-
-    cellRank_.setSize(nCells);
-    cellLocal_.setSize(nCells);
-
-    forAll(allCells, ranki)
-    {
-        forAll(allCells[ranki], i)
-        {
-            cellRank_[allCells[ranki][i]] = ranki;
-            cellLocal_[allCells[ranki][i]] = i;
-        }
+        faceAddressing_ = identity(mesh.nFaces());
     }
 }
 
@@ -350,6 +316,15 @@ void Foam::undecomposedFlow::gather
     U_ = gather(U);
     p_ = gather(p);
     phi_ = gather(phi);
+}
+
+
+Foam::labelList Foam::undecomposedFlow::localCells() const
+{
+    return invert
+    (
+        returnReduce(part_.nCells(), sumOp<label>()), cellAddressing_
+    );
 }
 
 

@@ -59,20 +59,15 @@ public:
     // Constructors
 
         //- Construct from its dictionary
-        boxInjection
-        (
-            const dictionary& dict,
-            const setting& from,
-            const label firstId
-        )
+        explicit boxInjection(const setting& from)
         :
-            cellInjection(dict, from, firstId),
-            min_(dict.get<point>("min")),
-            max_(dict.get<point>("max"))
+            cellInjection(from),
+            min_(from_.dict.get<point>("min")),
+            max_(from_.dict.get<point>("max"))
         {
             if (!(cmptMin(max_ - min_) >= 0))
             {
-                FatalIOErrorInFunction(dict_)
+                FatalIOErrorInFunction(from_.dict)
                     << "the box from " << min_ << " to " << max_
                     << " is inside out" << exit(FatalIOError);
             }

@@ -9,10 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 #include "cellInjection.H"
 #include "cellSurroundings.H"
-#include "StringStream.H"
 #include "polyBoundaryMesh.H"
-
-#include <algorithm>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -20,6 +17,17 @@ namespace Foam
 {
     defineTypeNameAndDebug(cellInjection, 0);
     defineRunTimeSelectionTable(cellInjection, dictionary);
+
+    //- End the run if the core could not answer about a cell
+    static void check(const cellState& cell, const ellipsoid_status status)
+    {
+        if (status != ELLIPSOID_OK)
+        {
+            FatalErrorInFunction
+                << "cell " << cell.id << " cannot enter at " << cell.centre()
+                << ": " << ellipsoid_status_text(status) << exit(FatalError);
+        }
+    }
 }
 
 
@@ -34,130 +42,50 @@ Foam::HashTable<Foam::wordList>& Foam::cellInjection::keywords()
 }
 
 
-void Foam::cellInjection::newCell::check(const ellipsoid_status status) const
-{
-    if (status != ELLIPSOID_OK)
-    {
-        FatalErrorInFunction
-            << "cell " << id << " cannot enter at " << pointOf(x) << ": "
-            << ellipsoid_status_text(status) << exit(FatalError);
-    }
-}
-
-
-Foam::cellState Foam::cellInjection::newCell::state
-(
-    const frozenFlow& flow,
-    const cellSize& size
-) const
-{
-    cellState state = cellState();
-    std::copy_n(x, 3, state.body.x);
-    std::copy_n(q, 4, state.body.q);
-    state.time = time;
-    state.planned = time;
-    state.id = id;
-    state.tet = at.tet;
-    state.fate = cellState::waiting;
-    state.patch = -1;
-    state.length = size.length;
-    state.width = size.width;
-
-    ellipsoid_flow_sample sample;
-    frozenFlow::probe there(at);
-    check
-    (
-        flow.sample(x, there, false, sample)
-      ? ELLIPSOID_FLOW_FAILED : ELLIPSOID_OK
-    );
-    std::copy_n(sample.velocity, 3, state.body.u);
-
-    return state;
-}
-
-
-bool Foam::cellInjection::newCell::overlaps
-(
-    const ellipsoid_model& model,
-    const frozenFlow& flow,
-    const wallFacets& walls
-) const
-{
-    cellSurroundings here(flow, walls, at);
-    const ellipsoid_surroundings around(here.core());
-
-    int cuts = 0;
-    check(ellipsoid_overlaps_walls(&model, &around, x, q, &cuts));
-
-    if (cuts || !model.options.contact)
-    {
-        return cuts;
-    }
-
-    // Beads may stand out of the ellipsoid
-    ellipsoid_state pose = {};
-    std::copy_n(x, 3, pose.x);
-    std::copy_n(q, 4, pose.q);
-
-    ellipsoid_facet_cache cache;
-    ellipsoid_contact contact;
-    ellipsoid_facet_cache_clear(&cache);
-
-    // Where the core cannot tell, another pose is drawn
-    return
-        ellipsoid_contact_evaluate
-        (
-            &model, &around, &pose, &cache, &contact, nullptr
-        )
-     || contact.touching_beads;
-}
-
-
-Foam::cellInjection::newCell Foam::cellInjection::drawn
+Foam::cellState Foam::cellInjection::drawn
 (
     const Tuple2<scalar, label>& planned
 ) const
 {
-    newCell cell;
-    cell.time = planned.first();
+    cellState cell = cellState();
     cell.id = planned.second();
 
+    const cellSize size(from_.population.drawn(cell.id));
+    cell.length = size.length;
+    cell.width = size.width;
+
+    const label seed = from_.population.properties().seed();
     const label maxAttempts = isRandom() ? 1000 : 1;
-    const ellipsoid_model model
-    (
-        from_.population.made(from_.population.drawn(cell.id))
-    );
+    const ellipsoid_model model(from_.population.made(size));
+
+    bool inside = false;
 
     for (label attempt = 0; attempt < maxAttempts; ++attempt)
     {
         scalar uniform[6];
-        ellipsoid_random_uniform
-        (
-            from_.seed, cell.id, rsPose, attempt, 6, uniform
-        );
+        ellipsoid_random_uniform(seed, cell.id, rsPose, attempt, 6, uniform);
 
-        const point x(position(cell.id - firstId_, pointOf(uniform)));
-        const bool inside = from_.flow.find(x, cell.at);
-        std::copy_n(x.v_, 3, cell.x);
+        const point x(position(cell.id - from_.firstId, pointOf(uniform)));
+        std::copy_n(x.v_, 3, cell.body.x);
+        orientation_.set(uniform + 3, cell.body.q);
+        orientation(cell.id - from_.firstId, cell.body.q);
 
-        orientation_.set(uniform + 3, cell.q);
-        orientation(cell.id - firstId_, cell.q);
+        frozenFlow::probe at;
+        inside = from_.domain.flow.find(x, at);
+        cell.tet = at.tet;
 
-        if (inside && !cell.overlaps(model, from_.flow, from_.walls))
+        if (inside && !overlaps(cell, model, from_.domain))
         {
+            wait(cell, planned.first(), from_.domain.flow);
             return cell;
         }
     }
 
-    OStringStream x;
-    x.precision(6);
-    x << pointOf(cell.x);
-
-    FatalIOErrorInFunction(dict_)
-        << "cell " << cell.id << " of injection " << dict_.dictName()
-        << " at " << x.str().c_str()
-        << " lies outside the mesh or overlaps a wall" << nl
-        << "    " << maxAttempts << " position(s) tried"
+    FatalIOErrorInFunction(from_.dict)
+        << "cell " << cell.id << " of injection " << from_.dict.dictName()
+        << " at " << shortText(cell.centre()).c_str()
+        << (inside ? " overlaps a wall" : " lies outside the mesh") << nl
+        << "    " << maxAttempts << " position(s) tried, this the last"
         << exit(FatalIOError);
 
     return cell;
@@ -168,17 +96,12 @@ Foam::cellInjection::newCell Foam::cellInjection::drawn
 
 void Foam::cellInjection::setTimes(const label number)
 {
-    const scalar start = dict_.getOrDefault<scalar>("start", 0);
-    const scalar duration = dict_.getOrDefault<scalar>("duration", 0);
+    typedef ellipsoidProperties entries;
+    const dictionary& dict = from_.dict;
 
-    if (!(duration >= 0 && duration < VGREAT))
-    {
-        ellipsoidProperties::refuse
-        (
-            dict_, "duration", "duration", "0 or more"
-        );
-    }
-
+    const scalar start = dict.getOrDefault<scalar>("start", 0);
+    const scalar duration = entries::number(dict, "duration", atLeast(0), 0.0);
+    const label seed = from_.population.properties().seed();
     times_.setSize(number);
 
     forAll(times_, i)
@@ -186,11 +109,11 @@ void Foam::cellInjection::setTimes(const label number)
         scalar uniform;
         ellipsoid_random_uniform
         (
-            from_.seed, firstId_ + i, rsTime, 0, 1, &uniform
+            seed, from_.firstId + i, rsTime, 0, 1, &uniform
         );
 
         times_[i].first() = start + duration*uniform;
-        times_[i].second() = firstId_ + i;
+        times_[i].second() = from_.firstId + i;
     }
 
     sort(times_);
@@ -199,38 +122,40 @@ void Foam::cellInjection::setTimes(const label number)
 
 Foam::label Foam::cellInjection::readNumber(const scalar flux) const
 {
+    const dictionary& dict = from_.dict;
     const label nGiven =
-        label(dict_.found("number"))
-      + label(dict_.found("rate"))
-      + label(dict_.found("concentration"));
+        label(dict.found("number"))
+      + label(dict.found("rate"))
+      + label(dict.found("concentration"));
 
-    if (nGiven != 1 || (dict_.found("concentration") && flux <= 0))
+    const auto read =
+        [&](const char* entry)
+        {
+            return ellipsoidProperties::number<scalar>(dict, entry, above(0));
+        };
+
+    if (nGiven != 1 || (dict.found("concentration") && flux <= 0))
     {
-        FatalIOErrorInFunction(dict_)
-            << "injection " << dict_.dictName() << " needs exactly one of "
+        FatalIOErrorInFunction(dict)
+            << "injection " << dict.dictName() << " needs exactly one of "
             << "number, rate and, at a patch with inflow, concentration"
             << exit(FatalIOError);
     }
 
-    if (dict_.found("number"))
+    if (dict.found("number"))
     {
-        return ellipsoidProperties::getWhole(dict_, "number", 1);
+        return ellipsoidProperties::number<label>(dict, "number", atLeast(1));
     }
 
-    const scalar duration =
-        ellipsoidProperties::getAbove(dict_, "duration", 0);
-
+    const scalar duration = read("duration");
     const scalar rate =
-        dict_.found("rate")
-      ? ellipsoidProperties::getAbove(dict_, "rate", 0)
-      : ellipsoidProperties::getAbove(dict_, "concentration", 0)*flux;
-
+        dict.found("rate") ? read("rate") : read("concentration")*flux;
     const scalar number = rate*duration;
 
     if (!(number >= 0.5 && number < 1e8))
     {
-        FatalIOErrorInFunction(dict_)
-            << "injection " << dict_.dictName() << " makes " << number
+        FatalIOErrorInFunction(dict)
+            << "injection " << dict.dictName() << " makes " << number
             << " cells" << nl << "    allowed: 1 to 1e8"
             << exit(FatalIOError);
     }
@@ -241,34 +166,23 @@ Foam::label Foam::cellInjection::readNumber(const scalar flux) const
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::cellInjection::cellInjection
-(
-    const dictionary& dict,
-    const setting& from,
-    const label firstId
-)
+Foam::cellInjection::cellInjection(const setting& from)
 :
-    orientation_(dict),
-    firstId_(firstId),
-    times_(),
-    dict_(dict),
+    orientation_(from.dict),
     from_(from)
 {}
 
 
 Foam::autoPtr<Foam::cellInjection> Foam::cellInjection::New
 (
-    const dictionary& dict,
-    const setting& from,
-    const label firstId
+    const setting& from
 )
 {
-    checkEntries(dict);
+    checkEntries(from.dict);
 
-    return (*dictionaryConstructorTablePtr_)[dict.get<word>("type")]
-    (
-        dict, from, firstId
-    );
+    const word type(from.dict.get<word>("type"));
+
+    return (*dictionaryConstructorTablePtr_)[type](from);
 }
 
 
@@ -332,6 +246,61 @@ void Foam::cellInjection::check() const
 }
 
 
+void Foam::cellInjection::wait
+(
+    cellState& cell,
+    const scalar time,
+    const frozenFlow& flow
+)
+{
+    cell.time = time;
+    cell.planned = time;
+    cell.fate = cellState::waiting;
+    cell.patch = -1;
+
+    frozenFlow::probe at{cell.tet, -1};
+    frozenFlow::tetCoordinates c;
+    const bool there = flow.reach(cell.body.x, at, c);
+    Foam::check(cell, there ? ELLIPSOID_OK : ELLIPSOID_FLOW_FAILED);
+    flow.velocity(c, cell.body.u, nullptr);
+}
+
+
+bool Foam::cellInjection::overlaps
+(
+    const cellState& cell,
+    const ellipsoid_model& model,
+    const cellDomain& domain
+)
+{
+    const cellSurroundings around(domain, frozenFlow::probe{cell.tet, -1});
+    const ellipsoid_state& pose = cell.body;
+
+    int cuts = 0;
+    const ellipsoid_status status =
+        ellipsoid_overlaps_walls(&model, &around, pose.x, pose.q, &cuts);
+    Foam::check(cell, status);
+
+    if (cuts || !model.options.contact)
+    {
+        return cuts;
+    }
+
+    // Beads may stand out of the ellipsoid
+    ellipsoid_facet_cache cache;
+    ellipsoid_contact contact;
+    ellipsoid_facet_cache_clear(&cache);
+
+    // Where the core cannot tell, another pose is drawn
+    return
+        ellipsoid_contact_evaluate
+        (
+            &model, &around, &pose, &cache, &contact, nullptr
+        )
+     || contact.bead_contacts;
+}
+
+
 void Foam::cellInjection::drawOrientation
 (
     const cellOrientation& orientation,
@@ -350,7 +319,7 @@ void Foam::cellInjection::append
 (
     const scalar start,
     const scalar end,
-    DynamicList<newCell>& cells
+    DynamicList<cellState>& cells
 ) const
 {
     for

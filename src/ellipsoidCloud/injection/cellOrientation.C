@@ -12,8 +12,6 @@ License
 #include "unitConversion.H"
 #include "vector.H"
 
-#include <algorithm>
-
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
 const Foam::Enum<Foam::cellOrientation::orientationType>

@@ -8,7 +8,6 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "cellPopulation.H"
-#include "cellState.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -18,6 +17,27 @@ Foam::cellPopulation::distributionNames
     { distributionType::dtLogNormal, "logNormal" },
     { distributionType::dtTable, "table" }
 });
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- What the core makes of options that have been checked
+    static ellipsoid_model modelOf(const ellipsoid_options& options)
+    {
+        ellipsoid_model model = ellipsoid_model();
+
+        if (ellipsoid_model_init(&model, &options) != ELLIPSOID_OK)
+        {
+            FatalErrorInFunction
+                << "the options of a cell of length " << 2*options.semi_axes[1]
+                << " m are not those that were checked" << abort(FatalError);
+        }
+
+        return model;
+    }
+}
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -55,22 +75,16 @@ Foam::cellPopulation::setting::setting
 
     if (type == dtLogNormal)
     {
-        const auto read =
-            [&](const word& key, const scalar min, const scalar max, scalar off)
-            {
-                return ellipsoidProperties::getWithinOrDefault
-                (
-                    dict, key, min, max, off
-                );
-            };
+        typedef ellipsoidProperties entries;
+        const entryRange sigma(within(0, 1));
 
         ellipsoidProperties::checkKeywords
         (
             dict, {"type", "lengthDeviation", "widthDeviation", "truncation"}
         );
-        lengthDeviation = read("lengthDeviation", 0, 1, 0);
-        widthDeviation = read("widthDeviation", 0, 1, 0);
-        truncation = read("truncation", 1, 5, 3);
+        lengthDeviation = entries::number(dict, "lengthDeviation", sigma, 0.0);
+        widthDeviation = entries::number(dict, "widthDeviation", sigma, 0.0);
+        truncation = entries::number(dict, "truncation", within(1, 5), 3.0);
     }
     else
     {
@@ -118,10 +132,9 @@ void Foam::cellPopulation::setting::checkExtremes
 
 Foam::cellPopulation::cellPopulation(const ellipsoidProperties& properties)
 :
+    properties_(properties),
     setting_(properties.section("cell"), properties.options()),
-    seed_(properties.seed()),
-    median_(properties.model()),
-    models_()
+    median_(modelOf(properties.options()))
 {}
 
 
@@ -141,12 +154,9 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
 
     // The ranges of the core that a size can leave are monotonic in both
     const cellSize middle(medianSize(options));
-    for (const label corner : {0, 1, 2, 3})
+    for (const scalar l : {-truncation, truncation})
     {
-        const scalar l = corner & 2 ? truncation : -truncation;
-        const scalar w = corner & 1 ? truncation : -truncation;
-
-        if (type == dtLogNormal)
+        for (const scalar w : {-truncation, truncation})
         {
             sizes.append
             (
@@ -176,10 +186,12 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
 {
     cellSize size(medianSize());
 
+    const label seed = properties_.seed();
+
     if (setting_.type == dtTable)
     {
         scalar uniform;
-        ellipsoid_random_uniform(seed_, id, rsSize, 0, 1, &uniform);
+        ellipsoid_random_uniform(seed, id, rsSize, 0, 1, &uniform);
 
         const Pair<scalar>& row =
             setting_.values[label(uniform*setting_.values.size())];
@@ -191,7 +203,7 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
         label attempt = 0;
         do
         {
-            ellipsoid_random_normals(seed_, id, rsSize, attempt++, 2, normal);
+            ellipsoid_random_normals(seed, id, rsSize, attempt++, 2, normal);
         }
         while (max(mag(normal[0]), mag(normal[1])) > setting_.truncation);
 
@@ -205,21 +217,10 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
 
 ellipsoid_model Foam::cellPopulation::made(const cellSize& size) const
 {
-    ellipsoid_model model;
-    const ellipsoid_options options
+    return modelOf
     (
         ellipsoid_options_resized(&median_.options, size.length, size.width)
     );
-
-    if (ellipsoid_model_init(&model, &options) != ELLIPSOID_OK)
-    {
-        FatalErrorInFunction
-            << "a cell of length " << size.length << " m and width "
-            << size.width << " m is none that was checked"
-            << abort(FatalError);
-    }
-
-    return model;
 }
 
 
@@ -231,20 +232,6 @@ void Foam::cellPopulation::take(const label id, const cellSize& size)
     {
         models_.set(id, new ellipsoid_model(made(size)));
     }
-}
-
-
-Foam::scalar Foam::cellPopulation::longest(const label id) const
-{
-    return longestSemiAxis(model(id).options);
-}
-
-
-Foam::scalar Foam::cellPopulation::beadRadius(const scalar width) const
-{
-    return
-        median_.options.bead_radius
-       *(width/medianSize().width);
 }
 
 

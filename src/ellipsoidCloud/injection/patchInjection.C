@@ -29,8 +29,6 @@ Usage
 #include "cellInjection.H"
 #include "patchInflow.H"
 
-#include <algorithm>
-
 // * * * * * * * * * * * * * * * * Declarations * * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -79,15 +77,10 @@ public:
     // Constructors
 
         //- Construct from its dictionary; collective
-        patchInjection
-        (
-            const dictionary& dict,
-            const setting& from,
-            const label firstId
-        )
+        explicit patchInjection(const setting& from)
         :
-            cellInjection(dict, from, firstId),
-            inflow_(dict, from.undecomposed)
+            cellInjection(from),
+            inflow_(from_.dict, from.undecomposed)
         {
             setTimes(readNumber(inflow_.upTo.last()));
         }

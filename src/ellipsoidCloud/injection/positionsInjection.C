@@ -59,7 +59,7 @@ class positionsInjection
         {
             if (orientations_.size())
             {
-                cellOrientation::setQuaternion(dict_, orientations_[i], q);
+                cellOrientation::setQuaternion(from_.dict, orientations_[i], q);
             }
         }
 
@@ -73,18 +73,13 @@ public:
     // Constructors
 
         //- Construct from its dictionary
-        positionsInjection
-        (
-            const dictionary& dict,
-            const setting& from,
-            const label firstId
-        )
+        explicit positionsInjection(const setting& from)
         :
-            cellInjection(dict, from, firstId),
-            positions_(dict.get<pointField>("positions")),
+            cellInjection(from),
+            positions_(from_.dict.get<pointField>("positions")),
             orientations_
             (
-                dict.getOrDefault<List<FixedList<scalar, 4>>>
+                from_.dict.getOrDefault<List<FixedList<scalar, 4>>>
                 (
                     "orientations", {}
                 )
@@ -94,7 +89,7 @@ public:
 
             if (n && n != positions_.size())
             {
-                FatalIOErrorInFunction(dict_)
+                FatalIOErrorInFunction(from_.dict)
                     << positions_.size() << " positions but " << n
                     << " orientations" << exit(FatalIOError);
             }

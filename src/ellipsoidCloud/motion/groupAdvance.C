@@ -21,6 +21,29 @@ namespace Foam
     //- So many cells go together at most: what a group needs grows with their
     //  square, and is 1.3 GB then
     static const label largestGroup = 2000;
+
+    //- Can so many be advanced as one group? If not and the group may not fail,
+    //  the run ends.
+    static bool fits
+    (
+        const List<cellSweep>& cells,
+        const labelUList& group,
+        const bool mayFail
+    )
+    {
+        if (group.size() > largestGroup && !mayFail)
+        {
+            FatalErrorInFunction
+                << group.size() << " cells near one another, cell "
+                << cells[group[0]].state.id
+                << " among them, are one group; at most " << largestGroup
+                << " can be moved together" << nl
+                << "    let fewer enter, or set contact/cells off"
+                << exit(FatalError);
+        }
+
+        return group.size() <= largestGroup;
+    }
 }
 
 
@@ -28,85 +51,160 @@ namespace Foam
 
 struct Foam::groupAdvance::member
 {
-    const label index;
-    cellSweep& cell;
-    const ellipsoid_model& model;
-    const bool sweeping;
-    DynamicList<segment>& path;
-    cellSurroundings here;
-    frozenFlow::locationType location;
-    ellipsoid_step last;
-    ellipsoid_surroundings around;
+    // Public Data
+
+        const label index;
+        cellSweep& cell;
+        const ellipsoid_model& model;
+        const cellDomain& domain;
+        const bool sweeping;
+        DynamicList<segment>& path;
+        cellSurroundings here;
+        frozenFlow::locationType location;
+        ellipsoid_step last;
+
+
+    // Member Functions
+
+        //- An ellipsoid_observer: stops a cell that has left the mesh
+        static int observe(void* context, const ellipsoid_step* step)
+        {
+            member& m = *static_cast<member*>(context);
+            cellState& state = m.cell.state;
+
+            const ellipsoid_contact& contact = step->contact;
+
+            m.last = *step;
+            m.location = m.here.settle(pointOf(step->after.x));
+            state.deepest = max(state.deepest, contact.deepest);
+            state.deepestCell = max(state.deepestCell, contact.cell_deepest);
+
+            // A path bends between the ends of a long step
+            const label nParts = m.sweeping ? 4 : 0;
+            for (label i = 1; i <= nParts; ++i)
+            {
+                ellipsoid_state body(step->after);
+                if (i < nParts)
+                {
+                    const scalar dt = step->end - step->start;
+                    ellipsoid_step_state
+                    (
+                        step, step->start + i*dt/nParts, &body
+                    );
+                }
+                m.cell.sweep(body, m.model);
+            }
+
+            if (m.location != frozenFlow::pInside)
+            {
+                return 1;
+            }
+
+            m.path.append(segment{m.index, *step});
+            return 0;
+        }
+
+        //- Note the contacts at the end
+        void settle()
+        {
+            const ellipsoid_contact& contact = last.contact;
+
+            cell.nWalls = contact.surface_count;
+            std::copy_n(contact.surface, cell.nWalls, cell.walls);
+            cell.nCells = contact.cell_count;
+            std::copy_n(contact.cell_id, cell.nCells, cell.cells);
+
+            // Only of a cell that has been slow, or is in contact and may be
+            // slow from now on
+            if
+            (
+                cell.state.fate != cellState::caught
+             && (cell.state.slowTime > 0 || cell.nWalls || cell.nCells)
+            )
+            {
+                cell.state.imbalance = max(cell.state.imbalance, imbalance());
+            }
+        }
+
+        //- Part of the drag on a cell held still that its contacts, of its
+        //  last step, leave unbalanced
+        scalar imbalance() const
+        {
+            const ellipsoid_state& body = cell.state.body;
+            const ellipsoid_contact& contact = last.contact;
+
+            frozenFlow::probe at(here.home);
+            frozenFlow::tetCoordinates c;
+            if (!domain.flow.reach(body.x, at, c))
+            {
+                return 1;
+            }
+
+            vector U;
+            vector drag;
+            domain.flow.velocity(c, U.v_, nullptr);
+            ellipsoid_drag_at_rest(&model, body.q, U.v_, drag.v_);
+
+            const vector sum
+            (
+                drag + (pointOf(contact.force) + pointOf(contact.cell_force))
+            );
+
+            return mag(sum)/max(mag(drag), VSMALL);
+        }
+
+        //- A cell that passed an open patch is stopped there, one that is
+        //  elsewhere outside is lost
+        void remove(const ellipsoid_status status)
+        {
+            if (location == frozenFlow::pBeyondOpen)
+            {
+                stopAtPatch();
+                cell.state.fate = cellState::escaped;
+            }
+            else
+            {
+                cell.state.patch = -1;
+                cell.state.fate = cellState::lost;
+                cell.status = status;
+                cell.refused = here.refused;
+            }
+        }
+
+        //- Put a cell where its last step passed an open patch
+        void stopAtPatch()
+        {
+            // Bisection: inside at the start of the step, beyond at its end
+            scalar inside = last.start;
+            scalar beyond = last.end;
+            frozenFlow::probe at(here.home);
+            cellState& state = cell.state;
+            state.patch = -1;
+
+            for (label i = 0; i < 40; ++i)
+            {
+                const scalar middle = 0.5*(inside + beyond);
+                ellipsoid_step_state(&last, middle, &state.body);
+                const auto there = domain.flow.locate(state.centre(), at);
+
+                if (there == frozenFlow::pInside)
+                {
+                    inside = middle;
+                }
+                else
+                {
+                    beyond = middle;
+                    state.patch = at.patch;
+                }
+            }
+
+            ellipsoid_step_state(&last, inside, &state.body);
+            state.time = inside;
+        }
 };
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-ellipsoid_facet_cache& Foam::groupAdvance::cache(const label id)
-{
-    if (!caches_.found(id))
-    {
-        caches_.set(id, new ellipsoid_facet_cache);
-        ellipsoid_facet_cache_clear(caches_[id]);
-    }
-
-    return *caches_[id];
-}
-
-
-int Foam::groupAdvance::observe(void* context, const ellipsoid_step* step)
-{
-    member& m = *static_cast<member*>(context);
-    cellState& state = m.cell.state;
-
-    m.last = *step;
-    m.location = m.here.settle(pointOf(step->after.x));
-    state.deepest = max(state.deepest, step->contact.deepest);
-    state.deepestCell = max(state.deepestCell, step->contact.cell_deepest);
-
-    // A path bends between the ends of a long step
-    const label nParts = m.sweeping ? 4 : 0;
-    for (label i = 1; i <= nParts; ++i)
-    {
-        ellipsoid_state body(step->after);
-        if (i < nParts)
-        {
-            const scalar t = step->start + i*(step->end - step->start)/nParts;
-            ellipsoid_step_state(step, t, &body);
-        }
-        m.cell.sweep(body, m.model);
-    }
-
-    if (m.location != frozenFlow::pInside)
-    {
-        return 1;
-    }
-
-    m.path.append(segment{m.index, *step});
-    return 0;
-}
-
-
-bool Foam::groupAdvance::fits
-(
-    const List<cellSweep>& cells,
-    const labelUList& group,
-    const bool mayFail
-)
-{
-    if (group.size() > largestGroup && !mayFail)
-    {
-        FatalErrorInFunction
-            << group.size() << " cells near one another, cell "
-            << cells[group[0]].state.id << " among them, are one group; at most"
-            << ' ' << largestGroup << " can be moved together" << nl
-            << "    let fewer enter, or set contact/cells off"
-            << exit(FatalError);
-    }
-
-    return group.size() <= largestGroup;
-}
-
 
 bool Foam::groupAdvance::integrate
 (
@@ -125,7 +223,7 @@ bool Foam::groupAdvance::integrate
             members.cdata(),
             &t,
             end,
-            observe,
+            member::observe,
             memory_.data(),
             &which
         );
@@ -149,15 +247,15 @@ bool Foam::groupAdvance::integrate
             member& m = *static_cast<member*>(members[i].observer_context);
 
             m.cell.state.time = t;
-            m.cell.state.tet = m.here.home().tet;
+            m.cell.state.tet = m.here.home.tet;
 
             if (failed ? i == which : m.location != frozenFlow::pInside)
             {
-                remove(m, status);
+                m.remove(status);
             }
             else if (status == ELLIPSOID_OK)
             {
-                settle(m);
+                m.settle();
             }
             else
             {
@@ -171,122 +269,16 @@ bool Foam::groupAdvance::integrate
 }
 
 
-void Foam::groupAdvance::settle(member& m) const
-{
-    cellSweep& cell = m.cell;
-    const ellipsoid_contact& contact = m.last.contact;
-
-    cell.nWalls = contact.touched_count;
-    std::copy_n(contact.touched, cell.nWalls, cell.walls);
-    cell.nCells = contact.touched_cell_count;
-    std::copy_n(contact.touched_cell, cell.nCells, cell.cells);
-
-    // Only of a cell that has been slow, or is in contact and may be slow from
-    // now on
-    if
-    (
-        cell.state.fate != cellState::caught
-     && (cell.state.slowTime > 0 || cell.nWalls || cell.nCells)
-    )
-    {
-        cell.state.imbalance = max(cell.state.imbalance, imbalance(m));
-    }
-}
-
-
-Foam::scalar Foam::groupAdvance::imbalance(const member& m) const
-{
-    const ellipsoid_state& body = m.cell.state.body;
-    const ellipsoid_contact& contact = m.last.contact;
-
-    frozenFlow::probe at(m.here.home());
-    ellipsoid_flow_sample flow;
-    if (flow_.sample(body.x, at, false, flow))
-    {
-        return 1;
-    }
-
-    vector drag;
-    ellipsoid_drag_at_rest(&m.model, body.q, flow.velocity, drag.v_);
-
-    const vector sum
-    (
-        drag + (pointOf(contact.force) + pointOf(contact.cell_force))
-    );
-
-    return mag(sum)/max(mag(drag), VSMALL);
-}
-
-
-void Foam::groupAdvance::remove
-(
-    member& m,
-    const ellipsoid_status status
-) const
-{
-    if (m.location == frozenFlow::pBeyondOpen)
-    {
-        stopAtPatch(m);
-        m.cell.state.fate = cellState::escaped;
-    }
-    else
-    {
-        m.cell.state.patch = -1;
-        m.cell.state.fate = cellState::lost;
-        m.cell.status = status;
-        m.cell.refused = m.here.refused();
-    }
-}
-
-
-void Foam::groupAdvance::stopAtPatch(member& m) const
-{
-    // Bisection: inside at the start of the step, beyond at its end
-    scalar inside = m.last.start;
-    scalar beyond = m.last.end;
-    frozenFlow::probe at(m.here.home());
-    cellState& cell = m.cell.state;
-    cell.patch = -1;
-
-    for (label i = 0; i < 40; ++i)
-    {
-        const scalar middle = 0.5*(inside + beyond);
-        ellipsoid_step_state(&m.last, middle, &cell.body);
-
-        if (flow_.locate(pointOf(cell.body.x), at) == frozenFlow::pInside)
-        {
-            inside = middle;
-        }
-        else
-        {
-            beyond = middle;
-            cell.patch = at.patch;
-        }
-    }
-
-    ellipsoid_step_state(&m.last, inside, &cell.body);
-    cell.time = inside;
-}
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::groupAdvance::groupAdvance
 (
     const cellPopulation& population,
-    const frozenFlow& flow,
-    const wallFacets& walls,
-    const label seed,
-    const bool sweeping
+    const cellDomain& domain
 )
 :
     population_(population),
-    flow_(flow),
-    walls_(walls),
-    seed_(seed),
-    sweeping_(sweeping),
-    caches_(),
-    memory_(),
+    domain_(domain),
     done_()
 {}
 
@@ -308,6 +300,7 @@ bool Foam::groupAdvance::advance
     }
 
     const clockTime timer;
+    const ellipsoidProperties& properties = population_.properties();
     const label n = group.size();
     const label size = ellipsoid_group_size(n)/sizeof(scalar) + 1;
     memory_.setSize(max(memory_.size(), size));
@@ -325,25 +318,31 @@ bool Foam::groupAdvance::advance
             cell.state.fate = cellState::inFlight;
         }
 
+        if (!caches_.found(id))
+        {
+            caches_.set(id, new ellipsoid_facet_cache);
+            ellipsoid_facet_cache_clear(caches_[id]);
+        }
+
         own.set
         (
             i,
             new member
             {
-                group[i], cell, population_.model(id), sweeping_, path,
-                {flow_, walls_, frozenFlow::probe{cell.state.tet, -1}},
-                frozenFlow::pInside, ellipsoid_step(), ellipsoid_surroundings()
+                group[i], cell, population_.model(id), domain_,
+                properties.pushing(), path,
+                {domain_, frozenFlow::probe{cell.state.tet, -1}},
+                frozenFlow::pInside, ellipsoid_step()
             }
         );
-        own[i].around = own[i].here.core();
-        own[i].around.seed = seed_;
-        own[i].around.id = id;
+        own[i].here.seed = properties.seed();
+        own[i].here.id = id;
 
         members[i].model = &own[i].model;
-        members[i].surroundings = &own[i].around;
+        members[i].surroundings = &own[i].here;
         members[i].state = &cell.state.body;
         members[i].controller = &cell.state.controller;
-        members[i].cache = &cache(id);
+        members[i].cache = caches_[id];
         members[i].observer_context = &own[i];
         members[i].statistics = &done_.steps;
     }

@@ -9,8 +9,8 @@ License
 \*---------------------------------------------------------------------------*/
 #include "groupScheduler.H"
 #include "captureCriterion.H"
+#include "HashSet.H"
 #include "overlapGroups.H"
-#include "plainLists.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -32,6 +32,116 @@ namespace Foam
     static inline bool waits(const cellSweep& cell)
     {
         return cell.state.fate == cellState::waiting;
+    }
+
+    //- Positions of the cells that wait and find no room
+    static labelHashSet blocked
+    (
+        const UIndirectList<cellSweep>& cells,
+        const UList<groupScheduler::nearPair>& pairs
+    )
+    {
+        labelHashSet found;
+
+        // By cells that are there, then by cells that enter and have a lower id
+        for (const groupScheduler::nearPair& near : pairs)
+        {
+            const label a = near.positions.first();
+            const label b = near.positions.second();
+
+            if (near.gap < 0 && waits(cells[a]) != waits(cells[b]))
+            {
+                found.insert(waits(cells[a]) ? a : b);
+            }
+        }
+        for (const groupScheduler::nearPair& near : pairs)
+        {
+            const label a = near.positions.first();
+
+            if (near.gap < 0 && waits(cells[a]) && !found.found(a))
+            {
+                found.insert(near.positions.second());
+            }
+        }
+
+        return found;
+    }
+
+    //- Ranks to advance the units listed, of even load
+    static labelList distributed
+    (
+        const List<groupScheduler::unit>& units,
+        const labelUList& listed,
+        const groupScheduler::span& time
+    )
+    {
+        labelList ranks(listed.size(), 0);
+
+        if (!time.shared || !Pstream::parRun())
+        {
+            return ranks;
+        }
+
+        // By the steps to be expected; all of a group go with the shortest
+        scalarList work(listed.size());
+        forAll(listed, k)
+        {
+            const labelList& members = units[listed[k]].cells;
+            scalar steps = 1;
+            for (const label i : members)
+            {
+                const scalar step = time.before[i].state.controller.step;
+                steps = max
+                (
+                    steps, step > 0 ? (time.end - time.start)/step : newSteps
+                );
+            }
+            work[k] = steps*members.size();
+        }
+
+        // The most expensive first
+        scalarList load(Pstream::nProcs(), Zero);
+        labelList order;
+        sortedOrder(work, order, UList<scalar>::greater(work));
+
+        for (const label k : order)
+        {
+            ranks[k] = findMin(load);
+            load[ranks[k]] += work[k];
+        }
+
+        return ranks;
+    }
+
+    //- Bring together what these ranks have advanced; collective
+    static void exchange
+    (
+        List<cellSweep>& cells,
+        const List<groupScheduler::unit>& units,
+        const labelUList& listed,
+        const labelUList& ranks
+    )
+    {
+        DynamicList<cellSweep> mine;
+        forAll(listed, k)
+        {
+            if (ranks[k] == Pstream::myProcNo())
+            {
+                const labelList& members = units[listed[k]].cells;
+                mine.append(UIndirectList<cellSweep>(cells, members));
+            }
+        }
+
+        const List<List<cellSweep>> all(fromAllRanks(List<cellSweep>(mine)));
+        labelList next(all.size(), 0);
+
+        forAll(listed, k)
+        {
+            for (const label i : units[listed[k]].cells)
+            {
+                cells[i] = all[ranks[k]][next[ranks[k]]++];
+            }
+        }
     }
 }
 
@@ -76,39 +186,6 @@ Foam::groupScheduler::nearPairs
             {
                 found.append(nearPair{pair, gap});
             }
-        }
-    }
-
-    return found;
-}
-
-
-Foam::labelHashSet Foam::groupScheduler::blocked
-(
-    const UIndirectList<cellSweep>& cells,
-    const UList<nearPair>& pairs
-)
-{
-    labelHashSet found;
-
-    // By cells that are there, then by cells that enter and have a lower id
-    for (const nearPair& near : pairs)
-    {
-        const label a = near.positions.first();
-        const label b = near.positions.second();
-
-        if (near.gap < 0 && waits(cells[a]) != waits(cells[b]))
-        {
-            found.insert(waits(cells[a]) ? a : b);
-        }
-    }
-    for (const nearPair& near : pairs)
-    {
-        const label a = near.positions.first();
-
-        if (near.gap < 0 && waits(cells[a]) && !found.found(a))
-        {
-            found.insert(near.positions.second());
         }
     }
 
@@ -277,17 +354,26 @@ void Foam::groupScheduler::advance
     const span& time
 )
 {
+    const auto begin =
+        [&]()
+        {
+            for (const label i : u.cells)
+            {
+                cells[i] = time.before[i];
+            }
+            u.path.clear();
+        };
+    begin();
+
     // A cell of a unit in parts that enters later does so at the end of a part
     scalar middle = time.end;
     for (const label i : u.cells)
     {
-        cells[i] = time.before[i];
         if (waits(cells[i]) && cells[i].state.time > time.start)
         {
             middle = min(middle, cells[i].state.time);
         }
     }
-    u.path.clear();
     const bool enters = middle < time.end && u.cells.size() > 1;
 
     if (!u.inParts && !enters)
@@ -298,11 +384,7 @@ void Foam::groupScheduler::advance
         {
             return;
         }
-        for (const label i : u.cells)
-        {
-            cells[i] = time.before[i];
-        }
-        u.path.clear();
+        begin();
     }
 
     label depth = time.depth;
@@ -379,83 +461,6 @@ void Foam::groupScheduler::sample
 }
 
 
-Foam::labelList Foam::groupScheduler::distributed
-(
-    const List<unit>& units,
-    const labelUList& listed,
-    const span& time
-)
-{
-    labelList ranks(listed.size(), 0);
-
-    if (!time.shared || !Pstream::parRun())
-    {
-        return ranks;
-    }
-
-    // By the steps to be expected; all of a group go with the shortest
-    scalarList work(listed.size());
-    forAll(listed, k)
-    {
-        const labelList& members = units[listed[k]].cells;
-        scalar steps = 1;
-        for (const label i : members)
-        {
-            const scalar step = time.before[i].state.controller.step;
-            steps = max
-            (
-                steps, step > 0 ? (time.end - time.start)/step : newSteps
-            );
-        }
-        work[k] = steps*members.size();
-    }
-
-    // The most expensive first
-    scalarList load(Pstream::nProcs(), Zero);
-    labelList order;
-    sortedOrder(work, order, UList<scalar>::greater(work));
-
-    for (const label k : order)
-    {
-        ranks[k] = findMin(load);
-        load[ranks[k]] += work[k];
-    }
-
-    return ranks;
-}
-
-
-void Foam::groupScheduler::exchange
-(
-    List<cellSweep>& cells,
-    const List<unit>& units,
-    const labelUList& listed,
-    const labelUList& ranks
-)
-{
-    DynamicList<cellSweep> mine;
-    forAll(listed, k)
-    {
-        if (ranks[k] == Pstream::myProcNo())
-        {
-            const labelList& members = units[listed[k]].cells;
-            mine.append(UIndirectList<cellSweep>(cells, members));
-        }
-    }
-
-    const List<List<cellSweep>> all(fromAllRanks(mine));
-    labelList next(all.size(), 0);
-
-    forAll(listed, k)
-    {
-        for (const label i : units[listed[k]].cells)
-        {
-            cells[i] = all[ranks[k]][next[ranks[k]]++];
-        }
-    }
-}
-
-
 Foam::List<Foam::groupScheduler::unit> Foam::groupScheduler::advance
 (
     List<cellSweep>& cells,
@@ -512,16 +517,14 @@ Foam::List<Foam::groupScheduler::unit> Foam::groupScheduler::advance
 Foam::groupScheduler::groupScheduler
 (
     const cellPopulation& population,
-    const frozenFlow& flow,
-    const wallFacets& walls,
-    const ellipsoidProperties& properties,
+    const cellDomain& domain,
     cellTracks* tracks
 )
 :
     population_(population),
-    interacting_(properties.pushing()),
-    beadRadius_(properties.options().bead_radius),
-    groups_(population, flow, walls, properties.seed(), interacting_),
+    interacting_(population.properties().pushing()),
+    beadRadius_(population.properties().options().bead_radius),
+    groups_(population, domain),
     tracks_(tracks)
 {}
 

@@ -27,23 +27,26 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::independentCells::followSome
+Foam::List<Foam::independentCells::ending>
+Foam::independentCells::followSome
 (
-    const UList<cellInjection::newCell>& starts,
+    const UList<cellState>& starts,
     const scalar deltaT,
-    const scalar endTime,
-    ending* endings
+    const scalar endTime
 ) const
 {
-    groupScheduler scheduler(population_, flow_, walls_, properties_, nullptr);
+    groupScheduler scheduler(population_, domain_, nullptr);
     DynamicList<cellEvent> events;
 
-    List<cellState> cells(starts.size());
+    const cellSize size(population_.medianSize());
+    List<cellState> cells(starts);
     labelList which(identity(starts.size()));
-    forAll(starts, i)
+    List<ending> endings(starts.size(), ending{cellState::inFlight, -1, -1});
+    for (cellState& cell : cells)
     {
-        cells[i] = starts[i].state(flow_, population_.medianSize());
-        endings[i] = ending{cellState::inFlight, -1, -1};
+        cell.length = size.length;
+        cell.width = size.width;
+        cellInjection::wait(cell, 0, domain_.flow);
     }
 
     // No last one of rounding's length
@@ -85,6 +88,8 @@ void Foam::independentCells::followSome
         which.setSize(nStay);
         cells.setSize(nStay);
     }
+
+    return endings;
 }
 
 
@@ -97,22 +102,14 @@ Foam::independentCells::independentCells
     const undecomposedFlow& undecomposed
 )
 :
-    properties_(properties),
     patchNames_(mesh.boundaryMesh().names()),
     criterion_(properties.section("capture"), mesh.boundaryMesh()),
     population_(properties),
-    flow_
+    domain_
     (
+        properties,
         undecomposed,
-        properties.options().fluid_density,
-        properties.scheme(),
-        electricField(properties.section("forces"), mesh)
-       .onUndecomposed(undecomposed)
-    ),
-    walls_
-    (
-        Pstream::master() ? &undecomposed.mesh() : nullptr,
-        longestSemiAxis(properties.options())
+        electricField::read(properties.section("forces"), mesh, undecomposed)
     )
 {
     criterion_.setInletSpeed(inletFlux::speedOf(undecomposed));
@@ -121,37 +118,36 @@ Foam::independentCells::independentCells
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-bool Foam::independentCells::fits(cellInjection::newCell& cell) const
+bool Foam::independentCells::fits(cellState& cell) const
 {
+    frozenFlow::probe at;
+    const bool inside = domain_.flow.find(cell.centre(), at);
+    cell.tet = at.tet;
+
     return
-        flow_.find(point(cell.x[0], cell.x[1], cell.x[2]), cell.at)
-     && !cell.overlaps(population_.median(), flow_, walls_);
+        inside
+     && !cellInjection::overlaps(cell, population_.median(), domain_);
 }
 
 
 Foam::List<Foam::independentCells::ending> Foam::independentCells::follow
 (
-    const UList<cellInjection::newCell>& starts,
+    const UList<cellState>& starts,
     const scalar deltaT,
     const scalar endTime
 ) const
 {
-    List<ending> endings(starts.size());
+    DynamicList<ending> endings;
 
     for (label first = 0; first < starts.size(); first += mostAtOnce)
     {
         const label n = min(mostAtOnce, starts.size() - first);
+        const SubList<cellState> some(starts, n, first);
 
-        followSome
-        (
-            SubList<cellInjection::newCell>(starts, n, first),
-            deltaT,
-            endTime,
-            &endings[first]
-        );
+        endings.append(followSome(some, deltaT, endTime));
     }
 
-    return endings;
+    return List<ending>(std::move(endings));
 }
 
 

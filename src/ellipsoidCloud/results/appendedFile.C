@@ -19,19 +19,22 @@ License
 
 Foam::appendedFile::appendedFile
 (
-    const fileName& name,
+    const tableSet& set,
+    const word& name,
     const std::string& header,
-    const int precision,
-    const dictionary& earlier
+    const int precision
 )
 :
-    name_(name),
+    name_(set.folder/(name + ".csv")),
     header_(header),
-    buffer_(),
-    file_(),
-    size_(Pstream::master() ? earlier.getOrDefault<scalar>("bytes", 0) : 0),
-    digest_()
+    size_(0)
 {
+    const dictionary earlier(set.earlier.subOrEmptyDict(name));
+
+    if (Pstream::master())
+    {
+        size_ = earlier.getOrDefault<scalar>("bytes", 0);
+    }
     buffer_.precision(precision);
     digest_.append(text());
 
@@ -106,12 +109,7 @@ Foam::dictionary Foam::appendedFile::notes()
 
 std::string Foam::appendedFile::text() const
 {
-    std::string text(std::size_t(size_), '\0');
-    std::ifstream is(name_, std::ios::binary);
-    is.read(&text[0], text.size());
-    text.resize(is.gcount());
-
-    return text;
+    return size_ > 0 ? textOf(name_).substr(0, std::size_t(size_)) : "";
 }
 
 

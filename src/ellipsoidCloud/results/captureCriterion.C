@@ -15,126 +15,154 @@ License
 #include "wallPolyPatch.H"
 #include "wordRes.H"
 
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
-void Foam::captureCriterion::judgeSpeed
-(
-    const UList<cellState>& before,
-    List<cellSweep>& moves,
-    const scalar end,
-    DynamicList<cellEvent>& events
-) const
+namespace Foam
 {
-    forAll(moves, i)
+    //- How long cells have been slow: those that are not are in flight
+    static void judgeSpeed
+    (
+        const UList<cellState>& before,
+        List<cellSweep>& moves,
+        const scalar end,
+        const scalar slowSpeed,
+        DynamicList<cellEvent>& events
+    )
     {
-        const cellState& was = before[i];
-        cellState& cell = moves[i].state;
-
-        if (cell.fate == cellState::waiting || moves[i].gone())
+        forAll(moves, i)
         {
-            continue;
-        }
-
-        const scalar dt = end - was.time;
-
-        if (mag(cell.centre() - was.centre())/dt < slowSpeed_)
-        {
-            cell.slowTime += dt;
-            continue;
-        }
-
-        cell.slowTime = 0;
-        cell.imbalance = 0;
-
-        if (cell.fate != cellState::inFlight)
-        {
-            cell.fate = cellState::inFlight;
-            events.append(cellEvent{"released", cell});
-            cell.patch = -1;
-        }
-    }
-}
-
-
-void Foam::captureCriterion::judgeHeld
-(
-    List<cellSweep>& moves,
-    DynamicList<cellEvent>& events
-) const
-{
-    // Held, and not yet caught
-    DynamicList<label> open;
-    Map<label> indices;
-
-    forAll(moves, i)
-    {
-        const cellState& cell = moves[i].state;
-        indices.insert(cell.id, i);
-
-        if
-        (
-            cell.slowTime >= holdTime_
-         && (
-                cell.fate == cellState::inFlight
-             || cell.fate == cellState::stalled
-            )
-        )
-        {
-            open.append(i);
-        }
-    }
-
-    const auto settle =
-        [&](const label i, const cellState::fateType fate, const label patchi)
-        {
+            const cellState& was = before[i];
             cellState& cell = moves[i].state;
-            cell.fate = fate;
-            cell.patch = patchi;
-            events.append(cellEvent{cellState::fateNames[fate], cell});
-        };
 
-    const auto isCaught =
-        [&](const label i) { return moves[i].state.fate == cellState::caught; };
-
-    for (const label i : open)
-    {
-        for (label w = 0; w < moves[i].nWalls && !isCaught(i); ++w)
-        {
-            if (sieves_.found(moves[i].walls[w]))
+            if (cell.fate == cellState::waiting || moves[i].gone())
             {
-                settle(i, cellState::caught, moves[i].walls[w]);
+                continue;
+            }
+
+            const scalar dt = end - was.time;
+
+            if (mag(cell.centre() - was.centre())/dt < slowSpeed)
+            {
+                cell.slowTime += dt;
+                continue;
+            }
+
+            cell.slowTime = 0;
+            cell.imbalance = 0;
+
+            if (cell.fate != cellState::inFlight)
+            {
+                cell.fate = cellState::inFlight;
+                events.append(cellEvent{"released", cell});
+                cell.patch = -1;
             }
         }
     }
 
-    // By a cell that is caught, which another may have to be first
-    for (bool changed = true; changed;)
+    //- The cells that have been slow for the hold time, and are not yet caught
+    static DynamicList<label> openCells
+    (
+        const UList<cellSweep>& moves,
+        const scalar holdTime
+    )
     {
-        changed = false;
+        DynamicList<label> open;
+
+        forAll(moves, i)
+        {
+            const cellState& cell = moves[i].state;
+
+            if
+            (
+                cell.slowTime >= holdTime
+             && (
+                    cell.fate == cellState::inFlight
+                 || cell.fate == cellState::stalled
+                )
+            )
+            {
+                open.append(i);
+            }
+        }
+
+        return open;
+    }
+
+    //- What holds the cells that have been slow for the hold time
+    static void judgeHeld
+    (
+        List<cellSweep>& moves,
+        const scalar holdTime,
+        const labelUList& sieves,
+        DynamicList<cellEvent>& events
+    )
+    {
+        const DynamicList<label> open(openCells(moves, holdTime));
+        Map<label> indices;
+        forAll(moves, i)
+        {
+            indices.insert(moves[i].state.id, i);
+        }
+
+        const auto settle =
+            [&](cellState& cell, const cellState::fateType fate, label patchi)
+            {
+                cell.fate = fate;
+                cell.patch = patchi;
+                events.append(cellEvent{cellState::fateNames[fate], cell});
+            };
+
+        const auto isCaught =
+            [&](const label i)
+            {
+                return moves[i].state.fate == cellState::caught;
+            };
 
         for (const label i : open)
         {
-            for (label c = 0; c < moves[i].nCells && !isCaught(i); ++c)
-            {
-                const auto other = indices.cfind(moves[i].cells[c]);
+            cellSweep& cell = moves[i];
 
-                if (other.found() && isCaught(*other))
+            for (label w = 0; w < cell.nWalls && !isCaught(i); ++w)
+            {
+                if (sieves.found(cell.walls[w]))
                 {
-                    settle(i, cellState::caught, moves[*other].state.patch);
-                    changed = true;
+                    settle(cell.state, cellState::caught, cell.walls[w]);
                 }
             }
         }
-    }
 
-    for (const label i : open)
-    {
-        if (moves[i].state.fate == cellState::inFlight)
+        // By a cell that is caught, which another may have to be first
+        for (bool changed = true; changed;)
         {
-            settle
-            (
-                i, cellState::stalled, moves[i].nWalls ? moves[i].walls[0] : -1
-            );
+            changed = false;
+
+            for (const label i : open)
+            {
+                cellSweep& cell = moves[i];
+
+                for (label c = 0; c < cell.nCells && !isCaught(i); ++c)
+                {
+                    const auto other = indices.cfind(cell.cells[c]);
+
+                    if (other.found() && isCaught(*other))
+                    {
+                        const label patchi = moves[*other].state.patch;
+                        settle(cell.state, cellState::caught, patchi);
+                        changed = true;
+                    }
+                }
+            }
+        }
+
+        for (const label i : open)
+        {
+            cellSweep& cell = moves[i];
+
+            if (cell.state.fate == cellState::inFlight)
+            {
+                const label patchi = cell.nWalls ? cell.walls[0] : -1;
+                settle(cell.state, cellState::stalled, patchi);
+            }
         }
     }
 }
@@ -148,21 +176,29 @@ Foam::captureCriterion::captureCriterion
     const polyBoundaryMesh& patches
 )
 :
-    sieves_(),
+    speed_
+    (
+        dict.found("speed")
+      ? ellipsoidProperties::number<scalar>(dict, "speed", above(0))
+      : 0
+    ),
     speedFraction_
     (
-        ellipsoidProperties::getAboveOrDefault(dict, "speedFraction", 0, 0.01)
+        ellipsoidProperties::number(dict, "speedFraction", above(0), 0.01)
     ),
     slowSpeed_(0),
-    holdTime_
-    (
-        ellipsoidProperties::getAboveOrDefault(dict, "holdTime", 0, 0.05)
-    )
+    holdTime_(ellipsoidProperties::number(dict, "holdTime", above(0), 0.05))
 {
     ellipsoidProperties::checkKeywords
     (
-        dict, {"sieves", "speedFraction", "holdTime"}
+        dict, {"sieves", "speed", "speedFraction", "holdTime"}
     );
+
+    if (dict.found("speed") && dict.found("speedFraction"))
+    {
+        FatalIOErrorInFunction(dict)
+            << "give one of speed and speedFraction" << exit(FatalIOError);
+    }
 
     for (const wordRe& name : dict.getOrDefault("sieves", wordRes()))
     {
@@ -222,8 +258,8 @@ void Foam::captureCriterion::judge
         }
     }
 
-    judgeSpeed(before, moves, end, events);
-    judgeHeld(moves, events);
+    judgeSpeed(before, moves, end, slowSpeed_, events);
+    judgeHeld(moves, holdTime_, sieves_, events);
 }
 
 // ************************************************************************* //

@@ -8,10 +8,6 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "captureStatistics.H"
-#include "Pstream.H"
-
-#include <algorithm>
-#include <sstream>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -46,21 +42,21 @@ void Foam::captureStatistics::count(const cellEvent& event)
 
 void Foam::captureStatistics::readLog()
 {
-    const cellSize size(population_.medianSize());
-    std::istringstream log(log_.text());
+    const cellSize size(set_.population.medianSize());
+    std::istringstream lines(log.text());
     std::string line;
-    std::getline(log, line);
+    std::getline(lines, line);
 
-    while (std::getline(log, line))
+    while (std::getline(lines, line))
     {
         cellEvent event = cellEvent();
         event.cell.length = size.length;
         event.cell.width = size.width;
 
-        if (!event.read(line, patchNames_, population_.varies()))
+        if (!event.read(line, set_))
         {
             FatalErrorInFunction
-                << log_.name() << ": cannot read the line" << nl << line.c_str()
+                << log.name() << ": cannot read the line" << nl << line.c_str()
                 << exit(FatalError);
         }
 
@@ -73,26 +69,14 @@ void Foam::captureStatistics::readLog()
 
 Foam::captureStatistics::captureStatistics
 (
-    const wordList& patchNames,
-    const labelList& sieves,
-    const cellPopulation& population,
-    const fileName& folder,
-    const dictionary& earlierLog
+    const tableSet& set,
+    const labelList& sieves
 )
 :
-    patchNames_(patchNames),
+    set_(set),
     sieves_(sieves),
-    population_(population),
-    folder_(folder),
-    cells_(),
     counts_(Zero),
-    log_
-    (
-        folder/"events.csv",
-        cellEvent::header(population.varies()),
-        12,
-        earlierLog
-    )
+    log(set, "events", cellEvent::header(set.population.varies()), 12)
 {
     readLog();
 }
@@ -107,26 +91,15 @@ void Foam::captureStatistics::add(List<cellEvent>&& events)
         return;
     }
 
-    // By time and cell
-    std::stable_sort
-    (
-        events.begin(),
-        events.end(),
-        [](const cellEvent& a, const cellEvent& b)
-        {
-            return
-                a.cell.time < b.cell.time
-             || (a.cell.time == b.cell.time && a.cell.id < b.cell.id);
-        }
-    );
+    Foam::stableSort(events);
 
     for (const cellEvent& event : events)
     {
         count(event);
-        event.write(log_.stream(), patchNames_, population_.varies());
+        event.write(log.stream(), set_);
     }
 
-    log_.flush();
+    log.flush();
 }
 
 

@@ -14,18 +14,16 @@ Description
 #include "atomicWrite.H"
 #include "IOmanip.H"
 
-#include <algorithm>
-#include <sstream>
-
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::captureStatistics::writeCells() const
 {
+    const bool sizes = set_.population.varies();
     std::ostringstream os;
     os.precision(12);
     os  << "id,tInjected,x1,x2,x3,eps1,eps2,eps3,eta,fate,patch,tFate,"
         << "firstSieve,tFirstCatch,deepest,deepestCell,tPlanned,"
-        << "imbalance" << (population_.varies() ? ",length,width" : "") << '\n';
+        << "imbalance,x1End,x2End,x3End" << (sizes ? ",length,width" : "") << '\n';
 
     for (const label id : cells_.sortedToc())
     {
@@ -47,13 +45,12 @@ void Foam::captureStatistics::writeCells() const
             os << ',' << q;
         }
         os  << ',' << cellState::fateNames[fate] << ','
-            << cellEvent::patchName
+            << set_.patchName
                (
-                   patchNames_,
                    fate == cellState::inFlight ? -1 : cell.last.patch
                )
             << ',' << cell.last.time << ','
-            << cellEvent::patchName(patchNames_, cell.firstSieve) << ',';
+            << set_.patchName(cell.firstSieve) << ',';
 
         if (cell.firstSieve >= 0)
         {
@@ -66,14 +63,18 @@ void Foam::captureStatistics::writeCells() const
         {
             os << cell.last.imbalance;
         }
-        if (population_.varies())
+        for (const scalar x : cell.last.body.x)
+        {
+            os << ',' << x;
+        }
+        if (sizes)
         {
             os << ',' << cell.last.length << ',' << cell.last.width;
         }
         os << '\n';
     }
 
-    atomicWrite(folder_/"cells.csv", os.str());
+    atomicWrite(set_.folder/"cells.csv", os.str());
 }
 
 
@@ -112,19 +113,104 @@ void Foam::captureStatistics::writeCaptures(Ostream& os) const
             list << ' ' << t;
         }
 
-        os  << setw(5) << patchNames_[patchi].c_str()
+        os  << setw(5) << set_.patchNames[patchi].c_str()
             << setw(8) << times.size() << "  " << list.str().c_str() << nl;
 
         table
-            << patchNames_[patchi] << ',' << times.size() << ',' << list.str()
-            << '\n';
+            << set_.patchNames[patchi] << ',' << times.size() << ','
+            << list.str() << '\n';
     }
 
-    atomicWrite(folder_/"captures.csv", table.str());
+    atomicWrite(set_.folder/"captures.csv", table.str());
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::captureStatistics::report(Ostream& os) const
+{
+    os  << "cells: " << cells_.size() - counts_[cellState::waiting]
+        << " injected, "
+        << counts_[cellState::caught] << " caught, "
+        << counts_[cellState::escaped] << " escaped, "
+        << counts_[cellState::stalled] << " stalled, "
+        << counts_[cellState::inFlight] << " in flight, "
+        << counts_[cellState::lost] << " lost";
+}
+
+
+void Foam::captureStatistics::reportContact(Ostream& os) const
+{
+    const ellipsoid_model& median = set_.population.median();
+    scalar wall = 0;
+    scalar cell = 0;
+    scalar wallPart = 0;
+    scalar cellPart = 0;
+    scalar delay = 0;
+    label nDelayed = 0;
+    label nBalanced = 0;
+    scalar worst = 0;
+    label worstId = -1;
+
+    // In order, since a sum depends on it
+    for (const label id : cells_.sortedToc())
+    {
+        const record& r = cells_[id];
+        wall = max(wall, r.last.deepest);
+        cell = max(cell, r.last.deepestCell);
+
+        const scalar beadRadius =
+            median.options.bead_radius
+           *(r.last.width/set_.population.medianSize().width);
+        wallPart = max(wallPart, 100*r.last.deepest/beadRadius);
+        cellPart = max(cellPart, 100*r.last.deepestCell/beadRadius);
+
+        if (r.injection.time > r.planned)
+        {
+            delay += r.injection.time - r.planned;
+            ++nDelayed;
+        }
+        if (r.last.fate == cellState::caught)
+        {
+            nBalanced += r.last.imbalance < 0.01;
+
+            if (r.last.imbalance > worst)
+            {
+                worst = r.last.imbalance;
+                worstId = id;
+            }
+        }
+    }
+
+    os  << "deepest overlap of a bead with a wall: " << wall*1e9 << " nm, "
+        << wallPart << " % of its radius" << nl
+        << "deepest overlap of a bead with another cell's: " << cell*1e9
+        << " nm, " << cellPart << " % of its radius" << nl
+        << "held: " << nBalanced << " of " << counts_[cellState::caught]
+        << " caught cells balanced to 1 %";
+
+    if (worstId >= 0)
+    {
+        os  << ", worst " << 100*worst << " % (cell " << worstId << ')';
+    }
+    os  << nl;
+
+    if (max(wallPart, cellPart) > 5)
+    {
+        Warning
+            << "Beads overlap by more than 5 % of their radius. Is p in m2/s2,"
+            << " Pa by the density? Else raise the modulus of contact" << nl
+            << endl;
+    }
+
+    if (nDelayed || counts_[cellState::waiting])
+    {
+        os  << "waited to enter: " << nDelayed << " cells, " << delay
+            << " s in all; " << counts_[cellState::waiting] << " still wait"
+            << nl;
+    }
+}
+
 
 void Foam::captureStatistics::write(Ostream& os) const
 {

@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "cellEvent.H"
+#include "appendedFile.H"
 #include "DynamicList.H"
 
 #include <sstream>
@@ -17,18 +18,17 @@ License
 namespace Foam
 {
     //- The members of a cell that are numbers of an event, in their order
-    template<class State, class Number>
-    static DynamicList<Number*> numbersOf(State& cell, const bool sizes)
+    static DynamicList<scalar*> numbersOf(cellState& cell, const bool sizes)
     {
-        DynamicList<Number*> numbers;
+        DynamicList<scalar*> numbers;
 
-        for (int d = 0; d < 3; ++d)
+        for (scalar& x : cell.body.x)
         {
-            numbers.append(&cell.body.x[d]);
+            numbers.append(&x);
         }
-        for (int d = 0; d < 4; ++d)
+        for (scalar& q : cell.body.q)
         {
-            numbers.append(&cell.body.q[d]);
+            numbers.append(&q);
         }
         numbers.append(&cell.deepest);
         numbers.append(&cell.deepestCell);
@@ -46,12 +46,6 @@ namespace Foam
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-const char* Foam::cellEvent::patchName(const wordList& patches, const label i)
-{
-    return i < 0 ? "-" : patches[i].c_str();
-}
-
-
 std::string Foam::cellEvent::header(const bool sizes)
 {
     return
@@ -60,21 +54,14 @@ std::string Foam::cellEvent::header(const bool sizes)
 }
 
 
-void Foam::cellEvent::write
-(
-    std::ostream& os,
-    const wordList& patches,
-    const bool sizes
-) const
+void Foam::cellEvent::write(std::ostream& os, const tableSet& set) const
 {
-    os  << cell.time << ',' << cell.id << ',' << type << ','
-        << patchName(patches, cell.patch);
+    cellState now(cell);
 
-    for
-    (
-        const scalar* number
-      : numbersOf<const cellState, const scalar>(cell, sizes)
-    )
+    os  << now.time << ',' << now.id << ',' << type << ','
+        << set.patchName(now.patch);
+
+    for (const scalar* number : numbersOf(now, set.population.varies()))
     {
         os << ',' << *number;
     }
@@ -82,12 +69,7 @@ void Foam::cellEvent::write
 }
 
 
-bool Foam::cellEvent::read
-(
-    std::string line,
-    const wordList& patches,
-    const bool sizes
-)
+bool Foam::cellEvent::read(std::string line, const tableSet& set)
 {
     std::replace(line.begin(), line.end(), ',', ' ');
     std::istringstream is(line);
@@ -95,7 +77,7 @@ bool Foam::cellEvent::read
 
     is >> cell.time >> cell.id >> static_cast<std::string&>(type) >> patch;
 
-    for (scalar* number : numbersOf<cellState, scalar>(cell, sizes))
+    for (scalar* number : numbersOf(cell, set.population.varies()))
     {
         is >> *number;
     }
@@ -106,7 +88,7 @@ bool Foam::cellEvent::read
         entered
       ? cellState::inFlight
       : cellState::fateNames.get(type, cellState::nFates);
-    cell.patch = patches.find(patch);
+    cell.patch = set.patchNames.find(patch);
 
     return
         is

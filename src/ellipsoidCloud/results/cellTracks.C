@@ -8,37 +8,107 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "cellTracks.H"
-#include "writeTracksVTP.H"
-#include "Pstream.H"
+#include "atomicWrite.H"
 #include "PstreamReduceOps.H"
+#include "stringOps.H"
 
-#include <algorithm>
 #include <cmath>
+#include <map>
+#include <vector>
 
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
-void Foam::cellTracks::append
-(
-    cellState& cell,
-    const scalar t,
-    const ellipsoid_state& body,
-    DynamicList<row>& rows
-)
+namespace Foam
 {
-    row r;
-    r[0] = t;
-    r[1] = cell.id;
-    std::copy_n(body.x, 3, r.begin() + 2);
-    std::copy_n(body.u, 3, r.begin() + 5);
-    std::copy_n(body.q, 4, r.begin() + 8);
-    std::copy_n(body.omega, 3, r.begin() + 12);
-    r[15] = cell.fate;
-    r[16] = cell.patch;
-    rows.append(r);
+    //- Append a row
+    static void append
+    (
+        cellState& cell,
+        const scalar t,
+        const ellipsoid_state& body,
+        DynamicList<cellTracks::row>& rows
+    )
+    {
+        cellTracks::row r;
+        r[0] = t;
+        r[1] = cell.id;
+        std::copy_n(body.x, 3, r.begin() + 2);
+        std::copy_n(body.u, 3, r.begin() + 5);
+        std::copy_n(body.q, 4, r.begin() + 8);
+        std::copy_n(body.omega, 3, r.begin() + 12);
+        r[15] = cell.fate;
+        r[16] = cell.patch;
+        rows.append(r);
 
-    cell.lastRow[0] = t;
-    std::copy_n(body.x, 3, cell.lastRow + 1);
-    std::copy_n(body.q, 4, cell.lastRow + 4);
+        cell.lastRow[0] = t;
+        std::copy_n(body.x, 3, cell.lastRow + 1);
+        std::copy_n(body.q, 4, cell.lastRow + 4);
+    }
+
+    //- Column of the fate, which is a name there and a number here
+    static const label fateColumn = 18;
+
+    //- Columns of tracks.csv that make an array
+    struct trackArray
+    {
+        const char* type;
+        const char* name;
+        label nComponents;
+        label firstColumn;
+    };
+
+    static const trackArray positions = { "Float64", "x", 3, 2 };
+
+    static const trackArray pointData[] =
+    {
+        { "Float64", "t", 1, 0 },
+        { "Int32", "id", 1, 1 },
+        { "Float64", "U", 3, 5 },
+        { "Float64", "omega", 3, 12 },
+        { "Float64", "O", 3, 15 },
+        { "Int32", "fate", 1, fateColumn }
+    };
+
+    //- The rows of each cell
+    typedef std::map<label, std::vector<std::string>> trackRows;
+
+    static void writeArray
+    (
+        std::ostream& os,
+        const trackArray& array,
+        const trackRows& cells
+    )
+    {
+        os  << "<DataArray type=\"" << array.type << "\" Name=\"" << array.name
+            << "\" NumberOfComponents=\"" << array.nComponents
+            << "\" format=\"ascii\">\n";
+
+        for (const auto& cell : cells)
+        {
+            for (const std::string& row : cell.second)
+            {
+                const auto fields = stringOps::split(row, ',');
+
+                for (label d = 0; d < array.nComponents; ++d)
+                {
+                    const label column = array.firstColumn + d;
+                    const std::string text(fields[column].str());
+
+                    os << (d ? " " : "");
+                    if (column == fateColumn)
+                    {
+                        os << label(cellState::fateNames[text]);
+                    }
+                    else
+                    {
+                        os << text;
+                    }
+                }
+                os << '\n';
+            }
+        }
+        os << "</DataArray>\n";
+    }
 }
 
 
@@ -46,17 +116,14 @@ void Foam::cellTracks::append
 
 Foam::cellTracks::setting::setting(const dictionary& dict)
 :
-    interval
-    (
-        ellipsoidProperties::getAboveOrDefault(dict, "interval", 0, 1e-3)
-    ),
+    interval(ellipsoidProperties::number(dict, "interval", above(0), 1e-3)),
     heldInterval
     (
-        ellipsoidProperties::getAboveOrDefault(dict, "heldInterval", 0, 0.1)
+        ellipsoidProperties::number(dict, "heldInterval", above(0), 0.1)
     ),
     minimumMove
     (
-        ellipsoidProperties::getAboveOrDefault(dict, "minimumMove", 0, 0.01)
+        ellipsoidProperties::number(dict, "minimumMove", above(0), 0.01)
     )
 {
     ellipsoidProperties::checkKeywords
@@ -66,27 +133,17 @@ Foam::cellTracks::setting::setting(const dictionary& dict)
 }
 
 
-Foam::cellTracks::cellTracks
-(
-    const setting& given,
-    const wordList& patchNames,
-    const cellPopulation& population,
-    const fileName& folder,
-    const dictionary& earlier
-)
+Foam::cellTracks::cellTracks(const tableSet& set)
 :
-    patchNames_(patchNames),
-    setting_(given),
-    population_(population),
-    folder_(folder),
-    rows_(),
-    file_
+    set_(set),
+    setting_(set.population.properties().section("tracks")),
+    file
     (
-        folder/"tracks.csv",
+        set,
+        "tracks",
         "t,id,x1,x2,x3,u1,u2,u3,eps1,eps2,eps3,eta,"
         "omega1,omega2,omega3,O1,O2,O3,fate,patch",
-        9,
-        earlier
+        9
     )
 {}
 
@@ -108,6 +165,9 @@ void Foam::cellTracks::add
     DynamicList<row>& rows
 ) const
 {
+    const scalar longest =
+        longestSemiAxis(set_.population.model(cell.id).options);
+
     while (cell.nextRow <= step.end)
     {
         ellipsoid_state body;
@@ -134,7 +194,7 @@ void Foam::cellTracks::add
           > setting_.heldInterval - 0.5*setting_.interval;
 
         const bool moved =
-            move > sqr(setting_.minimumMove*population_.longest(cell.id))
+            move > sqr(setting_.minimumMove*longest)
          || turn > setting_.minimumMove;
 
         if (due && moved)
@@ -160,10 +220,8 @@ void Foam::cellTracks::finish(cellState& cell, DynamicList<row>& rows) const
 
 void Foam::cellTracks::flush()
 {
-    List<List<row>> all(Pstream::nProcs());
-    all[Pstream::myProcNo()] = rows_;
+    const List<List<row>> all(gathered(List<row>(rows_)));
     rows_.clear();
-    Pstream::gatherList(all);
 
     if (!Pstream::master())
     {
@@ -176,17 +234,10 @@ void Foam::cellTracks::flush()
         rows.append(some);
     }
 
-    std::sort
-    (
-        rows.begin(),
-        rows.end(),
-        [](const row& a, const row& b)
-        {
-            return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
-        }
-    );
+    // By time and cell, which no two have in common
+    Foam::sort(rows);
 
-    std::ostream& os = file_.stream();
+    std::ostream& os = file.stream();
 
     for (const row& r : rows)
     {
@@ -198,21 +249,64 @@ void Foam::cellTracks::flush()
         }
 
         const vector O(longAxis(&r[8]));
-        const label patchi(r[16]);
 
         os  << ',' << O.x() << ',' << O.y() << ',' << O.z()
             << ',' << cellState::fateNames[cellState::fateType(label(r[15]))]
-            << ',' << (patchi < 0 ? "-" : patchNames_[patchi].c_str())
-            << '\n';
+            << ',' << set_.patchName(label(r[16])) << '\n';
     }
 
-    file_.flush();
+    file.flush();
 }
 
 
 void Foam::cellTracks::writeVTP() const
 {
-    writeTracksVTP(file_.name(), folder_/"tracks.vtp");
+    trackRows cells;
+    label nPoints = 0;
+
+    const fileName vtp(set_.folder/"tracks.vtp");
+    std::ifstream is(file.name());
+    std::string line;
+    std::getline(is, line);
+
+    while (std::getline(is, line))
+    {
+        cells[std::stol(line.substr(line.find(',') + 1))].push_back(line);
+        ++nPoints;
+    }
+
+    std::ofstream os(vtp);
+    os  << "<?xml version=\"1.0\"?>\n"
+        << "<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
+        << "<Piece NumberOfPoints=\"" << nPoints << "\" NumberOfLines=\""
+        << cells.size() << "\">\n<Points>\n";
+    writeArray(os, positions, cells);
+    os  << "</Points>\n<PointData>\n";
+    for (const trackArray& array : pointData)
+    {
+        writeArray(os, array, cells);
+    }
+    os  << "</PointData>\n<Lines>\n"
+        << "<DataArray type=\"Int64\" Name=\"connectivity\""
+        << " format=\"ascii\">\n";
+    for (label i = 0; i < nPoints; ++i)
+    {
+        os << i << '\n';
+    }
+    os  << "</DataArray>\n"
+        << "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
+    label offset = 0;
+    for (const auto& cell : cells)
+    {
+        offset += cell.second.size();
+        os << offset << '\n';
+    }
+    os  << "</DataArray>\n</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+
+    if (!os.flush())
+    {
+        cannotWrite(vtp);
+    }
 }
 
 

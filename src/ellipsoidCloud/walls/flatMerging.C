@@ -7,278 +7,314 @@ License
     See COPYING at the top of the source tree.
 
 \*---------------------------------------------------------------------------*/
-#include "flatMerging.H"
 
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+#include "flatMerging.H"
+#include "DynamicList.H"
+
+// * * * * * * * * * * * * * * * Local Classes  * * * * * * * * * * * * * * * //
 
 namespace Foam
 {
-    //- A turn smaller than this [rad] is rounding
-    static const scalar flatAngle = 1e-8;
 
-    //- More triangles than this at a point would make a hub
-    static const label maxTriangles = 24;
-}
+//- A turn smaller than this [rad] is rounding
+static const scalar flatAngle = 1e-8;
+
+//- More triangles than this at a point would make a hub
+static const label maxTriangles = 24;
 
 
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+/*---------------------------------------------------------------------------*\
+                         Class flatMerging Declaration
+\*---------------------------------------------------------------------------*/
 
-bool Foam::flatMerging::flat(const label a, const label b) const
+class flatMerging
 {
-    return
-        triangles_[a].region() == triangles_[b].region()
-     && (normals_[a] & normals_[b]) > 0
-     && mag(normals_[a] ^ normals_[b]) < flatAngle;
-}
+    // Private Data
+
+        //- The points that the surface uses
+        const pointField& points_;
+
+        //- Longest edge [m] that may come about
+        const scalar maxEdge_;
+
+        //- Triangles; those taken out have a region below 0
+        List<labelledTri> triangles_;
+
+        //- Unit normals of the triangles
+        vectorField normals_;
+
+        //- Triangles at each point
+        List<DynamicList<label>> pointTriangles_;
 
 
-Foam::DynamicList<Foam::label> Foam::flatMerging::around
-(
-    const label pointi
-) const
-{
-    DynamicList<label> points;
+    // Private Member Functions
 
-    for (const label trii : pointTriangles_[pointi])
-    {
-        for (const label other : triangles_[trii])
+        //- Are two triangles part of one plane and region?
+        bool flat(const label a, const label b) const
         {
-            if (other != pointi && !points.found(other))
+            return
+                triangles_[a].region() == triangles_[b].region()
+             && (normals_[a] & normals_[b]) > 0
+             && mag(normals_[a] ^ normals_[b]) < flatAngle;
+        }
+
+        //- The points that share a triangle with a point
+        DynamicList<label> around(const label pointi) const
+        {
+            DynamicList<label> points;
+
+            for (const label trii : pointTriangles_[pointi])
             {
-                points.append(other);
-            }
-        }
-    }
-
-    return points;
-}
-
-
-Foam::DynamicList<Foam::label> Foam::flatMerging::targets
-(
-    const label pointi
-) const
-{
-    const DynamicList<label> points(around(pointi));
-    DynamicList<label> creases;
-
-    for (const label other : points)
-    {
-        DynamicList<label> sharing;
-        for (const label trii : pointTriangles_[pointi])
-        {
-            if (triangles_[trii].found(other))
-            {
-                sharing.append(trii);
-            }
-        }
-
-        if (sharing.size() > 2)
-        {
-            return DynamicList<label>();
-        }
-        if (sharing.size() == 1 || !flat(sharing[0], sharing[1]))
-        {
-            creases.append(other);
-        }
-    }
-
-    if (creases.size() == 2)
-    {
-        const vector a(normalised(points_[creases[0]] - points_[pointi]));
-        const vector b(normalised(points_[creases[1]] - points_[pointi]));
-
-        // Along a straight crease
-        if ((a & b) < 0 && mag(a ^ b) < flatAngle)
-        {
-            return creases;
-        }
-    }
-
-    return creases.empty() ? points : DynamicList<label>();
-}
-
-
-Foam::scalar Foam::flatMerging::movedEdge
-(
-    const label trii,
-    const label pointi,
-    const label target
-) const
-{
-    // A triangle's height over its longest edge at the least
-    const scalar thinnest = 1e-3;
-
-    FixedList<point, 3> x;
-    for (label k = 0; k < 3; ++k)
-    {
-        const label corner = triangles_[trii][k];
-        x[k] = points_[corner == pointi ? target : corner];
-    }
-
-    const scalar edge =
-        max(max(mag(x[1] - x[0]), mag(x[2] - x[1])), mag(x[0] - x[2]));
-    const vector area((x[1] - x[0]) ^ (x[2] - x[0]));
-    const bool alike =
-        edge <= maxEdge_
-     && (area & normals_[trii]) >= thinnest*sqr(edge)
-     && mag(area ^ normals_[trii]) <= flatAngle*mag(area);
-
-    return alike ? edge : GREAT;
-}
-
-
-Foam::scalar Foam::flatMerging::cost
-(
-    const label pointi,
-    const label target
-) const
-{
-    scalar longest = 0;
-    label nShared = 0;
-    label nCommon = 0;
-
-    for (const label trii : pointTriangles_[pointi])
-    {
-        if (triangles_[trii].found(target))
-        {
-            ++nShared;
-        }
-        else
-        {
-            longest = max(longest, movedEdge(trii, pointi, target));
-        }
-    }
-
-    // Points next to both are those of the shared triangles, or the surface
-    // would fold onto itself
-    const DynamicList<label> aroundTarget(around(target));
-    for (const label other : around(pointi))
-    {
-        nCommon += aroundTarget.found(other);
-    }
-
-    const label nTriangles =
-        pointTriangles_[pointi].size() + pointTriangles_[target].size();
-
-    return
-        nTriangles > maxTriangles + 2*nShared || nCommon != nShared
-      ? GREAT : longest;
-}
-
-
-void Foam::flatMerging::collapse
-(
-    const label pointi,
-    const label target,
-    DynamicList<label>& queue
-)
-{
-    for (const label trii : pointTriangles_[pointi])
-    {
-        labelledTri& t = triangles_[trii];
-        const bool shared = triangles_[trii].found(target);
-
-        for (label& other : t)
-        {
-            if (other == pointi)
-            {
-                other = target;
-                continue;
+                for (const label other : triangles_[trii])
+                {
+                    if (other != pointi && !points.found(other))
+                    {
+                        points.append(other);
+                    }
+                }
             }
 
-            queue.append(other);
+            return points;
+        }
 
-            if (shared)
+        //- The points that a point may be moved to by what the surface is like
+        //  around it; none at corners
+        DynamicList<label> targets(const label pointi) const
+        {
+            const DynamicList<label> points(around(pointi));
+            DynamicList<label> creases;
+
+            for (const label other : points)
             {
-                DynamicList<label>& list = pointTriangles_[other];
-                list.remove(list.find(trii));
+                DynamicList<label> sharing;
+                for (const label trii : pointTriangles_[pointi])
+                {
+                    if (triangles_[trii].found(other))
+                    {
+                        sharing.append(trii);
+                    }
+                }
+
+                if (sharing.size() > 2)
+                {
+                    return DynamicList<label>();
+                }
+                if (sharing.size() == 1 || !flat(sharing[0], sharing[1]))
+                {
+                    creases.append(other);
+                }
+            }
+
+            if (creases.size() == 2)
+            {
+                const point& x = points_[pointi];
+                const vector a(normalised(points_[creases[0]] - x));
+                const vector b(normalised(points_[creases[1]] - x));
+
+                // Along a straight crease
+                if ((a & b) < 0 && mag(a ^ b) < flatAngle)
+                {
+                    return creases;
+                }
+            }
+
+            return creases.empty() ? points : DynamicList<label>();
+        }
+
+        //- Longest edge of a triangle if its point is moved to another, or
+        //  GREAT if it would be too long or thin or not lie in its plane
+        scalar movedEdge
+        (
+            const label trii,
+            const label pointi,
+            const label target
+        ) const
+        {
+            // A triangle's height over its longest edge at the least
+            const scalar thinnest = 1e-3;
+
+            FixedList<point, 3> x;
+            for (label k = 0; k < 3; ++k)
+            {
+                const label corner = triangles_[trii][k];
+                x[k] = points_[corner == pointi ? target : corner];
+            }
+
+            const scalar edge =
+                max(max(mag(x[1] - x[0]), mag(x[2] - x[1])), mag(x[0] - x[2]));
+            const vector area((x[1] - x[0]) ^ (x[2] - x[0]));
+            const bool alike =
+                edge <= maxEdge_
+             && (area & normals_[trii]) >= thinnest*sqr(edge)
+             && mag(area ^ normals_[trii]) <= flatAngle*mag(area);
+
+            return alike ? edge : GREAT;
+        }
+
+        //- Longest edge if the point is moved to another, or GREAT if the
+        //  surface would not stay what it is
+        scalar cost(const label pointi, const label target) const
+        {
+            scalar longest = 0;
+            label nShared = 0;
+            label nCommon = 0;
+
+            for (const label trii : pointTriangles_[pointi])
+            {
+                if (triangles_[trii].found(target))
+                {
+                    ++nShared;
+                }
+                else
+                {
+                    longest = max(longest, movedEdge(trii, pointi, target));
+                }
+            }
+
+            // Points next to both are those of the shared triangles, or the
+            // surface would fold onto itself
+            const DynamicList<label> aroundTarget(around(target));
+            for (const label other : around(pointi))
+            {
+                nCommon += aroundTarget.found(other);
+            }
+
+            const label nTriangles =
+                pointTriangles_[pointi].size() + pointTriangles_[target].size();
+
+            return
+                nTriangles > maxTriangles + 2*nShared || nCommon != nShared
+              ? GREAT : longest;
+        }
+
+        //- Move a point to another and append the points around to the queue
+        void collapse
+        (
+            const label pointi,
+            const label target,
+            DynamicList<label>& queue
+        )
+        {
+            for (const label trii : pointTriangles_[pointi])
+            {
+                labelledTri& t = triangles_[trii];
+                const bool shared = triangles_[trii].found(target);
+
+                for (label& other : t)
+                {
+                    if (other == pointi)
+                    {
+                        other = target;
+                        continue;
+                    }
+
+                    queue.append(other);
+
+                    if (shared)
+                    {
+                        DynamicList<label>& list = pointTriangles_[other];
+                        list.remove(list.find(trii));
+                    }
+                }
+
+                if (shared)
+                {
+                    t.region() = -1;
+                }
+                else
+                {
+                    pointTriangles_[target].append(trii);
+                }
+            }
+
+            pointTriangles_[pointi].clear();
+            queue.append(target);
+        }
+
+
+public:
+
+    // Constructors
+
+        flatMerging(const triSurface& surface, const scalar maxEdge)
+        :
+            points_(surface.localPoints()),
+            maxEdge_(maxEdge),
+            triangles_(surface.size()),
+            normals_(surface.size()),
+            pointTriangles_(surface.nPoints())
+        {
+            forAll(triangles_, trii)
+            {
+                const triFace& f = surface.localFaces()[trii];
+                const label region = surface[trii].region();
+                const labelledTri t(f[0], f[1], f[2], region);
+                triangles_[trii] = t;
+                normals_[trii] = normalised(t.areaNormal(points_));
+
+                for (const label pointi : triangles_[trii])
+                {
+                    pointTriangles_[pointi].append(trii);
+                }
             }
         }
 
-        if (shared)
+
+    // Member Functions
+
+        //- The merged surface, with all points
+        triSurface merged()
         {
-            t.region() = -1;
+            DynamicList<label> queue(identity(points_.size()));
+
+            for (label i = 0; i < queue.size(); ++i)
+            {
+                const label pointi = queue[i];
+                scalar best = GREAT;
+                label bestTarget = -1;
+
+                for (const label target : targets(pointi))
+                {
+                    const scalar c = cost(pointi, target);
+
+                    if (c < best)
+                    {
+                        best = c;
+                        bestTarget = target;
+                    }
+                }
+
+                if (bestTarget >= 0)
+                {
+                    collapse(pointi, bestTarget, queue);
+                }
+            }
+
+            DynamicList<labelledTri> kept(triangles_.size());
+            for (const labelledTri& t : triangles_)
+            {
+                if (t.region() >= 0)
+                {
+                    kept.append(t);
+                }
+            }
+
+            return triSurface(List<labelledTri>(kept), points_);
         }
-        else
-        {
-            pointTriangles_[target].append(trii);
-        }
-    }
+};
 
-    pointTriangles_[pointi].clear();
-    queue.append(target);
-}
+} // End namespace Foam
 
 
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
-Foam::flatMerging::flatMerging
+Foam::triSurface Foam::flatMerged
 (
     const triSurface& surface,
     const scalar maxEdge
 )
-:
-    points_(surface.localPoints()),
-    maxEdge_(maxEdge),
-    triangles_(surface.size()),
-    normals_(surface.size()),
-    pointTriangles_(surface.nPoints())
 {
-    forAll(triangles_, trii)
-    {
-        const triFace& f = surface.localFaces()[trii];
-        const label region = surface[trii].region();
-        triangles_[trii] = labelledTri(f[0], f[1], f[2], region);
-        normals_[trii] = normalised(triangles_[trii].areaNormal(points_));
-
-        for (const label pointi : triangles_[trii])
-        {
-            pointTriangles_[pointi].append(trii);
-        }
-    }
-}
-
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-Foam::triSurface Foam::flatMerging::merged()
-{
-    DynamicList<label> queue(identity(points_.size()));
-
-    for (label i = 0; i < queue.size(); ++i)
-    {
-        const label pointi = queue[i];
-        scalar best = GREAT;
-        label bestTarget = -1;
-
-        for (const label target : targets(pointi))
-        {
-            const scalar c = cost(pointi, target);
-
-            if (c < best)
-            {
-                best = c;
-                bestTarget = target;
-            }
-        }
-
-        if (bestTarget >= 0)
-        {
-            collapse(pointi, bestTarget, queue);
-        }
-    }
-
-    DynamicList<labelledTri> kept(triangles_.size());
-    for (const labelledTri& t : triangles_)
-    {
-        if (t.region() >= 0)
-        {
-            kept.append(t);
-        }
-    }
-
-    return triSurface(List<labelledTri>(kept), points_);
+    return flatMerging(surface, maxEdge).merged();
 }
 
 

@@ -9,113 +9,117 @@ License
 \*---------------------------------------------------------------------------*/
 #include "wallFacets.H"
 #include "flatMerging.H"
-#include "polyMesh.H"
+#include "fvMesh.H"
 #include "treeBoundBox.H"
 #include "treeDataTriSurface.H"
+#include "undecomposedFlow.H"
 #include "wallPolyPatch.H"
-#include "Pstream.H"
 
-#include <algorithm>
 #include <cmath>
 
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
-Foam::label Foam::wallFacets::fanBase
-(
-    const face& f,
-    const pointField& points,
-    const label preferred
-)
+namespace Foam
 {
-    // Of the face's area; less is a point in line with its neighbours
-    const scalar noArea = 1e-10;
-
-    const vector normal(f.areaNormal(points)/(f.mag(points) + VSMALL));
-    scalar largest = 0;
-    label best = -1;
-
-    for (label i = 0; i < f.size(); ++i)
+    //- The point of a face from which it can be cut into triangles: the
+    //  preferred one, as the flow's tetrahedra are cut, if all have an area;
+    //  else the best; -1 if there is none
+    static label fanBase
+    (
+        const face& f,
+        const pointField& points,
+        const label preferred
+    )
     {
-        const label base = (preferred + i) % f.size();
-        scalar smallest = GREAT;
+        // Of the face's area; less is a point in line with its neighbours
+        const scalar noArea = 1e-10;
 
-        for (label trii = 1; trii < f.size() - 1; ++trii)
+        const vector normal(f.areaNormal(points)/(f.mag(points) + VSMALL));
+        scalar largest = 0;
+        label best = -1;
+
+        for (label i = 0; i < f.size(); ++i)
         {
-            const point& a = points[f[base]];
-            const point& b = points[f[(base + trii) % f.size()]];
-            const point& c = points[f[(base + trii + 1) % f.size()]];
-
-            smallest = min(smallest, 0.5*(((b - a) ^ (c - a)) & normal));
-        }
-
-        if (smallest > max(largest, noArea*f.mag(points)))
-        {
-            largest = smallest;
-            best = base;
-        }
-        if (i == 0 && best >= 0)
-        {
-            break;
-        }
-    }
-
-    return best;
-}
-
-
-Foam::triSurface Foam::wallFacets::triangulate(const polyMesh& mesh)
-{
-    const labelList& basePoints = mesh.tetBasePtIs();
-    DynamicList<labelledTri> triangles;
-
-    forAll(mesh.boundaryMesh(), patchi)
-    {
-        const polyPatch& pp = mesh.boundaryMesh()[patchi];
-
-        if (!isA<wallPolyPatch>(pp))
-        {
-            continue;
-        }
-
-        forAll(pp, i)
-        {
-            const face& f = pp[i];
-            const label base = fanBase
-            (
-                f,
-                mesh.points(),
-                max(basePoints[pp.start() + i], label(0))
-            );
-
-            if (base < 0)
-            {
-                FatalErrorInFunction
-                    << "a face of wall " << pp.name() << " at "
-                    << f.centre(mesh.points()) << " cannot be cut into "
-                    << "triangles from any of its points: checkMesh says more"
-                    << exit(FatalError);
-            }
+            const label base = (preferred + i) % f.size();
+            scalar smallest = GREAT;
 
             for (label trii = 1; trii < f.size() - 1; ++trii)
             {
-                // Faces point out of the mesh, facets into the fluid
-                triangles.append
-                (
-                    labelledTri
-                    (
-                        f[base],
-                        f[(base + trii + 1) % f.size()],
-                        f[(base + trii) % f.size()],
-                        patchi
-                    )
-                );
+                const point& a = points[f[base]];
+                const point& b = points[f[(base + trii) % f.size()]];
+                const point& c = points[f[(base + trii + 1) % f.size()]];
+
+                smallest = min(smallest, 0.5*(((b - a) ^ (c - a)) & normal));
+            }
+
+            if (smallest > max(largest, noArea*f.mag(points)))
+            {
+                largest = smallest;
+                best = base;
+            }
+            if (i == 0 && best >= 0)
+            {
+                break;
             }
         }
+
+        return best;
     }
 
-    return triSurface(List<labelledTri>(triangles), mesh.points());
+    //- Split the wall faces of the undecomposed mesh into triangles
+    static triSurface triangulate(const polyMesh& mesh)
+    {
+        const labelList& basePoints = mesh.tetBasePtIs();
+        DynamicList<labelledTri> triangles;
+
+        forAll(mesh.boundaryMesh(), patchi)
+        {
+            const polyPatch& pp = mesh.boundaryMesh()[patchi];
+
+            if (!isA<wallPolyPatch>(pp))
+            {
+                continue;
+            }
+
+            forAll(pp, i)
+            {
+                const face& f = pp[i];
+                const label preferred = max(basePoints[pp.start() + i], 0);
+                const label base = fanBase(f, mesh.points(), preferred);
+
+                if (base < 0)
+                {
+                    FatalErrorInFunction
+                        << "a face of wall " << pp.name() << " at "
+                        << f.centre(mesh.points()) << " cannot be cut into "
+                        << "triangles from any of its points: "
+                        << "checkMesh says more"
+                        << exit(FatalError);
+                }
+
+                for (label trii = 1; trii < f.size() - 1; ++trii)
+                {
+                    // Faces point out of the mesh, facets into the fluid
+                    triangles.append
+                    (
+                        labelledTri
+                        (
+                            f[base],
+                            f[(base + trii + 1) % f.size()],
+                            f[(base + trii) % f.size()],
+                            patchi
+                        )
+                    );
+                }
+            }
+        }
+
+        return triSurface(List<labelledTri>(triangles), mesh.points());
+    }
 }
 
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::wallFacets::setFacets()
 {
@@ -247,7 +251,11 @@ const Foam::wallFacets::region& Foam::wallFacets::regionAt
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::wallFacets::wallFacets(const polyMesh* wholeMesh, const scalar length)
+Foam::wallFacets::wallFacets
+(
+    const undecomposedFlow& undecomposed,
+    const scalar length
+)
 :
     regionSize_(length)
 {
@@ -256,12 +264,12 @@ Foam::wallFacets::wallFacets(const polyMesh* wholeMesh, const scalar length)
 
     if (Pstream::master())
     {
-        const triSurface faces(triangulate(*wholeMesh));
-        const triSurface merged(flatMerging(faces, 2*length).merged());
+        const triSurface faces(triangulate(undecomposed.mesh()));
+        const triSurface merged(flatMerged(faces, 2*length));
 
         triangles = merged;
         points = merged.points();
-        span_ = boundBox(wholeMesh->points(), false);
+        span_ = boundBox(undecomposed.mesh().points(), false);
     }
 
     Pstream::scatter(span_);

@@ -126,15 +126,14 @@ struct journey
 
     journey
     (
-        const frozenFlow& flow,
-        const wallFacets& facets,
+        const cellDomain& domain,
         const frozenFlow::probe& at,
         const ellipsoid_model& of,
         const scalar clockTime
     )
     :
-        here(flow, facets, at),
-        walls(facets),
+        here(domain, at),
+        walls(domain.walls),
         model(of),
         clock(clockTime),
         steps(),
@@ -174,12 +173,12 @@ int observe(void* context, const ellipsoid_step* step)
     t.cost = seconds() - j.since - j.clock;
     t.span = step->end - step->start;
     t.rejected = j.done.rejected - j.rejected;
-    t.landings = max(step->contact.touching_beads - j.touching, 0);
+    t.landings = max(step->contact.bead_contacts - j.touching, 0);
 
     const bool wasNear = j.near;
     const bool touched = j.touching > 0;
     j.near = j.nearWalls(x);
-    j.touching = step->contact.touching_beads;
+    j.touching = step->contact.bead_contacts;
     j.rejected = j.done.rejected;
     t.kind =
         touched || j.touching > 0 ? FLYING
@@ -196,25 +195,18 @@ int observe(void* context, const ellipsoid_step* step)
 void advance
 (
     journey& j,
-    const cellInjection::newCell& cell,
-    const frozenFlow& flow,
+    const cellState& cell,
     const Time& runTime,
     const scalar slowSpeed
 )
 {
-    ellipsoid_surroundings around = j.here.core();
     ellipsoid_controller controller = {};
-    ellipsoid_state body = {};
+    ellipsoid_state body = cell.body;
     ellipsoid_facet_cache cache;
     ellipsoid_facet_cache_clear(&cache);
 
-    ellipsoid_flow_sample sample;
-    frozenFlow::probe at(cell.at);
-    flow.sample(cell.x, at, false, sample);
-    std::copy_n(cell.x, 3, body.x);
-    std::copy_n(cell.q, 4, body.q);
-    std::copy_n(sample.velocity, 3, body.u);
-
+    const ellipsoid_member member =
+        {&j.model, &j.here, &body, &controller, &cache, &j, &j.done};
     const scalar interval = runTime.deltaTValue();
     ellipsoid_status status = ELLIPSOID_OK;
     scalar t = 0;
@@ -232,8 +224,7 @@ void advance
         j.since = seconds();
         status = ellipsoid_advance
         (
-            &j.model, &around, &body, &t, i*interval,
-            &controller, &cache, observe, &j, &j.done
+            &member, &t, i*interval, observe
         );
 
         // Held by what it has moved: of one that bounces speed tells little
@@ -375,36 +366,22 @@ int main(int argc, char *argv[])
 
     undecomposedFlow whole(mesh);
     whole.gather(U, p, phi);
-    const frozenFlow flow
-    (
-        whole,
-        options.fluid_density,
-        properties.scheme(),
-        autoPtr<volVectorField>()
-    );
-    const wallFacets walls
-    (
-        &mesh,
-        *std::max_element(options.semi_axes, options.semi_axes + 3)
-    );
+    const cellDomain domain(properties, whole, autoPtr<volVectorField>());
     const scalar slowSpeed =
-        ellipsoidProperties::getAboveOrDefault
+        ellipsoidProperties::number
         (
-            properties.section("capture"), "speedFraction", 0, 0.01
+            properties.section("capture"), "speedFraction", above(0), 0.01
         )
        *inletFlux(U, phi).speed;
 
-    const cellInjection::setting from
-    {
-        whole, flow, walls, population, properties.seed()
-    };
-    DynamicList<cellInjection::newCell> cells;
+    DynamicList<cellState> cells;
     for (const entry& e : properties.subDict("injection"))
     {
-        cellInjection::New(e.dict(), from, cells.size())->append
-        (
-            -GREAT, GREAT, cells
-        );
+        const cellInjection::setting from
+        {
+            e.dict(), whole, domain, population, cells.size()
+        };
+        cellInjection::New(from)->append(-GREAT, GREAT, cells);
     }
 
     const label nRepeats = args.getOrDefault<label>("repeats", 5);
@@ -418,10 +395,11 @@ int main(int argc, char *argv[])
     for (label n = 0; n < nRepeats; ++n)
     {
         std::vector<taken> steps;
-        for (const cellInjection::newCell& cell : cells)
+        for (const cellState& cell : cells)
         {
-            journey j(flow, walls, cell.at, population.median(), clock);
-            advance(j, cell, flow, runTime, slowSpeed);
+            const frozenFlow::probe at{cell.tet, -1};
+            journey j(domain, at, population.median(), clock);
+            advance(j, cell, runTime, slowSpeed);
             steps.insert(steps.end(), j.steps.begin(), j.steps.end());
         }
 
@@ -438,7 +416,8 @@ int main(int argc, char *argv[])
     std::printf
     (
         "%d cells, %d wall facets, tolerance %g, clock %.2f us\n",
-        int(cells.size()), int(walls.size()), options.tolerance, 1e6*clock
+        int(cells.size()), int(domain.walls.size()), options.tolerance,
+        1e6*clock
     );
     print(repeats);
 

@@ -21,6 +21,8 @@ NEAR = 3.0        # micrometres between the cell's centre and a sieve that it de
 AFTER = 20e-3     # s between the passing of the sieve and the flip
 AROUND = 1e-3     # s before and after the flip for the change of u2
 PAPER_FLIP = 55.0   # ms
+SPREAD = 20.0       # ms about it
+RISE, STEEP = 0.2, 0.5   # mm/s and 1/ms from which on a flip fits in full
 
 
 def flips(track):
@@ -37,10 +39,11 @@ def flips(track):
 
 
 class Account(namedtuple(
-    "Account", "cell sieve passing gap free flip rise steep across exit time"
+    "Account", "cell sieve passing gap free flip rise steep across exit time among", defaults=(1,)
 )):
     """What a cell does of the paper's account; passing and flip are times of the run [s],
-    rise [mm/s], steep [1/ms], time of the flip since the injection [ms]."""
+    rise [mm/s], steep [1/ms], time of the flip since the injection [ms]. It is the best of so
+    many."""
 
     __slots__ = ()
 
@@ -50,12 +53,25 @@ class Account(namedtuple(
         return np.mean([
             self.free,
             np.clip((2 * NEAR - self.gap) / NEAR, 0, 1),
-            np.clip(self.rise / 0.2, 0, 1),
-            np.clip(self.steep / 0.5, 0, 1),
+            np.clip(self.rise / RISE, 0, 1),
+            np.clip(self.steep / STEEP, 0, 1),
             self.across,
             self.exit,
-            np.exp(-((self.time - PAPER_FLIP) / 20) ** 2),
+            np.exp(-((self.time - PAPER_FLIP) / SPREAD) ** 2),
         ])
+
+    @property
+    def explained(self):
+        """What the score is, and what it is not, for a caption."""
+        chosen = f"""Cell {self.cell} is the best of {self.among}, those that pass {self.sieve} and flip
+            after it: that one of so many fits tells that such a motion occurs, not how often.
+            """ if self.among > 1 else ""
+        return f"""Its fit to the paper's account is {self.score:.2f} of 1, the mean of seven parts of
+            0 to 1: the median |O_x2| until it passes {self.sieve}; its gap there, 1 up to
+            {NEAR:g} µm and 0 from {2 * NEAR:g} µm; the rise of u2 within {MILLI * AROUND:g} ms of
+            the flip over {RISE:g} mm/s; |dO_x2/dt| over {STEEP:g} per ms; the higher of |O_x1| and
+            |O_x3| at the flip; |O_x2| at the chamber's end; and exp(-(t - {PAPER_FLIP:g} ms)² /
+            ({SPREAD:g} ms)²) of the time of the flip. {chosen}"""
 
     def table(self):
         """Beside the paper's words."""
@@ -118,4 +134,4 @@ def best(case, sieve=SIEVE):
     told = [one for one in (of_cell(case, cell, sieve) for cell in case.tracks) if one]
     if not told:
         raise NotApplicable(f"no escaped cell flips after it has passed {sieve}")
-    return max(told, key=lambda one: one.score)
+    return max(told, key=lambda one: one.score)._replace(among=len(told))

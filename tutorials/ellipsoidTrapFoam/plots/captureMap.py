@@ -122,6 +122,21 @@ def corners(rectangles):
     ], axis=1)
 
 
+def columns_of(found):
+    """Names of what rows_of() tells, of the corner next to the axes."""
+    sides = (f"{one} [um]" for one in (*found.across, "width", "height"))
+    return ("orientation", "fate", *sides)
+
+
+def rows_of(found, maps):
+    """The rectangles drawn."""
+    return [
+        (str(pose["name"]), fate, *rectangle)
+        for pose, regions in zip(found.poses, maps)
+        for fate, rectangles in regions.items() for rectangle in rectangles.tolist()
+    ]
+
+
 def name_regions(ax, regions, colours):
     """The names of sieves above a panel, each with a line to the middle of its region."""
     if not regions:
@@ -219,5 +234,5 @@ def draw(case):
         {len(found.starts)} starts, each cell by itself. Every place has the colour of the
         start nearest to it. Where there is no room the cell would overlap a wall. Percentages:
         of the cells that enter with the flow; bounds from the squares that the map's
-        boundaries pass through.""", table)
+        boundaries pass through.""", (columns_of(found), rows_of(found, maps)), table)
     return figure

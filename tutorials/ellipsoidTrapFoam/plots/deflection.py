@@ -36,13 +36,27 @@ def draw_field_lines(ax, plane):
 
 
 def draw_tracks(ax, case, line):
-    """The tracks of a case, and where they begin and end by cell."""
+    """The tracks of a case by cell."""
     tracks = {cell: track.finer().x[:, :2] for cell, track in case.tracks.items()}
     ax.add_collection(LineCollection(
         list(tracks.values()), colors=line["color"], linewidths=line["linewidth"],
         linestyles=[line["linestyle"]],
     ))
-    return {cell: (track[0], track[-1]) for cell, track in tracks.items()}
+    return tracks
+
+
+def rows_of(plane, paths):
+    """The potential in the mesh cells cut, and the paths drawn, in rows."""
+    middles = np.array([polygon.mean(axis=0) for polygon in plane.polygons]).tolist()
+    rows = [
+        ("potential", "", x, y, value)
+        for (x, y), value in zip(middles, (plane.potential * MILLI).tolist())
+    ]
+    for what, tracks in paths.items():
+        rows += [
+            (what, cell, *place, "") for cell, track in tracks.items() for place in track.tolist()
+        ]
+    return ("what", "cell", "x [um]", "y [um]", "potential [mV]"), rows
 
 
 def draw(case):
@@ -67,17 +81,19 @@ def draw(case):
     if os.path.isdir(case.path("uncharged", "postProcessing")):
         others = draw_tracks(ax, Case(case.path("uncharged")), UNCHARGED)
         keys.append(Line2D([], [], label=f"without charge ({len(others)})", **UNCHARGED))
-    ends = draw_tracks(ax, case, CHARGED)
+    paths = draw_tracks(ax, case, CHARGED)
     charge = float(case.properties["forces"].get("charge", 0))
-    keys.append(Line2D([], [], label=f"charge {charge:g} C ({len(ends)})", **CHARGED))
+    keys.append(Line2D([], [], label=f"charge {charge:g} C ({len(paths)})", **CHARGED))
     style.legend_below(ax, keys)
 
     table = [("cell", "y at the start [µm]", "at the end", "at the end without charge")]
-    for cell, (start, end) in sorted(ends.items()):
-        places = [start, end] + ([others[cell][1]] if cell in others else [])
+    for cell, track in sorted(paths.items()):
+        start, end = track[0], track[-1]
+        places = [start, end] + ([others[cell][-1]] if cell in others else [])
         # Not -0.00
         table.append((str(cell), *(f"{round(place[1], 2) + 0:.2f}" for place in places)))
     style.describe(figure, """The electric potential at half depth, its field lines, and the
         paths of the centres of the charged cells; dashed, if the case has them, those of the
-        same cells without charge.""", table)
+        same cells without charge.""",
+        rows_of(plane, {"charged": paths, "without charge": others}), table)
     return figure

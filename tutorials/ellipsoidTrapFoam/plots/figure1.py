@@ -66,6 +66,19 @@ def read_seen(case, measured):
     return seen
 
 
+def drawn(held, seen):
+    """The steps, and what was seen, in rows."""
+    rows = [
+        (name, "held", float(t), int(n), "") for name, (times, numbers) in held.items()
+        for t, n in zip(times, numbers)
+    ]
+    rows += [
+        (name, "seen", t, low, "" if np.isnan(high) else high)
+        for name, marks in seen.items() for t, low, high in marks
+    ]
+    return ("sieve", "what", "t [s]", "cells", "most"), rows
+
+
 def in_words(fewest, most):
     """A range of numbers of cells."""
     if np.isnan(most):
@@ -144,5 +157,5 @@ def draw(case, measured=None):
     style.describe(figure, f"""Cells held by each sieve{design} against time, and how many after
         one, two and three thirds of the loading of {case.loading:g} s; the dashed line is when
         the last cell entered. {sums[-1]} of {injected} cells are held at {case.end_time:g} s.
-        {told}""", table)
+        {told}""", drawn(held, seen), table)
     return figure

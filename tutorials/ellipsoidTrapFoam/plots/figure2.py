@@ -20,7 +20,13 @@ from case import MILLI, NotApplicable
 from files import CaseError, read_measured
 
 RESTING = 1e-3   # speed in mm/s below which only rounding would be seen
+PARTS = 20   # of an interval between rows
+ROWS = {"linestyle": "none", "marker": "o", "markersize": 2}
 SLOW = 0.01   # part of a cell's highest speed below which it is taken to rest
+
+COLUMNS = (
+    "t [ms]", "O1", "O2", "O3", "u1 [mm/s]", "u2 [mm/s]", "u3 [mm/s]", "|omega| [rad/s]"
+)
 
 # Columns of a measured file: those of tracks.csv, t since the injection
 MEASURED = ("t", "O1", "O2", "O3", "u1", "u2", "u3")
@@ -45,14 +51,26 @@ OPTIONS = {
 }
 
 
-def choose(case, sieve):
-    """The cell to show where none is named."""
+def find(case, cell, sieve):
+    """The cell to show, by its id, as the best, or where none is named, and its account if it
+    has one."""
     if not case.tracks:
         raise NotApplicable("no cell has been injected")
-    try:
-        return account.best(case, sieve).cell
-    except NotApplicable:
-        pass
+    if cell == "best":
+        found = account.best(case, sieve)
+        return found.cell, found
+    if cell is None:
+        try:
+            return find(case, "best", sieve)
+        except NotApplicable:
+            cell = striking(case)
+    if cell not in case.tracks:
+        raise CaseError(f"{case.results}/tracks.csv: no cell {cell}")
+    return cell, account.of_cell(case, cell, sieve)
+
+
+def striking(case):
+    """A cell that shows much, where there is no account to go by."""
     caught = [cell for cell in case.tracks if case.fates[cell].name == "caught"]
     if caught:
         # A held cell may still roll: that is no way made
@@ -80,17 +98,9 @@ def draw_measured(file, pose, motion):
 
 def draw(case, cell=None, measured=None, sieve=account.SIEVE):
     """The figure."""
-    found = None
-    if cell == "best":
-        found = account.best(case, sieve)
-        cell = found.cell
-    elif cell is None:
-        cell = choose(case, sieve)
-    if cell not in case.tracks:
-        raise CaseError(f"{case.results}/tracks.csv: no cell {cell}")
-    found = found or account.of_cell(case, cell, sieve)
+    cell, found = find(case, cell, sieve)
     rows = case.tracks[cell]
-    track = rows.finer(10)
+    track = rows.finer(PARTS)
     fate = case.fates[cell]
     begun = track.t[0]
     time = (track.t - begun) * MILLI
@@ -109,7 +119,18 @@ def draw(case, cell=None, measured=None, sieve=account.SIEVE):
     for i, line in enumerate(style.COMPONENTS):
         pose.plot(time, track.axis[:, i], label=f"$O_{{x_{i + 1}}}$", **line)
         motion.plot(time, track.u[:, i], label=f"$u_{i + 1}$", **line)
-    spin.plot(time, np.linalg.norm(track.omega, axis=1), color="black", label="|ω|")
+    # It has none yet when it enters
+    turning = np.linalg.norm(rows.spin_at(track.t), axis=1)
+    turning[:PARTS] = np.nan
+    spin.plot(time, turning, color="black", label="|ω|")
+    written = (rows.t - begun) * MILLI
+    for i, line in enumerate(style.COMPONENTS):
+        for ax, values in ((pose, rows.axis), (motion, rows.u)):
+            ax.plot(written, values[:, i], color=line["color"], **ROWS)
+    spin.plot(
+        written[1:], np.linalg.norm(rows.omega[1:], axis=1), color="black",
+        label="rows of\nthe track", **ROWS,
+    )
     if measured:
         draw_measured(measured, pose, motion)
 
@@ -150,8 +171,12 @@ def draw(case, cell=None, measured=None, sieve=account.SIEVE):
     )
     at = ", ".join(f"{t:.1f}" for t in turned[:12]) + (", ..." if len(turned) > 12 else "")
     style.describe(figure, f"""Orientation O of the long axis, velocity u and spin rate |ω| of
-        cell {cell} against the time since its injection. It flips, that is O_x2 changes from
+        cell {cell} against the time since its injection. Points are the rows of its track; between
+        them orientation and position lie on cubics with the velocity and spin of the rows; the
+        curve of u is the rate of these, that of ω is smooth and turns the cell as far in every
+        interval. It flips, that is O_x2 changes from
         one side of ±{account.SIDE:g} to the other, {f"at {at} ms" if at else "never"}.
-        {"The table holds it against the paper's account of its cell." if found else ""}""",
+        {found.explained if found else ""}""",
+        (COLUMNS, np.column_stack((time, track.axis, track.u, turning))[time <= end].tolist()),
         found.table() if found else ())
     return figure

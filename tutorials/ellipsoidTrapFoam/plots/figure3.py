@@ -12,14 +12,15 @@ import bodies
 import poses
 import style
 from case import MICRO
-from figure2 import RESTING, cell_or_best, choose
+from figure2 import RESTING, cell_or_best, find
 from files import CaseError
 
 # A view and a pose in which no two axes fall together
 VIEW = bodies.camera(70, 30)
 POSE = np.radians((50, 35, 65))   # phi, theta, psi of the drawings
-POSES = 9        # in the sequence
+POSES = 7        # in the sequence
 SPAN = 24.0      # length of path that the sequence follows, in micrometres
+WAY = np.linspace(0, 1, 12)[:, None]   # along what a name must keep clear of
 AHEAD, BEHIND = style.ORANGE, style.YELLOW
 BODY, MOTION, LAB = style.BLUE, "0.35", "black"
 
@@ -53,16 +54,17 @@ def triad(ax, origin, axes, names, color, length, dashes="-"):
         arrow(ax, origin, origin + length * axis, name, color, dashes)
 
 
-def arc(ax, start, end, radius, text, color):
-    """Arc about the origin between two unit vectors, named in its middle."""
+def arc(ax, start, end, radius, text, at=20):
+    """Arc about the origin between two unit vectors of 40 points, named beside one of them."""
     angle = np.arccos(np.clip(start @ end, -1, 1))
     side = (end - start * (start @ end)) / np.sin(angle)
     a = np.linspace(0, angle, 40)[:, None]
     line = radius * (np.cos(a) * start + np.sin(a) * side)
-    ax.plot(*flat(*line).T, color=color, linewidth=1.2)
-    arrow(ax, line[-4], line[-1], "", color, width=1.2)
-    x, y = flat(1.22 * line[20])[0]
-    ax.annotate(text, (x, y), ha="center", va="center", color=color, fontsize=11)
+    ax.plot(*flat(*line).T, color="black", linewidth=1.2)
+    arrow(ax, line[-4], line[-1], "", "black", width=1.2)
+    place = flat(line[at])[0]
+    ax.annotate(text, place, 11 * place / np.linalg.norm(place), textcoords="offset points",
+                ha="center", va="center", fontsize=11)
 
 
 def bare(ax, xlim, ylim, title):
@@ -109,9 +111,9 @@ def draw_angles(ax):
     triad(ax, np.zeros(3), body, numbered(r"\hat{x}"), BODY, 1.3)
     ax.plot(*flat(-1.15 * node, 1.15 * node).T, color=style.VERMILLION, linewidth=1)
     arrow(ax, np.zeros(3), 1.2 * node, "N", style.VERMILLION)
-    arc(ax, lab[:, 0], node, 0.55, "φ", "black")
-    arc(ax, lab[:, 2], body[:, 2], 0.7, "θ", "black")
-    arc(ax, node, body[:, 0], 0.8, "ψ", "black")
+    arc(ax, lab[:, 0], node, 0.55, "φ")
+    arc(ax, lab[:, 2], body[:, 2], 0.7, "θ")
+    arc(ax, node, body[:, 0], 0.8, "ψ", at=28)
     ax.annotate("N, the line of nodes: where the planes $\\tilde{x}_1\\tilde{x}_2$ and "
                 "$\\hat{x}_1\\hat{x}_2$ meet;\nR = $R_3$(φ) $R_1$(θ) $R_3$(ψ)",
                 (0, 0), xycoords="axes fraction", fontsize=7.5, va="top")
@@ -177,6 +179,48 @@ def sequence(case, cell):
     return track.at(np.interp(start + np.linspace(0, total, POSES), length, track.t)), False
 
 
+def name_times(ax, places, times, taken, width):
+    """The times [ms] beside places, each where nothing else is: no wall, body, arrow or name."""
+    # A panel is about so wide, and a name so long and high
+    points = 260 / width
+    half = np.array((14, 6)) / points
+    boxes = []
+    for place, time in zip(places, times):
+        def crowd(at):
+            inside = (np.abs(taken - at) < half).all(axis=1).sum()
+            others = sum(bool((np.abs(box - at) < 2 * half).all()) for box in boxes)
+            far = np.linalg.norm(at - places, axis=1)
+            own = np.linalg.norm(at - place)
+            # A name is taken for that of the nearest place
+            return inside + 10 * others + 4 * np.sum(far < 1.2 * own) + 0.05 * own
+
+        angles = np.arange(16) * np.pi / 8
+        around = [
+            place + r * np.array((np.cos(a), np.sin(a))) / points for r in (24, 34, 46, 60)
+            for a in angles
+        ]
+        at = min(around, key=crowd)
+        boxes.append(at)
+        ax.annotate(
+            f"{time:.1f}", place, at, ha="center", va="center", fontsize=7.5,
+            path_effects=style.framed("white", 2), annotation_clip=False,
+            arrowprops={"arrowstyle": "-", "color": "0.6", "linewidth": 0.5, "shrinkA": 2,
+                        "shrinkB": 4}, zorder=0.5,
+        )
+
+
+def scale_bar(ax, length=5.0):
+    """A bar along x, which the view does not foreshorten, in the corner below to the right."""
+    right, low = ax.get_xlim()[1], ax.get_ylim()[0] + 1
+    left = right - length - 0.5
+    # Walls may run below it
+    ax.plot((left, left + length), (low, low), color="black", linewidth=2.5, solid_capstyle="butt",
+            path_effects=style.framed("white", 10), zorder=3)
+    ax.annotate(f"{length:g} µm along $x_1$", (left + length / 2, low), (0, 7),
+                textcoords="offset points", ha="center", fontsize=7.5,
+                path_effects=style.framed("white", 4))
+
+
 def draw_sequence(ax, case, cell, scale):
     """The cell at discrete times, seen from above at an angle."""
     view = bodies.camera(-90, 55)
@@ -188,6 +232,9 @@ def draw_sequence(ax, case, cell, scale):
     low, high = seen.min(axis=0) - pad * (1 + apart), seen.max(axis=0) + pad * (1 + apart)
     # Wide enough for the names of the times
     low[0], high[0] = min(low[0], seen[:, 0].mean() - 14), max(high[0], seen[:, 0].mean() + 14)
+    # and for the bar
+    low[1] -= 3
+    taken = []
     bare(ax, (low[0], high[0]), (low[1], high[1]),
          f"D  cell {cell} at discrete times (ms since injection)")
     for name, lines in case.plane.outlines.items():
@@ -195,34 +242,44 @@ def draw_sequence(ax, case, cell, scale):
             ends = np.dstack((lines, np.full(lines.shape[:2], height))) @ view.T
             for part in ends:
                 ax.plot(part[:, 0], part[:, 1], color="black", linewidth=1.4, zorder=0)
+                taken += list(part[0, :2] + WAY * (part[1, :2] - part[0, :2]))
     bodies.show(ax, [
         bodies.Body(x, q, semi_axes, AHEAD, BEHIND) for x, q in zip(shown.x, shown.q)
     ], view, scale, zorder=1)
     fastest = np.linalg.norm(shown.u, axis=1).max()
     quickest = np.linalg.norm(shown.omega, axis=1).max()
     reach = 2.6 * semi_axes.max()
-    for t, x, u, q, omega in zip(shown.t, shown.x, shown.u, shown.q, shown.omega):
+    for x, u, q, omega in zip(shown.x, shown.u, shown.q, shown.omega):
+        long = poses.rotation(q)[:, 1] * semi_axes.max()
+        ends = [(x - long, x + long)]
         if fastest > RESTING:
-            arrow(ax, x, x + reach * u / fastest, "", "black", width=1.5, view=view)
-        spin = poses.rotation(q) @ omega
-        arrow(ax, x, x + reach * spin / max(quickest, 1e-12), "", BODY, width=1.5, view=view)
-        ms = 1e3 * (t - case.tracks[cell].t[0])
-        ax.annotate(f"{ms:.1f}", (view @ x)[:2], (-10, -30) if apart else (24, -3), textcoords="offset points",
-                    fontsize=7.5, path_effects=style.framed("white", 2))
+            ends.append((x, x + reach * u / fastest))
+            arrow(ax, *ends[-1], "", "black", width=1.5, view=view)
+        ends.append((x, x + reach * poses.rotation(q) @ omega / max(quickest, 1e-12)))
+        arrow(ax, *ends[-1], "", BODY, width=1.5, view=view)
+        for start, end in ends:
+            taken += list((view @ start)[:2] + WAY * (view @ (end - start))[:2])
+    name_times(ax, seen, 1e3 * (shown.t - case.tracks[cell].t[0]), np.array(taken), high[0] - low[0])
+    scale_bar(ax)
     told = "the cell stays in its place; poses drawn side by side" if apart else \
         f"black: velocity, longest {fastest:.2f} mm/s; walls at the cell's height"
     ax.annotate(f"{told};\nblue: angular velocity (right-hand rule), longest "
-                f"{quickest:.0f} rad/s\nseen 35° off the vertical", (0, 0), xycoords="axes fraction", fontsize=7.5, va="top")
+                f"{quickest:.0f} rad/s\nseen 35° off the vertical",
+                (0, 0), xycoords="axes fraction", fontsize=7.5, va="top")
+
+
+def drawn(case, cell):
+    """The poses of panel D, in rows."""
+    shown, _ = sequence(case, cell)
+    names = ("t [ms]", "x1 [um]", "x2 [um]", "x3 [um]", "u1 [mm/s]", "u2 [mm/s]", "u3 [mm/s]")
+    names += ("eps1", "eps2", "eps3", "eta", "omega1 [rad/s]", "omega2 [rad/s]", "omega3 [rad/s]")
+    time = 1e3 * (shown.t - case.tracks[cell].t[0])
+    return names, np.column_stack((time, shown.x, shown.u, shown.q, shown.omega)).tolist()
 
 
 def draw(case, cell=None):
     """The figure."""
-    if cell == "best":
-        cell = account.best(case).cell
-    elif cell is None:
-        cell = choose(case, account.SIEVE)
-    if cell not in case.tracks:
-        raise CaseError(f"{case.results}/tracks.csv: no cell {cell}")
+    cell, _ = find(case, cell, account.SIEVE)
     figure = plt.figure(figsize=(8.6, 7.4), layout="constrained")
     figure.set_constrained_layout_pads(h_pad=0.12, w_pad=0.05)
     panels = figure.subplot_mosaic("AB;CD", height_ratios=(1, 1.05))
@@ -236,5 +293,5 @@ def draw(case, cell=None):
         with the cell and stays parallel to the lab's, and the body's frame, the ellipsoid's
         axes. B: Euler angles, with N the line of nodes. C: the cell with its {count} beads of
         {radius:g} µm ({layout}). D: cell {cell} at discrete times with its velocity and
-        angular velocity.""")
+        angular velocity; walls are cut at the cell's mean height.""", drawn(case, cell))
     return figure

@@ -64,6 +64,7 @@ def draw(case, designs=()):
 
     figure, axes = plt.subplots(2, 1, figsize=(7, 6), sharex=True, layout="constrained")
     labels = [one.design or one.folder.rsplit("/", 1)[-1] for one in cases]
+    rows = []
     table = [["held of reached"] + labels] + [[name] for name in [*names, "all, of injected"]]
     for k, (one, label, look) in enumerate(zip(cases, labels, LOOKS)):
         near = reached(one)
@@ -72,11 +73,12 @@ def draw(case, designs=()):
         for name, row in zip(names, table[1:]):
             held, came = one.count("caught", name), len(near.get(name, ()))
             row.append(in_words(held, came))
-            for trials in (came, len(one.fates)):
+            for of, trials in (("reached", came), ("injected", len(one.fates))):
                 low, high = wilson(held, trials)
                 share = held / trials if trials else np.nan
                 shares.append(share)
                 bounds.append((share - low, high - share))
+                rows.append((label, name, of, held, trials, share, low, high))
         table[-1].append(in_words(sum(one.count("caught", n) for n in names), len(one.fates)))
         for ax, first in zip(axes, (0, 1)):
             ax.errorbar(
@@ -99,5 +101,6 @@ def draw(case, designs=()):
     style.describe(figure, f"""Trapping performance of every sieve by itself, with Wilson's 95 %
         intervals. A cell has reached a sieve when its centre has come within its longest
         semi-axis, {length}, of the sieve's walls. In the table, in brackets:
-        the intervals in per cent.""", table)
+        the intervals in per cent.""",
+        (("design", "sieve", "of", "held", "cells", "share", "low", "high"), rows), table)
     return figure

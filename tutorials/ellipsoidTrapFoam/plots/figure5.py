@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
-"""The mesh in the plan of the device, and close-ups of the apertures of every sieve, or of
-one sieve in each of several designs; the paper's Figure 5."""
+"""The mesh in the plan of the device, and a close-up of the apertures of a sieve of each shape,
+or of each of several designs; the paper's Figure 5."""
 
 import math
 
@@ -22,7 +22,7 @@ HEIGHT = 6.6      # of the plan, in inches
 SIEVE_COLOUR = style.VERMILLION
 
 OPTIONS = {
-    "sieve": {"help": "to look at closely [all, or the last of a design]"},
+    "sieve": {"help": "to look at closely [one of each shape, or the last of a design]"},
     "designs": {
         "nargs": "+", "metavar": "FOLDER", "default": (),
         "help": "cases whose apertures to compare; the last is shown as a whole",
@@ -61,7 +61,7 @@ def draw_close_up(close, case, name, title):
     draw_mesh(close, case, 0.3)
     close.yaxis.tick_right()
     close.set_title(title, pad=3)
-    close.set(xlabel=None, ylabel=None)
+    close.yaxis.set_label_position("right")
     close.tick_params(labelsize=7, pad=1.5)
     for axis in (close.xaxis, close.yaxis):
         axis.set_major_locator(MaxNLocator(3))
@@ -81,13 +81,31 @@ def frame(whole, window, name):
 
 
 def close_ups(case, sieve, designs):
-    """(case, sieve, title) of the close-ups."""
+    """(case, sieve, title) of the close-ups: one of each design, or of each shape of a sieve."""
     if designs:
         return [
             (one, name, f"design {one.design or one.folder.rsplit('/', 1)[-1]}, {name}")
             for one, name in ((one, sieve or one.sieves[-1]) for one in designs)
         ]
-    return [(case, name, name) for name in ([sieve] if sieve else case.sieves)]
+    if sieve:
+        return [(case, sieve, sieve)]
+    alike = {}
+    for name in case.sieves:
+        corners = case.plane.outlines[name].reshape(-1, 2)
+        alike.setdefault(tuple(np.ptp(corners, axis=0).round(1)), []).append(name)
+    return [
+        (case, names[0], names[0] + (f" (all {len(names)} alike)" if names[1:] else ""))
+        for names in alike.values()
+    ]
+
+
+def rows_of(panels, whole):
+    """The mesh cells of all cases drawn, corner by corner."""
+    cases = {id(one): one for one in (whole, *(one for one, *_ in panels))}
+    return [
+        (one.design, k, *corner) for one in cases.values()
+        for k, polygon in enumerate(one.plane.polygons) for corner in polygon.tolist()
+    ]
 
 
 def draw(case, sieve=None, designs=()):
@@ -107,7 +125,8 @@ def draw(case, sieve=None, designs=()):
 
     columns = min(len(panels), 2 if len(panels) > 3 else 1)
     rows = math.ceil(len(panels) / max(columns, 1))
-    side = HEIGHT / max(rows, 1)
+    # One close-up alone leaves room for more of the plan
+    side = HEIGHT / max(rows, 2)
     plan = HEIGHT * width / height
     figure = plt.figure(
         figsize=(plan + columns * (side + 0.35) + 0.9, HEIGHT + 1), layout="constrained"
@@ -126,12 +145,12 @@ def draw(case, sieve=None, designs=()):
     for k, (one, name, title) in enumerate(panels):
         close = figure.add_subplot(grid[k // columns, 1 + k % columns])
         window = draw_close_up(close, one, name, title)
+        if k < len(panels) - columns:
+            close.set_xlabel(None)
         if one is case:
             frame(whole, window, name)
     if panels:
         keys.append(Line2D([], [], color=SIEVE_COLOUR, linewidth=1, label="sieve"))
-        figure.supxlabel("close-ups: x to the right, y upwards [µm]", x=0.99, ha="right",
-                         fontsize=8)
     keys.append(Patch(facecolor=style.SOLID, label="no fluid"))
     style.legend_below(whole, keys)
     if designs:
@@ -139,5 +158,6 @@ def draw(case, sieve=None, designs=()):
     what = "apertures of the designs" if designs else "apertures of the sieves"
     style.describe(figure, f"""The finite volume mesh at half depth,
         {len(plane.velocity):,} of {case.mesh_size:,} mesh cells, and close-ups of the finest
-        mesh cells, the {what}.""" if panels else "The finite volume mesh at half depth.")
+        mesh cells, the {what}.""" if panels else "The finite volume mesh at half depth.",
+        (("design", "mesh cell", "x [um]", "y [um]"), rows_of(panels, case)))
     return figure

@@ -106,6 +106,19 @@ def read_measured(file, names, words=()):
     return columns
 
 
+def write_csv(file, names, rows):
+    """Rows of words and numbers under the names of their columns; empty where there is none."""
+    def word_of(value):
+        if isinstance(value, float):
+            return "" if np.isnan(value) else f"{value:.9g}"
+        return value
+
+    with open(file, "w", newline="", encoding="utf-8") as f:
+        table = csv.writer(f, lineterminator="\n")
+        table.writerow(names)
+        table.writerows([word_of(value) for value in row] for row in rows)
+
+
 def number_folders(root):
     """(value, name) of the folders named by a number, ascending."""
     found = []

@@ -3,7 +3,7 @@
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
 """Make the pictures of a case, in its folder pictures, and the report of them, report.html.
 
-usage: makePictures CASE                          the report and all pictures but captureMap,
+usage: makePictures CASE [--format LIST]          the report and all pictures but captureMap,
                                                   figure4 and probability
        makePictures CASE PICTURE [OPTION...]      one; --help tells its options
        makePictures CASE report                   the report of the pictures that are there
@@ -22,9 +22,14 @@ PICTURE is one of
     speedAndTracks  speed of the flow, tracks of all cells
     trappedCells    the cells at rest in the sieves
 
+LIST is of png, pdf and svg, with commas between them; png is always written. Beside each
+picture lies NAME.csv with the data drawn, and NAME.json with its caption and table. The
+movie is a WebP, and an MP4 of 1080 lines or more where ffmpeg is installed.
+
 A picture that cannot be made leaves the others; the exit status is then 1.
 """
 
+import argparse
 import importlib
 import os
 import sys
@@ -52,19 +57,21 @@ def case_of(folder):
     return Case(folder)
 
 
-def make(name, folder):
+def make(name, folder, formats):
     """One picture; whether it went well."""
-    return style.make(importlib.import_module(name).draw, name, case_of(folder), tables=False)
+    draw = importlib.import_module(name).draw
+    return style.make(draw, name, case_of(folder), formats, tables=False)
 
 
-def make_all(folder):
+def make_all(folder, formats):
     """All that every run leaves; whether they went well."""
     # What a picture of an earlier run showed must not get into the report
     for name in PICTURES:
         style.remove(case_of(folder), name)
     workers = min(len(os.sched_getaffinity(0)), MOST_AT_ONCE)
     with ProcessPoolExecutor(workers) as pool:
-        well = list(pool.map(make, PICTURES, [folder] * len(PICTURES)))
+        many = len(PICTURES)
+        well = list(pool.map(make, PICTURES, [folder] * many, [formats] * many))
     return all(well) & report.make(case_of(folder))
 
 
@@ -73,6 +80,9 @@ def main(words):
     if not words or words[0].startswith("-"):
         sys.exit(__doc__.strip())
     folder, *rest = words
+    options = []
+    if rest and rest[0].startswith("-"):
+        rest, options = [], rest
     if rest and rest[0] not in (*PICTURES, *BY_ITSELF, "report"):
         sys.exit(f"makePictures: no picture {rest[0]}; there are "
                  f"{' '.join(sorted((*PICTURES, *BY_ITSELF)))}")
@@ -81,7 +91,9 @@ def main(words):
     except CaseError as error:
         sys.exit(f"{rest[0] if rest else 'makePictures'}: {error}")
     if not rest:
-        return make_all(folder)
+        parser = argparse.ArgumentParser(prog="makePictures CASE")
+        style.add_format(parser)
+        return make_all(folder, parser.parse_args(options).format)
     if rest == ["report"]:
         return report.make(case)
     return style.command(importlib.import_module(rest[0]), case, rest[1:])

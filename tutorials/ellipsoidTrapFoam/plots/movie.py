@@ -8,6 +8,10 @@ Few cells of a run are near one sieve at one time: the film puts cells together 
 one after the other, each from when it enters the window. They do not see one another.
 """
 
+import shutil
+import subprocess
+import textwrap
+
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import font_manager
@@ -21,7 +25,8 @@ from case import MILLI, NotApplicable
 from files import CaseError
 
 MARGIN = 9.0        # shown about the sieve, in micrometres
-SCALE = 15          # pixels a micrometre
+LINES = 1080        # of the MP4 at least; the WebP has half as many
+LEFT, RIGHT, BELOW, ABOVE = 116, 156, 232, 64   # pixels about the window
 STEP = 0.5e-3       # s between frames
 FRAME = 50          # ms that a frame is seen
 LONGEST = 0.1       # s that are shown at most, and
@@ -35,22 +40,55 @@ PASSES, STAYS = (style.ORANGE, style.YELLOW), (style.BLUE, style.SKY)
 
 OPTIONS = {"sieve": {"help": "to look at [the one that holds most cells]"}}
 
+# Frames from the standard input; even sides, as the format asks for
+ENCODE = "ffmpeg -y -loglevel error -f rawvideo -pix_fmt rgb24 -s {}x{} -r {:g} -i - -c:v libx264 " \
+    "-crf 18 -pix_fmt yuv420p -movflags +faststart -bitexact"
+
 
 class Film:
     """Frames that are saved like a figure."""
 
-    suffix = ".webp"
-
     def __init__(self, frames):
-        self.frames = frames
+        self.frames = frames   # a function that yields them
+        self.halves = None
+        self.suffixes = ("mp4", "webp") if shutil.which("ffmpeg") else ("webp",)
+        if len(self.suffixes) == 1:
+            print("movie: no MP4, as ffmpeg is not installed")
 
-    def savefig(self, file):
-        """Write them as an animation that goes round."""
-        first, *others = (Image.fromarray(frame) for frame in self.frames)
+    def savefig(self, file, **_):
+        """Write them as the file's name says."""
+        if file.endswith(".mp4"):
+            self.encode(file)
+            return
+        first, *others = self.halves or [half(frame) for frame in self.frames()]
         first.save(
             file, save_all=True, append_images=others, duration=FRAME, loop=0,
             quality=QUALITY, method=1,
         )
+
+    def encode(self, file):
+        """The MP4; keeps the frames of the WebP."""
+        self.halves = []
+        encoder = None
+        for frame in self.frames():
+            self.halves.append(half(frame))
+            if encoder is None:
+                words = ENCODE.format(*frame.shape[1::-1], MILLI / FRAME).split()
+                encoder = subprocess.Popen(
+                    [*words, file], stdin=subprocess.PIPE, stderr=subprocess.PIPE
+                )
+            try:
+                encoder.stdin.write(frame.tobytes())
+            except BrokenPipeError:
+                break
+        _, said = encoder.communicate()
+        if encoder.returncode != 0:
+            raise CaseError(f"{file}: ffmpeg: {said.decode(errors='replace').strip()}")
+
+
+def half(frame):
+    """A frame of half as many lines, as an image."""
+    return Image.fromarray(frame).reduce(2)
 
 
 def visit(track, window):
@@ -94,21 +132,20 @@ def busiest(case):
     return max(case.sieves, key=lambda name: case.count("caught", name))
 
 
-def draw_stage(case, sieve, window):
-    """What does not move, as an image, and where its axes lie: left, top in pixels."""
+def draw_stage(case, sieve, window, scale, caption):
+    """What does not move, as an image, with LEFT and ABOVE pixels before its axes."""
     (x0, x1), (y0, y1) = window
-    width, height = (int(round(SCALE * (high - low))) for low, high in window)
-    left, right, below, above = 58, 78, 78, 34
-    size = np.array((left + width + right, below + height + above))
-    figure = plt.figure(figsize=size / 100, dpi=100)
+    width, height = (int(round(scale * (high - low))) for low, high in window)
+    size = np.array((LEFT + width + RIGHT, BELOW + height + ABOVE))
+    figure = plt.figure(figsize=size / 200, dpi=200)
     ax = figure.add_axes((
-        left / size[0], below / size[1], width / size[0], height / size[1]
+        LEFT / size[0], BELOW / size[1], width / size[0], height / size[1]
     ))
     style.plan_axes(ax, (x0, x1), (y0, y1))
     image = style.draw_speed(ax, case.plane, vmin=0)
     style.draw_outlines(ax, case, linewidth=1.5)
     bar = figure.add_axes((
-        (left + width + 10) / size[0], below / size[1], 12 / size[0], height / size[1]
+        (LEFT + width + 20) / size[0], BELOW / size[1], 24 / size[0], height / size[1]
     ))
     figure.colorbar(image, cax=bar, label="|u| at half depth [mm/s]")
     keys = [
@@ -116,11 +153,39 @@ def draw_stage(case, sieve, window):
         Patch(facecolor=STAYS[0], edgecolor="black", label=f"is caught by {sieve}"),
         Patch(facecolor=style.SOLID, edgecolor="black", label="no fluid"),
     ]
-    figure.legend(handles=keys, loc="lower center", ncol=3, bbox_to_anchor=(0.48, 0))
+    figure.legend(handles=keys, loc="lower center", ncol=3, bbox_to_anchor=(0.48, 82 / size[1]))
+    figure.text(
+        0.5, 8 / size[1], textwrap.fill(caption, int(size[0] / 11.5)), ha="center", va="bottom",
+        fontsize=7.5,
+    )
     figure.canvas.draw()
     stage = np.asarray(figure.canvas.buffer_rgba())[..., :3].copy()
     plt.close(figure)
-    return stage, left, above
+    return stage[:stage.shape[0] // 2 * 2, :stage.shape[1] // 2 * 2]
+
+
+def follow(case, shown):
+    """The times of the frames, and of every cell to show: at which it is there, its track at
+    them, its semi-axes and colours."""
+    last = max(end - begin + k * APART - BEFORE for k, (_, begin, end) in enumerate(shown))
+    times = np.arange(0, np.clip(last, SHORTEST, LONGEST), STEP)
+    actors = []
+    for k, (cell, begin, _) in enumerate(shown):
+        track = case.tracks[cell]
+        clock = begin + BEFORE + times - k * APART
+        there = (clock >= track.t[0]) & (clock <= track.t[-1])
+        colours = STAYS if case.fates[cell].name == "caught" else PASSES
+        actors.append((cell, there, track.at(clock), case.semi_axes_of(cell), colours))
+    return times, actors
+
+
+def rows_of(times, actors):
+    """What is seen when, in rows."""
+    names = ("t [ms]", "cell", "x1 [um]", "x2 [um]", "x3 [um]", "eps1", "eps2", "eps3", "eta")
+    return names, [
+        (MILLI * float(t), cell, *track.x[i].tolist(), *track.q[i].tolist())
+        for i, t in enumerate(times) for cell, there, track, *_ in actors if there[i]
+    ]
 
 
 def draw(case, sieve=None):
@@ -137,38 +202,35 @@ def draw(case, sieve=None):
     if not shown:
         raise NotApplicable(f"no cell comes near {sieve}")
 
-    stage, left, top = draw_stage(case, sieve, window)
-    font = ImageFont.truetype(font_manager.findfont("DejaVu Sans"), 15)
-    last = max(end - begin + k * APART - BEFORE for k, (_, begin, end) in enumerate(shown))
-    times = np.arange(0, np.clip(last, SHORTEST, LONGEST), STEP)
-    poses = []
-    for k, (cell, begin, _) in enumerate(shown):
-        track = case.tracks[cell]
-        clock = begin + BEFORE + times - k * APART
-        there = (clock >= track.t[0]) & (clock <= track.t[-1])
-        colours = STAYS if case.fates[cell].name == "caught" else PASSES
-        poses.append((there, track.at(clock), case.semi_axes_of(cell), colours))
+    caught = sum(case.fates[cell].name == "caught" for cell, *_ in shown)
+    caption = f"""{len(shown) - caught} cells that pass {sieve} and {caught} that it catches, true
+        ellipsoids seen from above, {FRAME / (MILLI * STEP):.0f} times slowed down. Light and dark
+        halves tell the ends of a cell apart. The cells came at different times of the run and are
+        put together; they do not see one another."""
+    caption = " ".join(caption.split())
+    times, actors = follow(case, shown)
+    scale = -(-(LINES - BELOW - ABOVE + 1) // np.ptp(window[1]))
+    stage = draw_stage(case, sieve, window, scale, caption)
+    font = ImageFont.truetype(font_manager.findfont("DejaVu Sans"), 30)
 
-    frames = []
-    for i, t in enumerate(times):
-        cells = [
-            bodies.Body(track.x[i], track.q[i], semi_axes, *colours)
-            for there, track, semi_axes, colours in poses if there[i]
-        ]
-        over = bodies.picture(cells, bodies.FROM_ABOVE, *window, SCALE)
-        frame = stage.copy()
-        part = frame[top:top + over.shape[0], left:left + over.shape[1]]
-        alpha = over[..., 3:]
-        part[:] = (255 * over[..., :3] * alpha + part * (1 - alpha)).astype(np.uint8)
-        image = Image.fromarray(frame)
-        ImageDraw.Draw(image).text((left, 9), f"{MILLI * t:5.1f} ms", "black", font)
-        frames.append(np.asarray(image))
+    def frames():
+        for i, t in enumerate(times):
+            cells = [
+                bodies.Body(track.x[i], track.q[i], semi_axes, *colours)
+                for _, there, track, semi_axes, colours in actors if there[i]
+            ]
+            over = bodies.picture(cells, bodies.FROM_ABOVE, *window, scale)
+            frame = stage.copy()
+            part = frame[ABOVE:ABOVE + over.shape[0], LEFT:LEFT + over.shape[1]]
+            seen = over[..., 3] > 0
+            colour, alpha = over[seen, :3], over[seen, 3:]
+            part[seen] = (255 * colour * alpha + part[seen] * (1 - alpha)).astype(np.uint8)
+            image = Image.fromarray(frame)
+            ImageDraw.Draw(image).text((LEFT, 16), f"{MILLI * t:5.1f} ms", "black", font)
+            yield np.asarray(image)
 
     film = Film(frames)
-    caught = sum(case.fates[cell].name == "caught" for cell, *_ in shown)
-    style.describe(film, f"""{len(shown) - caught} cells that pass {sieve} and {caught} that it
-        catches, true ellipsoids seen from above, {FRAME / (MILLI * STEP):.0f} times slowed
-        down. Light and dark halves tell the ends of a cell apart. The cells came at different
-        times of the run and are put together; they do not see one another. Cells:
-        {", ".join(str(cell) for cell, *_ in shown)}.""")
+    style.describe(
+        film, f"{caption} Cells: {', '.join(str(cell) for cell, *_ in shown)}.", rows_of(times, actors)
+    )
     return film

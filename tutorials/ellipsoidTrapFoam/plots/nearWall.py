@@ -78,17 +78,23 @@ def draw(case):
     figure, (ax, number) = plt.subplots(
         2, 1, figsize=(6, 5), sharex=True, height_ratios=(3, 1), layout="constrained"
     )
+    drawn = [("row", *pair, "", "", "") for pair in zip(rows.distance.tolist(), rows.spin.tolist())]
+    highest = 0
     ax.scatter(rows.distance, rows.spin, s=1, color="0.8", linewidth=0, rasterized=True,
                label="rows of tracks")
     for label, chosen, colour, marker, dashes in kinds:
-        x, median, low, high, _ = medians(rows.distance[chosen], rows.spin[chosen]).T
+        bins = medians(rows.distance[chosen], rows.spin[chosen])
+        drawn += [(label, *one) for one in bins.tolist()]
+        x, median, low, high, _ = bins.T
+        highest = max(highest, high.max(initial=0))
         ax.fill_between(x, low, high, color=colour, alpha=0.25, linewidth=0)
         ax.plot(x, median, color=colour, marker=marker, linestyle=dashes, markersize=4.5,
                 markeredgecolor="black", markeredgewidth=0.5, label=label)
     ax.fill_between([], [], color="0.6", alpha=0.5, label="quartiles of each")
     number.stairs(np.histogram(rows.distance, EDGES)[0], EDGES, fill=True, color="0.7",
                   edgecolor="black")
-    ax.set_ylim(0, np.percentile(rows.spin, 99.3))
+    # Room for the legend above all quartiles
+    ax.set_ylim(0, max(np.percentile(rows.spin, 98), 1.45 * highest))
     ax.set_ylabel("spin rate |ω| [rad/s]")
     number.set_ylabel("rows")
     number.set_xlabel("distance of the centre from the sieves' walls [µm]")
@@ -121,5 +127,6 @@ def draw(case):
         within {FAR:g} µm. Of the cells that pass, the median nearer than {CLOSE:g} µm is
         {ratios[0]:.1f} times that beyond {APART:g} µm; in the middle of the depth, where
         floor and ceiling shear little, {ratios[1]:.1f} times. Cells that stay turn slowly in
-        the pockets.""", table)
+        the pockets.""", (("what", "distance [um]", "|omega| [rad/s]", "low quartile", "high quartile",
+                           "rows"), drawn), table)
     return figure

@@ -34,6 +34,12 @@ def quaternion_rate(q, omega):
     ))
 
 
+def spin(q, rate):
+    """omega in the body's frame of an array of quaternions of any length, from their dq/dt."""
+    e, eta, rate_e, rate_eta = q[:, :3], q[:, 3:], rate[:, :3], rate[:, 3:]
+    return 2 * (eta * rate_e - rate_eta * e - np.cross(e, rate_e)) / (q**2).sum(axis=1)[:, None]
+
+
 def quaternion_from_euler(phi, theta, psi):
     """Of the paper's angles, z-x-z."""
     half_sum, half_difference = (phi + psi) / 2, (phi - psi) / 2
@@ -51,8 +57,15 @@ def hermite(start, end, start_tangent, end_tangent, s):
     return start + s * (a + s * (3 * chord - 2 * a - b + s * (a + b - 2 * chord)))
 
 
+def hermite_rate(start, end, start_tangent, end_tangent, s):
+    """d/ds of hermite()."""
+    chord = end - start
+    a, b = start_tangent, end_tangent
+    return a + s * (2 * (3 * chord - 2 * a - b) + 3 * s * (a + b - 2 * chord))
+
+
 def at_most(tangent, chord, factor):
-    """Tangents no longer than so many chords: rows of a cell at rest may lie far apart."""
+    """Tangents no longer than so many chords."""
     length = factor * np.linalg.norm(chord, axis=1, keepdims=True)
     size = np.linalg.norm(tangent, axis=1, keepdims=True)
     return tangent * np.minimum(1, length / np.maximum(size, 1e-30))

@@ -49,6 +49,15 @@ OPTIONS = {
 }
 
 
+MARKS = 40   # whole numbers N that are marked, at most
+POINTS = {"linestyle": "none", "marker": "o", "markersize": 2.6}
+
+
+def whole_numbers(most):
+    """From 1 to so many, in even steps where there are many."""
+    return np.unique(np.linspace(1, most, min(most, MARKS)).round().astype(int))
+
+
 def holders(case):
     """The sieve that holds each cell in the end, or '', in the order of injection."""
     types = [("id", int), ("tInjected", float), ("fate", "U16"), ("patch", "U128")]
@@ -111,6 +120,7 @@ def draw(case, members=(), cells=None, precision=0.05, confidence=0.95):
         "sieve", "held of injected", "p", f"P(exactly one of {cells}), {basis}",
         "cells for p", "runs for P",
     ]]
+    drawn, marks = [], whole_numbers(fewest)
     columns = min(len(sieves), 4)
     rows = -(-len(sieves) // columns)
     figure, grid = plt.subplots(
@@ -129,12 +139,17 @@ def draw(case, members=(), cells=None, precision=0.05, confidence=0.95):
         else:
             share = exactly_one(p, numbers)
             limits = np.array([exactly_one_within(*ends, n) for n in numbers])
-        ax.fill_between(numbers, *limits.T, color="0.8", linewidth=0,
-                        label=f"{100 * confidence:g} % interval")
-        ax.plot(numbers, share, color="black", label="P(exactly one)")
+        shown = marks - 1
+        ax.vlines(marks, *limits[shown].T, color="0.75", linewidth=1.2,
+                  label=f"{100 * confidence:g} % interval")
+        ax.plot(marks, share[shown], label="P(exactly one)", **POINTS, color="black")
+        alone = exactly_one(p, numbers)
         if members:
-            ax.plot(numbers, exactly_one(p, numbers), color=style.VERMILLION, linestyle="--",
-                    label="N independent cells")
+            ax.plot(marks, alone[shown], label="N independent cells", **POINTS, color=style.VERMILLION,
+                    markerfacecolor="none")
+        drawn += [
+            (name, int(n), *map(float, (share[n - 1], *limits[n - 1], alone[n - 1]))) for n in numbers
+        ]
         ax.set_title(name)
         ax.grid(True)
         at = cells - 1
@@ -142,14 +157,16 @@ def draw(case, members=(), cells=None, precision=0.05, confidence=0.95):
             name, f"{held}/{injected}", bounded(p, *ends), bounded(share[at], *limits[at]),
             trials_for(p, precision, confidence), trials_for(share[at], precision, confidence),
         ])
-    # Room for the line of zero
-    grid.flat[0].set_ylim(-0.02, 1)
-    grid.flat[0].set_xlim(1, max(fewest, 2))
+    grid.flat[0].margins(x=0.05)
+    grid.flat[0].set_ylim(bottom=min(-0.02, grid.flat[0].get_ylim()[0]))
     figure.supxlabel("cells injected, N", fontsize=9)
     figure.supylabel("P(exactly one of N held)", fontsize=9)
     figure.legend(*grid.flat[0].get_legend_handles_labels(), loc="upper center", ncol=3,
                   bbox_to_anchor=(0.5, 0))
-    style.describe(figure, caption(cases, members, precision, confidence), table)
+    columns = ("sieve", "N", "P(exactly one)", "low", "high", "of N independent cells")
+    style.describe(
+        figure, caption(cases, members, precision, confidence), (columns, drawn), table
+    )
     return figure
 
 

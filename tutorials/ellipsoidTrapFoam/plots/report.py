@@ -2,7 +2,8 @@
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
 """One page of HTML about a run, report.html in its case: device, flow, catches, the pictures
-that are there, parameters, versions and times. All that it needs is inside it."""
+that are there, parameters, versions and times. All that it needs is inside it; pictures link to
+the files of their full size and of their data."""
 
 import base64
 import html
@@ -20,6 +21,7 @@ from vtkmodules.vtkCommonCore import vtkVersion
 
 from case import MILLI
 from files import CaseError, read_dictionary, read_text, spelled
+from style import SUFFIXES
 
 # Chapter to (picture, title)
 CHAPTERS = {
@@ -69,6 +71,7 @@ nav a:hover { text-decoration: underline; }
 .facts span { color: var(--soft); font-size: .85rem; }
 figure { margin: .4rem 0 1.6rem; }
 figure img { display: block; max-width: 100%; height: auto; margin: 0 auto; }
+figcaption a { color: var(--accent); }
 figcaption { color: var(--soft); font-size: .9rem; margin-top: .5rem; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; margin: .6rem 0 1.4rem; font-size: .9rem;
@@ -132,14 +135,21 @@ def picture_of(case, name, title, number):
             width, height = image.size
     except (OSError, ValueError) as error:
         raise CaseError(f"{file}: {error}") from None
+    beside = [
+        (suffix, f"pictures/{name}.{suffix}") for suffix in SUFFIXES
+        if suffix != "json" and os.path.isfile(f"{stem}.{suffix}")
+    ]
+    links = ", ".join(f'<a href="{path}">{suffix.upper()}</a>' for suffix, path in beside)
+    largest = dict(beside).get("mp4") or "pictures/" + os.path.basename(file)
     # The pictures have 200 dots an inch, the film those of the screen
     shown = width if file.endswith(".webp") else round(width / 2)
     parts = [
         f'<h3 id="{name}">{text_of(title)}</h3>',
         "<figure>",
-        f'<img width="{shown}" height="{round(shown * height / width)}" '
-        f'alt="{text_of(title)}" src="data:image/{file[-4:].strip(".")};base64,{data}">',
-        f"<figcaption><b>{number}.</b> {text_of(note['caption'])}</figcaption>",
+        f'<a href="{largest}"><img width="{shown}" height="{round(shown * height / width)}" '
+        f'alt="{text_of(title)}" src="data:image/{file[-4:].strip(".")};base64,{data}"></a>',
+        f"<figcaption><b>{number}.</b> {text_of(note['caption'])} "
+        f"In full: {links}.</figcaption>",
         "</figure>",
     ]
     table = note["table"]
@@ -294,6 +304,7 @@ def parameters(case):
 def versions(case):
     """Programs and times."""
     rows = [
+        ("ellipsoidTrapFoam", logged(case, r"\nellipsoidTrapFoam (\d.*)") or "unknown"),
         ("OpenFOAM", logged(case, r"Build\s*: (.*)") or "unknown"),
         ("Python, NumPy", f"{platform.python_version()}, {np.__version__}"),
         ("matplotlib, VTK", f"{matplotlib.__version__}, {vtkVersion().GetVTKVersion()}"),
@@ -302,7 +313,7 @@ def versions(case):
     ]
     for stage, name, pattern in (
         ("meshing (snappyHexMesh)", "snappyHexMesh", r"Finished meshing in = (\S+) s"),
-        ("flow", "ellipsoidTrapFoam", r"flow: converged in \d+ iterations, (\S+) s"),
+        ("flow", "ellipsoidTrapFoam", r"flow: converged in .* (\S+) s"),
         ("tracking", "ellipsoidTrapFoam", r"tracking: (\S+) s"),
     ):
         value = logged(case, pattern, name)

@@ -22,7 +22,13 @@ from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 
 from case import NotApplicable
-from files import CaseError
+from files import CaseError, write_csv
+
+FORMATS = ("png", "pdf", "svg")
+# So that the same data leave the same bytes
+UNDATED = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
+# What may lie beside one another under the name of a picture
+SUFFIXES = (*FORMATS, "webp", "mp4", "json", "csv")
 
 # Viridis, paled so that tracks stand out on all of it
 PALE = 0.3
@@ -66,6 +72,8 @@ MEASURED = {
 
 plt.rcParams.update({
     "savefig.dpi": 200,
+    "pdf.fonttype": 42,        # letters stay letters, as journals ask for
+    "svg.hashsalt": "ellipsoidTrapFoam",
     "savefig.bbox": "tight",   # nothing is cut off, whatever stands beside the axes
     "font.size": 9,
     "axes.titlesize": 9,
@@ -122,9 +130,8 @@ def name_openings(ax, case):
 def draw_speed(ax, plane, **options):
     """The flow's speed in the limits of the axes; an image for a colour bar."""
     x, y, triangles, speed = plane.speed_in(ax.get_xlim(), ax.get_ylim())
-    return ax.tripcolor(
-        x, y, triangles, speed, shading="gouraud", cmap=SPEED_MAP, rasterized=True, **options
-    )
+    look = {"shading": "gouraud", "cmap": SPEED_MAP, "rasterized": True, **options}
+    return ax.tripcolor(x, y, triangles, speed, **look)
 
 
 def draw_outlines(ax, case, linewidth=0.6, sieve_color="black"):
@@ -137,11 +144,11 @@ def draw_outlines(ax, case, linewidth=0.6, sieve_color="black"):
             ))
 
 
-def legend_below(ax, keys):
-    """A legend in one row below the axis' label."""
+def legend_below(ax, keys, most=9):
+    """A legend below the axis' label, in one row or of so many columns at most."""
     ax.legend(
         handles=keys, loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=5,
-        ncol=len(keys), columnspacing=1.2, handlelength=1.8,
+        ncol=min(len(keys), most), columnspacing=1.2, handlelength=1.8,
     )
 
 
@@ -159,8 +166,10 @@ def fate_key(fate, number):
     return Line2D([], [], label=f"{fate} ({number})", **line)
 
 
-def describe(figure, caption, table=()):
-    """What goes beside the picture: a caption, and a table with its headings first."""
+def describe(figure, caption, data, table=()):
+    """What goes beside the picture: a caption, the data drawn as (names of columns, rows), and
+    a table with its headings first."""
+    figure.data = data
     figure.note = {"caption": " ".join(caption.split()), "table": list(table)}
 
 
@@ -174,37 +183,63 @@ def print_table(table):
         ).rstrip())
 
 
-def save(figure, case, name):
-    """Write a picture and what describe() said of it to the case's pictures; the path."""
-    folder = case.path("pictures")
+def save(figure, case, name, formats):
+    """Write a picture and what describe() said of it to the case's pictures; the paths."""
     name = getattr(figure, "name", name)
-    file = os.path.join(folder, name + getattr(figure, "suffix", ".png"))
+    stem = case.path("pictures", name)
+    made = [f"{stem}.{suffix}" for suffix in getattr(figure, "suffixes", formats)]
+    file = stem
     try:
-        os.makedirs(folder, exist_ok=True)
-        figure.savefig(file)
-        with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as f:
+        os.makedirs(os.path.dirname(stem), exist_ok=True)
+        for file in made:
+            suffix = file.rsplit(".", 1)[-1]
+            # What is drawn as pixels within a page of lines is to stand print
+            figure.savefig(
+                file, dpi=200 if suffix == "png" else 400, metadata=UNDATED.get(suffix)
+            )
+        file = stem + ".json"
+        with open(file, "w", encoding="utf-8") as f:
             json.dump(figure.note, f, ensure_ascii=False, indent=1)
+        file = stem + ".csv"
+        write_csv(file, *figure.data)
     except OSError as error:
         raise CaseError(f"{file}: {error.strerror or error}") from None
     finally:
         plt.close("all")
-    return file
+    return made
 
 
 def remove(case, name):
     """Take away a picture made before."""
-    for suffix in (".png", ".webp", ".json"):
-        file = case.path("pictures", name + suffix)
+    for suffix in SUFFIXES:
+        file = case.path("pictures", f"{name}.{suffix}")
         if os.path.isfile(file):
             os.remove(file)
 
 
-def make(draw, name, case, tables=True, **options):
+def read_formats(words):
+    """Formats by name, with commas between; the report shows PNG, which is always among them."""
+    formats = words.split(",")
+    for one in formats:
+        if one not in FORMATS:
+            raise argparse.ArgumentTypeError(f"no format '{one}'; there are {','.join(FORMATS)}")
+    return tuple(one for one in FORMATS if one in (*formats, "png"))
+
+
+def add_format(parser):
+    """The option that all commands have."""
+    parser.add_argument(
+        "--format", type=read_formats, metavar="LIST", default=("png",),
+        help=f"of {','.join(FORMATS)}; png is always written [png]",
+    )
+
+
+def make(draw, name, case, formats=("png",), tables=True, **options):
     """Draw one picture of a case and say what came of it; whether it went well."""
     start = time.monotonic()
     try:
         figure = draw(case, **options)
-        file = save(figure, case, name)
+        files = save(figure, case, name, formats)
     except NotApplicable as reason:
         print(f"{name}: left out: {reason}")
         return True
@@ -215,7 +250,7 @@ def make(draw, name, case, tables=True, **options):
         print(f"{name}: failed by a fault of the program:", file=sys.stderr)
         traceback.print_exc()
         return False
-    print(f"{name}: {file} ({time.monotonic() - start:.1f} s)")
+    print(f"{name}: {' '.join(files)} ({time.monotonic() - start:.1f} s)")
     if tables and figure.note["table"]:
         print_table(figure.note["table"])
     return True
@@ -230,4 +265,6 @@ def command(picture, case, words):
     )
     for option, settings in getattr(picture, "OPTIONS", {}).items():
         parser.add_argument("--" + option, **settings)
-    return make(picture.draw, name, case, **vars(parser.parse_args(words)))
+    add_format(parser)
+    given = vars(parser.parse_args(words))
+    return make(picture.draw, name, case, given.pop("format"), **given)

@@ -1,0 +1,68 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+
+#include "cellHalo.H"
+#include "UIPstream.H"
+#include "UOPstream.H"
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+template<class Type>
+void Foam::cellHalo::exchange(UList<Type>& values) const
+{
+    const auto mode = UPstream::commsTypes::nonBlocking;
+    const label before = UPstream::nRequests();
+    List<List<Type>> sent(links_.size());
+
+    forAll(links_, linki)
+    {
+        const link& here = links_[linki];
+        Type* received = values.begin() + here.start;
+
+        if (here.rank < 0)
+        {
+            const labelList& from = links_[here.other].send;
+            forAll(from, i)
+            {
+                received[i] = values[from[i]];
+            }
+            continue;
+        }
+
+        UIPstream::read
+        (
+            mode,
+            here.rank,
+            reinterpret_cast<char*>(received),
+            here.size*sizeof(Type),
+            here.tag
+        );
+
+        List<Type>& buffer = sent[linki];
+        buffer.setSize(here.send.size());
+        forAll(buffer, i)
+        {
+            buffer[i] = values[here.send[i]];
+        }
+        UOPstream::write
+        (
+            mode,
+            here.rank,
+            reinterpret_cast<const char*>(buffer.begin()),
+            buffer.size()*sizeof(Type),
+            here.tag
+        );
+    }
+
+    UPstream::waitRequests(before);
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,339 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+Description
+    What a stokesOperator is made of: faces and coefficients.
+
+\*---------------------------------------------------------------------------*/
+
+#include "stokesOperator.H"
+#include "fvMatrices.H"
+#include "fvMesh.H"
+#include "singlePrecision.H"
+#include "snGradScheme.H"
+#include "surfaceInterpolate.H"
+#include "transformFvPatchFields.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+template<class Type>
+Foam::Field<Type> Foam::stokesOperator::faceValues
+(
+    const GeometricField<Type, fvsPatchField, surfaceMesh>& values
+) const
+{
+    Field<Type> all(values.primitiveField());
+    for (const fvsPatchField<Type>& patchValues : values.boundaryField())
+    {
+        if (patchValues.coupled())
+        {
+            all.append(patchValues);
+        }
+    }
+
+    return all;
+}
+
+
+void Foam::stokesOperator::setFaces()
+{
+    owner_ = mesh_.owner();
+    neighbour_ = mesh_.neighbour();
+    label halo = halo_.nCells();
+
+    for (const fvPatch& patch : mesh_.boundary())
+    {
+        if (patch.coupled())
+        {
+            owner_.append(patch.faceCells());
+            neighbour_.append(identity(patch.size(), halo));
+            halo += patch.size();
+        }
+    }
+
+    weight_ = single(faceValues(mesh_.weights()));
+    Sf_ = single(faceValues(mesh_.Sf()));
+}
+
+
+void Foam::stokesOperator::setSkewFaces()
+{
+    // The sine of an angle below which an explicit term changes nothing that
+    // the outer iteration would notice
+    const scalar straight = 1e-3;
+
+    const tmp<fv::snGradScheme<scalar>> scheme
+    (
+        fv::snGradScheme<scalar>::New(mesh_, mesh_.snGradScheme("snGrad(p)"))
+    );
+    if (!scheme().corrected())
+    {
+        return;
+    }
+
+    const vectorField correction
+    (
+        faceValues(mesh_.nonOrthCorrectionVectors())
+    );
+
+    // Cells whose velocity gradients are used
+    boolList graded;
+    graded.setSize(halo_.size(), false);
+
+    DynamicList<label> skew;
+    forAll(owner_, facei)
+    {
+        if (magSqr(correction[facei]) > sqr(straight))
+        {
+            skew.append(facei);
+            graded[owner_[facei]] = true;
+            graded[neighbour_[facei]] = true;
+        }
+    }
+    skewFaces_.transfer(skew);
+    skewSf_ = single
+    (
+        vectorField(correction*faceValues(mesh_.magSf()), skewFaces_)
+    );
+    skew_ = returnReduce(skewFaces_.size() > 0, orOp<bool>());
+    halo_.exchange(graded);
+
+    DynamicList<label> grad;
+    forAll(owner_, facei)
+    {
+        if (graded[owner_[facei]] || graded[neighbour_[facei]])
+        {
+            grad.append(facei);
+        }
+    }
+    gradFaces_.transfer(grad);
+}
+
+
+void Foam::stokesOperator::setBoundary
+(
+    const volScalarField& rAU,
+    const volVectorField& U,
+    const volScalarField& p
+)
+{
+    for (const fvPatch& patch : mesh_.boundary())
+    {
+        patchStart_.append(boundaryCell_.size());
+
+        const label patchi = patch.index();
+        const fvPatchVectorField& Up = U.boundaryField()[patchi];
+        const fvPatchScalarField& pp = p.boundaryField()[patchi];
+        const word& type = patch.type();
+
+        if (patch.coupled() || type == "empty")
+        {
+            continue;
+        }
+
+        boundaryCell_.append(patch.faceCells());
+        boundarySf_.append(single(patch.Sf()));
+        boundaryP_.append(single(pp.valueInternalCoeffs(patch.weights())()));
+
+        const scalarField rAUp(rAU, patch.faceCells());
+        boundaryPCoeff_.append
+        (
+            single((rAUp*patch.magSf()*pp.gradientInternalCoeffs())())
+        );
+
+        // As constrainHbyA
+        boundaryOpen_.setSize
+        (
+            boundaryCell_.size(),
+            Up.assignable() && !polyPatch::constraintType(type)
+        );
+    }
+    patchStart_.append(boundaryCell_.size());
+}
+
+
+void Foam::stokesOperator::setTurned
+(
+    const fvVectorMatrix& UEqn,
+    const surfaceScalarField& phi,
+    const volVectorField& U
+)
+{
+    // What boundary values take over of a velocity in each direction
+    boundaryU_.setSize(boundaryCell_.size());
+    for (direction d = 0; d < 3; ++d)
+    {
+        vector unit(Zero);
+        unit[d] = 1;
+        volVectorField moved("moved", U);
+        moved.primitiveFieldRef() += unit;
+        moved.correctBoundaryConditions();
+
+        forAll(mesh_.boundary(), patchi)
+        {
+            const label start = patchStart_[patchi];
+
+            for (label i = start; i < patchStart_[patchi + 1]; ++i)
+            {
+                boundaryU_[i][d] = single
+                (
+                    moved.boundaryField()[patchi][i - start]
+                  - U.boundaryField()[patchi][i - start]
+                );
+            }
+        }
+    }
+
+    for (const fvPatchVectorField& Up : U.boundaryField())
+    {
+        if (!isA<transformFvPatchVectorField>(Up))
+        {
+            continue;
+        }
+
+        const fvPatch& patch = Up.patch();
+        const vectorField& internal = UEqn.internalCoeffs()[patch.index()];
+        const scalarField viscous(nu_*patch.magSf()*patch.deltaCoeffs());
+        const scalarField& phip = phi.boundaryField()[patch.index()];
+
+        forAll(patch, i)
+        {
+            const label facei = patchStart_[patch.index()] + i;
+            columns missing;
+            for (direction d = 0; d < 3; ++d)
+            {
+                missing[d] = Zero;
+                addProduct
+                (
+                    phip[i] - viscous[i], boundaryU_[facei][d], missing[d]
+                );
+                missing[d][d] += viscous[i] - internal[i][d];
+            }
+            turnedFaces_.append(facei);
+            turned_.append(missing);
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::stokesOperator::stokesOperator
+(
+    const fvVectorMatrix& UEqn,
+    const volScalarField& rAU,
+    const dimensionedScalar& nu,
+    const volVectorField& U,
+    const volScalarField& p,
+    const surfaceScalarField& phi
+)
+:
+    mesh_(U.mesh()),
+    nu_(nu.value()),
+    halo_(mesh_),
+    skew_(false),
+    diagonal_(halo_.nCells()),
+    V_(single(mesh_.V())),
+    rByV_(single((rAU.primitiveField()/mesh_.V())()))
+{
+    setFaces();
+    setSkewFaces();
+    setBoundary(rAU, U, p);
+    setTurned(UEqn, phi, U);
+
+    byV_ = single((1/mesh_.V().field())());
+    byV_.setSize(halo_.size());
+    halo_.exchange(byV_);
+
+    const surfaceScalarField rAUf(fvc::interpolate(rAU));
+    skewrAU_ = single(scalarField(faceValues(rAUf), skewFaces_));
+    pCoeff_ = single
+    (
+        faceValues
+        (
+            (rAUf*mesh_.magSf()*mesh_.nonOrthDeltaCoeffs())()
+        )
+    );
+    rByV_.setSize(halo_.size());
+    halo_.exchange(rByV_);
+
+    vectorField diagonal(UEqn.diag()*vector::one);
+    upper_ = single(UEqn.upper());
+    lower_ = single(UEqn.lower());
+    for (const fvPatch& patch : mesh_.boundary())
+    {
+        const vectorField& internal = UEqn.internalCoeffs()[patch.index()];
+        const labelUList& cells = patch.faceCells();
+
+        forAll(internal, i)
+        {
+            diagonal[cells[i]] += internal[i];
+        }
+        if (patch.coupled())
+        {
+            // Of a face that has its neighbour beyond, one row is here
+            const scalarField beyond
+            (
+                -UEqn.boundaryCoeffs()[patch.index()].component(0)
+            );
+            const List<float> row(single(beyond));
+            upper_.append(row);
+            lower_.append(row);
+        }
+    }
+    diagonal_ = single(diagonal);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::faceCoefficients Foam::stokesOperator::laplacian
+(
+    const List<floatVector>& mobility,
+    List<float>& upper,
+    List<float>& diagonal
+) const
+{
+    const scalarField distance(faceValues(mesh_.nonOrthDeltaCoeffs()));
+
+    upper.setSize(owner_.size());
+    scalarField sums(halo_.size(), Zero);
+    forAll(owner_, facei)
+    {
+        const label own = owner_[facei];
+        const label nei = neighbour_[facei];
+        const float w = weight_[facei];
+        floatVector m(Zero);
+        addProduct(w, mobility[own], m);
+        addProduct(1 - w, mobility[nei], m);
+        const floatVector& Sf = Sf_[facei];
+        const scalar coefficient =
+            dot(product(m, Sf), Sf)/mag(doubled(Sf))*distance[facei];
+
+        upper[facei] = -coefficient;
+        sums[own] += coefficient;
+        sums[nei] += coefficient;
+    }
+    forAll(boundaryCell_, facei)
+    {
+        // The gradient of a pressure that is fixed at the face
+        const label celli = boundaryCell_[facei];
+        const floatVector& Sf = boundarySf_[facei];
+
+        sums[celli] -=
+            boundaryPCoeff_[facei]/(rByV_[celli]*V_[celli])
+           *(dot(product(mobility[celli], Sf), Sf)/dot(Sf, Sf));
+    }
+    sums.setSize(halo_.nCells());
+    diagonal = single(sums);
+
+    return {owner_, neighbour_, upper, upper};
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,411 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+
+#include "flowFields.H"
+#include "checkFinite.H"
+#include "dictionary.H"
+#include "ellipsoidProperties.H"
+#include "fileOperation.H"
+#include "fvcFlux.H"
+#include "fvcSurfaceIntegrate.H"
+#include "fvMesh.H"
+#include "inletFlux.H"
+#include "masterGate.H"
+#include "PstreamReduceOps.H"
+#include "SHA1.H"
+#include "StringStream.H"
+#include "Time.H"
+#include "atomicWrite.H"
+#include "checkpoint.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::flowFields::solveType>
+Foam::flowFields::solveTypeNames_
+({
+    { solveType::NO, "no" },
+    { solveType::YES, "yes" },
+    { solveType::AUTO, "auto" }
+});
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- End the run if a field is not of the dimensions that the solver has it in
+template<class Field>
+static void checkDimensions
+(
+    const Field& field,
+    const dimensionSet& dimensions,
+    const char* hint
+)
+{
+    if (field.dimensions() != dimensions)
+    {
+        const masterGate once;
+        FatalErrorInFunction
+            << "The dimensions " << field.dimensions() << " of " << field.name()
+            << " are not " << dimensions << hint << nl
+            << "    " << field.objectPath() << exit(FatalError);
+    }
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::IOobject Foam::flowFields::fieldIO
+(
+    const word& name,
+    const IOobject::readOption readOpt
+) const
+{
+    return IOobject(name, instance_, mesh_, readOpt, IOobject::NO_WRITE);
+}
+
+
+Foam::fileName Foam::flowFields::unfinishedFile(const word& instance) const
+{
+    return checkpoint::unfinishedFlow(mesh_.time().path()/instance);
+}
+
+
+Foam::fileName Foam::flowFields::digestsFile(const word& instance) const
+{
+    return mesh_.time().path()/instance/"uniform"/"steadyFlow";
+}
+
+
+Foam::dictionary Foam::flowFields::digests(const word& instance) const
+{
+    IStringStream is(textOf(digestsFile(instance)));
+
+    return dictionary(is);
+}
+
+
+bool Foam::flowFields::isOwn(const word& instance, const word& name) const
+{
+    return
+        isFile(digestsFile(instance))
+     && digests(instance).getOrDefault<string>(name, "")
+     == SHA1(textOf(mesh_.time().path()/instance/name)).str();
+}
+
+
+void Foam::flowFields::setAside(const word& instance, const word& name) const
+{
+    const fileName plain(mesh_.time().path()/instance/name);
+    const fileName file(plain + (isFile(plain, false) ? "" : ".gz"));
+    const std::string text(textOf(plain));
+
+    if (fileHandler().type() != "uncollated" && hasFlux_)
+    {
+        FatalErrorInFunction
+            << "A flow in files that ranks share cannot be kept beside the new"
+            << " one: move U, p and phi of " << instance << " elsewhere, or"
+            << " solve with -fileHandler uncollated" << exit(FatalError);
+    }
+    if
+    (
+        text.empty()
+     || isOwn(instance, name)
+     || text == textOf(mesh_.time().path()/"0.orig"/name)
+    )
+    {
+        return;
+    }
+    if (!mvBak(file, "bak"))
+    {
+        cannotWrite(file);
+    }
+    Info<< "flow: " << (instance/name).c_str() << " as it was read is kept as "
+        << name << ".bak" << endl;
+}
+
+
+void Foam::flowFields::check() const
+{
+    checkDimensions(U_, dimVelocity, ": a velocity in m/s");
+    checkDimensions
+    (
+        p_,
+        sqr(dimVelocity),
+        ": the kinematic pressure, that is, Pa by kg/m3"
+    );
+    checkDimensions
+    (
+        phi_,
+        dimVelocity*dimArea,
+        ": the flux of volume, that is, one of mass by kg/m3"
+    );
+    checkFinite(U_, mesh_.C(), "mesh cell");
+    checkFinite(p_, mesh_.C(), "mesh cell");
+    checkFinite(phi_, mesh_.Cf(), "mesh face");
+}
+
+
+// * * * * * * * * * * * *  Protected Member Functions * * * * * * * * * * * //
+
+bool Foam::flowFields::unfinished() const
+{
+    return returnReduce(isFile(unfinishedFile(instance_)), orOp<bool>());
+}
+
+
+bool Foam::flowFields::foreign() const
+{
+    // Digests that decomposePar links or reconstructPar copies are of the files
+    // that it started from; U and p may have been edited, their boundary
+    // conditions
+    const fileName uniform(digestsFile(instance_).path());
+    const bool copied =
+        uniform.type(false) == fileName::LINK
+     || (
+            isFile(digestsFile(instance_))
+         && digests(instance_).getOrDefault<label>("ranks", 0)
+         != Pstream::nProcs()
+        );
+
+    return returnReduce
+    (
+        hasFlux_ && !unfinished() && !copied && !isOwn(instance_, phi_.name()),
+        orOp<bool>()
+    );
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::flowFields::flowFields(const fvMesh& mesh)
+:
+    mesh_(mesh),
+    instance_(mesh.time().findInstance(mesh.dbDir(), "U")),
+    hasFlux_
+    (
+        returnReduce
+        (
+            fieldIO("phi", IOobject::MUST_READ)
+           .typeHeaderOk<surfaceScalarField>(true),
+            andOp<bool>()
+        )
+    ),
+    U_(fieldIO("U", IOobject::MUST_READ), mesh),
+    p_(fieldIO("p", IOobject::MUST_READ), mesh),
+    phi_
+    (
+        fieldIO
+        (
+            "phi",
+            hasFlux_ ? IOobject::READ_IF_PRESENT : IOobject::NO_READ
+        ),
+        fvc::flux(U_)
+    )
+{
+    check();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+const Foam::dictionary& Foam::flowFields::controls(const fvMesh& mesh)
+{
+    const dictionary& solution = mesh.solutionDict();
+
+    return solution.found("flow") ? solution.subDict("flow") : dictionary::null;
+}
+
+
+Foam::flowFields::solveType Foam::flowFields::solveOf(const fvMesh& mesh)
+{
+    const dictionary& dict = controls(mesh);
+    const masterGate once;
+
+    ellipsoidProperties::checkKeywords
+    (
+        dict, {"solve", "continuityTolerance", "fluxTolerance"}
+    );
+
+    return solveTypeNames_.getOrDefault("solve", dict, solveType::AUTO);
+}
+
+
+bool Foam::flowFields::accept()
+{
+    if (unfinished())
+    {
+        const masterGate once;
+        FatalErrorInFunction
+            << "The flow in " << instance_ << " was not all written: a run was"
+            << " interrupted, as the file U.unfinished says. Without solve no in the dictionary flow of"
+            << " system/fvSolution it is solved again." << exit(FatalError);
+    }
+
+    scalar continuityTolerance, fluxTolerance;
+    {
+        typedef ellipsoidProperties entries;
+        const dictionary& dict = controls(mesh_);
+        const masterGate once;
+        continuityTolerance =
+            entries::number(dict, "continuityTolerance", above(0), 1e-3);
+        fluxTolerance =
+            entries::number(dict, "fluxTolerance", above(0), 0.1);
+    }
+
+    const surfaceScalarField ofU(fvc::flux(U_));
+    const scalarField net(fvc::surfaceIntegrate(phi_)().primitiveField());
+    const scalarField through
+    (
+        fvc::surfaceSum(mag(phi_))().primitiveField()
+    );
+
+    const scalar imbalance =
+        gSum(mag(net)*mesh_.V())/(0.5*gSum(through) + VSMALL);
+    const scalar difference =
+        gSum(fvc::surfaceSum(mag(phi_ - ofU))().primitiveField())
+       /(gSum(through) + VSMALL);
+
+    Info<< "flow: taken as read from " << instance_ << ": net fluxes of mesh"
+        << " cells " << text(imbalance) << " of those through them, phi and the"
+        << " flux of U differ by " << text(difference)
+        << (hasFlux_ ? "" : " (phi is that of U: there is none in the time)")
+        << endl;
+
+    const masterGate once;
+
+    if (!(imbalance <= continuityTolerance))
+    {
+        FatalErrorInFunction
+            << "The flow in " << instance_ << " does not keep its volume: net"
+            << " fluxes of mesh cells are " << text(imbalance)
+            << " of the fluxes through them, above continuityTolerance "
+            << text(continuityTolerance) << " (dictionary flow of"
+            << " system/fvSolution)" << exit(FatalError);
+    }
+    if (!(difference <= fluxTolerance))
+    {
+        FatalErrorInFunction
+            << "phi and U in " << instance_ << " are not of one flow: they"
+            << " differ by " << text(difference) << ", above fluxTolerance "
+            << text(fluxTolerance) << " (dictionary flow of"
+            << " system/fvSolution)" << exit(FatalError);
+    }
+
+    return true;
+}
+
+
+void Foam::flowFields::write()
+{
+    const word& instance = mesh_.time().timeName();
+    const fileName path(mesh_.time().path()/instance);
+    const wordList names({phi_.name(), p_.name(), U_.name()});
+
+    for (const word& name : names)
+    {
+        setAside(instance, name);
+    }
+
+    atomicWrite(unfinishedFile(instance), "Not all of the flow is written\n");
+    atomicWrite(phi_);
+    atomicWrite(p_);
+    atomicWrite(U_);
+
+    dictionary written;
+    written.set("ranks", Pstream::nProcs());
+    for (const word& name : names)
+    {
+        written.set(name, string(SHA1(textOf(path/name)).str()));
+    }
+    // decomposePar links the folder of the whole case
+    if ((path/"uniform").type(false) == fileName::LINK)
+    {
+        rm(path/"uniform");
+    }
+    mkDir(path/"uniform");
+    atomicWrite(digestsFile(instance), written);
+
+    label all = 1;
+    reduce(all, sumOp<label>());
+    rm(unfinishedFile(instance));
+
+    Info<< "flow: written to " << instance << endl;
+}
+
+
+void Foam::flowFields::report(const scalar density) const
+{
+    const inletFlux through(U_, phi_);
+
+    if (through.closed())
+    {
+        Info<< "flow: nothing flows through, mean speed "
+            << text(through.speed) << " m/s" << endl;
+        return;
+    }
+
+    scalar inP = 0;
+    scalar outflow = 0, outP = 0;
+
+    forAll(through.patches, i)
+    {
+        // A patch may have no faces
+        if (through.area[i] <= 0)
+        {
+            continue;
+        }
+
+        const label patchi = through.patches[i];
+        const scalar flux = through.flux[i];
+        const scalar patchP =
+            gSum
+            (
+                p_.boundaryField()[patchi]*mesh_.magSf().boundaryField()[patchi]
+            )
+           /through.area[i];
+
+        Info<< "flow: " << mesh_.boundary()[patchi].name() << ": "
+            << text(mag(flux)) << " m3/s " << (flux < 0 ? "in" : "out")
+            << ", mean p " << text(patchP) << " m2/s2" << endl;
+
+        if (flux < 0)
+        {
+            inP -= flux*patchP;
+        }
+        else
+        {
+            outflow += flux;
+            outP += flux*patchP;
+        }
+    }
+
+    Info<< "flow: mean inlet speed " << text(through.speed) << " m/s"
+        << endl;
+
+    if (outflow > 0)
+    {
+        const scalar drop = inP/through.inflow - outP/outflow;
+
+        Info<< "flow: pressure drop " << text(drop) << " m2/s2";
+
+        if (density > 0)
+        {
+            Info<< " (" << text(density*drop) << " Pa)";
+        }
+        Info<< endl;
+    }
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,180 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+
+#include "caseSummary.H"
+#include "captureCriterion.H"
+#include "ellipsoidProperties.H"
+#include "fvMesh.H"
+#include "inletFlux.H"
+#include "narrowestGaps.H"
+#include "Time.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Metres in micrometres, three digits
+static word um(const scalar length)
+{
+    return word::printf("%.3g", 1e6*length);
+}
+
+
+static string um(const vector& v)
+{
+    return um(v.x()) + " x " + um(v.y()) + " x " + um(v.z()) + " um";
+}
+
+
+static void reportMesh(const fvMesh& mesh, const scalar width)
+{
+    // A chip is smaller
+    const scalar largest = 1;
+
+    const vector span(mesh.bounds().span());
+
+    Info<< "case: mesh of " << mesh.nCells() << " cells, " << um(span).c_str()
+        << endl;
+
+    if (cmptMax(span) > largest)
+    {
+        Warning
+            << "The mesh is " << cmptMax(span) << " m long. If it is in"
+            << " micrometres: transformPoints -scale 1e-6" << nl << endl;
+    }
+    else if (cmptMin(span) < width)
+    {
+        FatalErrorInFunction
+            << "A cell is " << um(width) << " um wide, the device only "
+            << um(cmptMin(span)) << " um. Entries are in metres: semiAxes"
+            << " (0.5e-6 2e-6 0.5e-6)" << exit(FatalError);
+    }
+}
+
+
+static void reportCell(const ellipsoid_options& options)
+{
+    const vector axes
+    (
+        options.semi_axes[0], options.semi_axes[1], options.semi_axes[2]
+    );
+
+    Info<< "case: cells of " << um(2*axes).c_str() << " along their axes" << endl;
+}
+
+
+static void reportSieves
+(
+    const fvMesh& mesh,
+    const captureCriterion& criterion,
+    const scalar width
+)
+{
+    // With n the flux through a slit is 1 + 2/n^2 times as large
+    const scalar fewest = 4;
+
+    if (criterion.sieves().empty())
+    {
+        Warning
+            << "capture names no sieves: no cell can be caught" << nl << endl;
+        return;
+    }
+
+    const narrowestGaps gaps(mesh);
+
+    for (const label patchi : criterion.sieves())
+    {
+        const word& name = mesh.boundaryMesh()[patchi].name();
+        const narrowestGaps::gap gap(gaps.at(patchi));
+
+        if (gap.width >= GREAT)
+        {
+            continue;
+        }
+        Info<< "case: narrowest gap of " << name << ' ' << um(gap.width)
+            << " um: " << word::printf("%.3g", gap.meshCells)
+            << " mesh cells across, " << word::printf("%.3g", gap.width/width)
+            << " of a cell's width" << endl;
+
+        if (gap.meshCells < fewest - 0.5)
+        {
+            Warning
+                << "The narrowest gap of " << name << ", at "
+                << shortText(gap.at).c_str() << ", is only "
+                << word::printf("%.3g", gap.meshCells) << " mesh cells wide:"
+                << " the flow through it is not resolved" << nl << endl;
+        }
+    }
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+void Foam::reportCase
+(
+    const fvMesh& mesh,
+    const ellipsoidProperties& properties,
+    const captureCriterion& criterion
+)
+{
+    const ellipsoid_options& options = properties.options();
+    const double* axes = options.semi_axes;
+    const scalar width = 2*min(axes[0], min(axes[1], axes[2]));
+
+    reportMesh(mesh, width);
+    reportCell(options);
+    reportSieves(mesh, criterion, width);
+
+    const scalar deltaT = mesh.time().deltaTValue();
+
+    if (deltaT > criterion.holdTime())
+    {
+        Warning
+            << "deltaT " << deltaT << " s is longer than holdTime "
+            << criterion.holdTime() << " s: cells are judged once a deltaT"
+            << nl << endl;
+    }
+}
+
+
+void Foam::reportReynolds
+(
+    const inletFlux& through,
+    const scalar nu
+)
+{
+    if (through.closed())
+    {
+        return;
+    }
+
+    // Beyond, a steady laminar flow is not to be taken for granted
+    const scalar largest = 100;
+
+    const scalar area = through.inflow/through.speed;
+    const scalar number = through.speed*sqrt(area)/nu;
+
+    Info<< "case: Reynolds number " << word::printf("%.3g", number) << " of the"
+        << " inlets" << endl;
+
+    if (number > largest)
+    {
+        Warning
+            << "The Reynolds number is " << word::printf("%.3g", number)
+            << ". The pressure p is kinematic: Pa by the density, m2/s2" << nl
+            << endl;
+    }
+}
+
+
+// ************************************************************************* //
