@@ -24,6 +24,7 @@ License
 #include "fvcSurfaceIntegrate.H"
 #include "fvmDiv.H"
 #include "fvmLaplacian.H"
+#include "fvmSup.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
 #include "masterGate.H"
@@ -210,6 +211,10 @@ Foam::tmp<Foam::fvVectorMatrix> Foam::steadyFlow::momentum()
     if (hasTransposed_)
     {
         UEqn.ref() -= fvc::div(nu_*dev2(T(fvc::grad(U_))), transposedScheme_);
+    }
+    if (const auto* resistance = mesh_.cfindObject<volScalarField>("resistance"))
+    {
+        UEqn.ref() += fvm::Sp(*resistance, U_);
     }
 
     return UEqn;
@@ -489,6 +494,7 @@ void Foam::steadyFlow::solve()
         << (coupled_ ? "corrections of U and p together, checked by " : "")
         << (consistent_ ? "SIMPLEC" : "SIMPLE") << endl;
 
+    convergence_.restart(U_, phi_);
     const clockTime clock;
     scalar reported = -1;
     label iteration = 0;

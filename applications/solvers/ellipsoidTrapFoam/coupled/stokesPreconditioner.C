@@ -80,17 +80,15 @@ Foam::List<Foam::floatVector> Foam::stokesPreconditioner::mobility() const
         stokes_.halo().exchange(m);
     }
 
-    // Convection may leave a cell with what is no mobility
-    floatVector most(Zero);
-    for (const floatVector& value : m)
+    // Convection may leave a cell with less than what it has if its neighbours
+    // are at rest
+    for (label celli = 0; celli < n; ++celli)
     {
-        most = max(most, value);
+        const float V = stokes_.V()[celli];
+        m[celli] =
+            max(m[celli], cmptDivide(floatVector(V, V, V), diagonal_[celli]));
     }
-    reduce(most, maxOp<floatVector>());
-    for (floatVector& value : m)
-    {
-        value = max(value, product(floatVector(1e-3, 1e-3, 1e-3), most));
-    }
+    stokes_.halo().exchange(m);
 
     return m;
 }
