@@ -16,7 +16,6 @@ License
 #include "fvMatrices.H"
 #include "fvMesh.H"
 #include "masterGate.H"
-#include "singlePrecision.H"
 #include "stokesGMRES.H"
 #include "surfaceInterpolate.H"
 
@@ -26,7 +25,8 @@ void Foam::coupledFlow::setResidual
 (
     const fvVectorMatrix& UEqn,
     const volScalarField& rAU,
-    stokesVector& r
+    const stokesUnits& units,
+    List<fourFloats>& r
 )
 {
     const fvMesh& mesh = U_.mesh();
@@ -73,8 +73,10 @@ void Foam::coupledFlow::setResidual
                 force[cmpt] = 0;
             }
         }
-        r.U[celli] = single(force);
-        r.p[celli] = -V[celli]*continuity[celli];
+        r[celli] = fourOf
+        (
+            force/units.force(), -V[celli]*continuity[celli]/units.flux()
+        );
     }
 }
 
@@ -127,19 +129,20 @@ Foam::label Foam::coupledFlow::correct
     const stokesOperator stokes(UEqn, rAU, nu_, U_, p_, phi_);
     const stokesPreconditioner preconditioner
     (
-        stokes, nu_.value(), !p_.needReference()
+        stokes, !p_.needReference()
     );
-    stokesGMRES gmres(stokes, preconditioner, nu_.value());
+    stokesGMRES gmres(stokes, preconditioner);
+    const stokesUnits& units = stokes.units();
 
-    setResidual(UEqn, rAU, gmres.residual());
+    setResidual(UEqn, rAU, units, gmres.residual());
     const label n = gmres.solve(relTol, maxIterations);
 
-    const stokesVector& found = gmres.correction();
+    const List<fourFloats>& found = gmres.correction();
     stokes.addFlux(found, gmres.pressureForce(), phi_);
     forAll(U_, celli)
     {
-        U_[celli] += doubled(found.U[celli]);
-        p_[celli] += found.p[celli];
+        U_[celli] += vectorOf(found[celli]);
+        p_[celli] += units.pressure()*found[celli][3];
     }
     U_.correctBoundaryConditions();
     p_.correctBoundaryConditions();

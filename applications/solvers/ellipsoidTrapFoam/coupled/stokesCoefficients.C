@@ -14,7 +14,6 @@ Description
 #include "stokesOperator.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
-#include "singlePrecision.H"
 #include "snGradScheme.H"
 #include "surfaceInterpolate.H"
 #include "transformFvPatchFields.H"
@@ -57,7 +56,7 @@ void Foam::stokesOperator::setFaces()
     }
 
     weight_ = single(faceValues(mesh_.weights()));
-    Sf_ = single(faceValues(mesh_.Sf()));
+    Sf_ = fourOf(vectorField(faceValues(mesh_.Sf())/units_.flux()));
 }
 
 
@@ -96,9 +95,13 @@ void Foam::stokesOperator::setSkewFaces()
         }
     }
     skewFaces_.transfer(skew);
-    skewSf_ = single
+    skewSf_ = fourOf
     (
-        vectorField(correction*faceValues(mesh_.magSf()), skewFaces_)
+        vectorField
+        (
+            vectorField(correction*faceValues(mesh_.magSf())/units_.flux()),
+            skewFaces_
+        )
     );
     skew_ = returnReduce(skewFaces_.size() > 0, orOp<bool>());
     halo_.exchange(graded);
@@ -137,13 +140,18 @@ void Foam::stokesOperator::setBoundary
         }
 
         boundaryCell_.append(patch.faceCells());
-        boundarySf_.append(single(patch.Sf()));
+        boundarySf_.append(fourOf(vectorField(patch.Sf()/units_.flux())));
         boundaryP_.append(single(pp.valueInternalCoeffs(patch.weights())()));
 
+        // Of the ratio of a flux to a pressure
+        const scalar unit = units_.flux()/units_.pressure();
         const scalarField rAUp(rAU, patch.faceCells());
         boundaryPCoeff_.append
         (
-            single((rAUp*patch.magSf()*pp.gradientInternalCoeffs())())
+            single
+            (
+                (rAUp*patch.magSf()*pp.gradientInternalCoeffs()/unit)()
+            )
         );
 
         // As constrainHbyA
@@ -180,7 +188,7 @@ void Foam::stokesOperator::setTurned
 
             for (label i = start; i < patchStart_[patchi + 1]; ++i)
             {
-                boundaryU_[i][d] = single
+                boundaryU_[i].column[d] = fourOf
                 (
                     moved.boundaryField()[patchi][i - start]
                   - U.boundaryField()[patchi][i - start]
@@ -198,25 +206,83 @@ void Foam::stokesOperator::setTurned
 
         const fvPatch& patch = Up.patch();
         const vectorField& internal = UEqn.internalCoeffs()[patch.index()];
-        const scalarField viscous(nu_*patch.magSf()*patch.deltaCoeffs());
+        const scalarField viscous
+        (
+            units_.nu*patch.magSf()*patch.deltaCoeffs()
+        );
         const scalarField& phip = phi.boundaryField()[patch.index()];
 
         forAll(patch, i)
         {
             const label facei = patchStart_[patch.index()] + i;
             columns missing;
-            for (direction d = 0; d < 3; ++d)
+            for (int d = 0; d < 3; ++d)
             {
-                missing[d] = Zero;
-                addProduct
-                (
-                    phip[i] - viscous[i], boundaryU_[facei][d], missing[d]
-                );
-                missing[d][d] += viscous[i] - internal[i][d];
+                fourFloats& column = missing.column[d];
+                column =
+                    float((phip[i] - viscous[i])/units_.force())
+                   *boundaryU_[facei].column[d];
+                column[d] += (viscous[i] - internal[i][d])/units_.force();
             }
             turnedFaces_.append(facei);
             turned_.append(missing);
         }
+    }
+}
+
+
+void Foam::stokesOperator::setCells(const volScalarField& rAU)
+{
+    const scalarField V(mesh_.V()/pow3(units_.length));
+    V_ = single(V);
+
+    byV_ = single(scalarField(1/V));
+    byV_.setSize(halo_.size());
+    halo_.exchange(byV_);
+
+    rByV_ = single
+    (
+        scalarField(rAU.primitiveField()/units_.mobility()/V)
+    );
+    rByV_.setSize(halo_.size());
+    halo_.exchange(rByV_);
+}
+
+
+void Foam::stokesOperator::setMomentum(const fvVectorMatrix& UEqn)
+{
+    vectorField diagonal(UEqn.diag()*vector::one);
+    upper_ = single(scalarField(UEqn.upper()/units_.force()));
+    lower_ = single(scalarField(UEqn.lower()/units_.force()));
+
+    for (const fvPatch& patch : mesh_.boundary())
+    {
+        const vectorField& internal = UEqn.internalCoeffs()[patch.index()];
+        const labelUList& cells = patch.faceCells();
+
+        forAll(internal, i)
+        {
+            diagonal[cells[i]] += internal[i];
+        }
+        if (patch.coupled())
+        {
+            // Of a face that has its neighbour beyond, one row is here
+            const scalarField beyond
+            (
+                -UEqn.boundaryCoeffs()[patch.index()].component(0)
+               /units_.force()
+            );
+            const List<float> row(single(beyond));
+            upper_.append(row);
+            lower_.append(row);
+        }
+    }
+
+    diagonal_.setSize(diagonal.size());
+    forAll(diagonal_, celli)
+    {
+        const vector d(diagonal[celli]/units_.force());
+        diagonal_[celli] = fourOf(d, d.x());
     }
 }
 
@@ -234,59 +300,33 @@ Foam::stokesOperator::stokesOperator
 )
 :
     mesh_(U.mesh()),
-    nu_(nu.value()),
+    units_{cbrt(gAverage(mesh_.V().field())), nu.value()},
     halo_(mesh_),
-    skew_(false),
-    diagonal_(halo_.nCells()),
-    V_(single(mesh_.V())),
-    rByV_(single((rAU.primitiveField()/mesh_.V())()))
+    skew_(false)
 {
     setFaces();
     setSkewFaces();
     setBoundary(rAU, U, p);
     setTurned(UEqn, phi, U);
-
-    byV_ = single((1/mesh_.V().field())());
-    byV_.setSize(halo_.size());
-    halo_.exchange(byV_);
+    setCells(rAU);
+    setMomentum(UEqn);
 
     const surfaceScalarField rAUf(fvc::interpolate(rAU));
-    skewrAU_ = single(scalarField(faceValues(rAUf), skewFaces_));
+    skewrAU_ = single
+    (
+        scalarField(faceValues(rAUf), skewFaces_)/units_.mobility()
+    );
     pCoeff_ = single
     (
-        faceValues
+        scalarField
         (
-            (rAUf*mesh_.magSf()*mesh_.nonOrthDeltaCoeffs())()
+            faceValues
+            (
+                (rAUf*mesh_.magSf()*mesh_.nonOrthDeltaCoeffs())()
+            )
+           *(units_.pressure()/units_.flux())
         )
     );
-    rByV_.setSize(halo_.size());
-    halo_.exchange(rByV_);
-
-    vectorField diagonal(UEqn.diag()*vector::one);
-    upper_ = single(UEqn.upper());
-    lower_ = single(UEqn.lower());
-    for (const fvPatch& patch : mesh_.boundary())
-    {
-        const vectorField& internal = UEqn.internalCoeffs()[patch.index()];
-        const labelUList& cells = patch.faceCells();
-
-        forAll(internal, i)
-        {
-            diagonal[cells[i]] += internal[i];
-        }
-        if (patch.coupled())
-        {
-            // Of a face that has its neighbour beyond, one row is here
-            const scalarField beyond
-            (
-                -UEqn.boundaryCoeffs()[patch.index()].component(0)
-            );
-            const List<float> row(single(beyond));
-            upper_.append(row);
-            lower_.append(row);
-        }
-    }
-    diagonal_ = single(diagonal);
 }
 
 
@@ -294,12 +334,15 @@ Foam::stokesOperator::stokesOperator
 
 Foam::faceCoefficients Foam::stokesOperator::laplacian
 (
-    const List<floatVector>& mobility,
+    const List<fourFloats>& mobility,
     List<float>& upper,
     List<float>& diagonal
 ) const
 {
-    const scalarField distance(faceValues(mesh_.nonOrthDeltaCoeffs()));
+    const scalarField distance
+    (
+        faceValues(mesh_.nonOrthDeltaCoeffs())*units_.length
+    );
 
     upper.setSize(owner_.size());
     scalarField sums(halo_.size(), Zero);
@@ -308,12 +351,10 @@ Foam::faceCoefficients Foam::stokesOperator::laplacian
         const label own = owner_[facei];
         const label nei = neighbour_[facei];
         const float w = weight_[facei];
-        floatVector m(Zero);
-        addProduct(w, mobility[own], m);
-        addProduct(1 - w, mobility[nei], m);
-        const floatVector& Sf = Sf_[facei];
+        const fourFloats m = w*mobility[own] + (1 - w)*mobility[nei];
+        const fourFloats& Sf = Sf_[facei];
         const scalar coefficient =
-            dot(product(m, Sf), Sf)/mag(doubled(Sf))*distance[facei];
+            dot3(m*Sf, Sf)/sqrt(dot3(Sf, Sf))*distance[facei];
 
         upper[facei] = -coefficient;
         sums[own] += coefficient;
@@ -323,11 +364,11 @@ Foam::faceCoefficients Foam::stokesOperator::laplacian
     {
         // The gradient of a pressure that is fixed at the face
         const label celli = boundaryCell_[facei];
-        const floatVector& Sf = boundarySf_[facei];
+        const fourFloats& Sf = boundarySf_[facei];
 
         sums[celli] -=
             boundaryPCoeff_[facei]/(rByV_[celli]*V_[celli])
-           *(dot(product(mobility[celli], Sf), Sf)/dot(Sf, Sf));
+           *(dot3(mobility[celli]*Sf, Sf)/dot3(Sf, Sf));
     }
     sums.setSize(halo_.nCells());
     diagonal = single(sums);
