@@ -253,9 +253,11 @@ Foam::aggregationMultigrid<Type>::aggregationMultigrid
     const cellHalo& halo,
     const faceCoefficients& faces,
     const UList<Type>& diagonal,
-    const bool singular
+    const bool singular,
+    const label nCycles
 )
 :
+    nCycles_(nCycles),
     levels_(),
     inverse_(),
     offset_(0)
@@ -284,8 +286,35 @@ Foam::aggregationMultigrid<Type>::aggregationMultigrid
 template<class Type>
 const Foam::UList<Type>& Foam::aggregationMultigrid<Type>::solve() const
 {
+    level& finest = levels_[0];
+    const sparseRows<Type>& matrix = finest.matrix;
+
     cycle(0);
-    return levels_[0].solution;
+    for (label cyclei = 1; cyclei < nCycles_; ++cyclei)
+    {
+        const List<Type> before(finest.solution);
+        matrix.halo.exchange(finest.solution);
+
+        for (label i = 0; i < matrix.size(); ++i)
+        {
+            // The diagonal's inverse is stored
+            Type residual = finest.source[i] - before[i]/matrix.diagonal[i];
+            for (label k = matrix.start[i]; k < matrix.start[i + 1]; ++k)
+            {
+                residual -=
+                    matrix.coefficient[k]*finest.solution[matrix.column[k]];
+            }
+            finest.source[i] = residual;
+        }
+
+        cycle(0);
+        for (label i = 0; i < matrix.size(); ++i)
+        {
+            finest.solution[i] += before[i];
+        }
+    }
+
+    return finest.solution;
 }
 
 

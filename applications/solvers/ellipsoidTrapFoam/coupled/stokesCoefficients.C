@@ -12,6 +12,7 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "stokesOperator.H"
+#include "DynamicList.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
 #include "snGradScheme.H"
@@ -105,16 +106,70 @@ void Foam::stokesOperator::setSkewFaces()
     );
     skew_ = returnReduce(skewFaces_.size() > 0, orOp<bool>());
     halo_.exchange(graded);
+    setGradients(graded);
+}
 
-    DynamicList<label> grad;
-    forAll(owner_, facei)
+
+void Foam::stokesOperator::setGradients(const boolList& graded)
+{
+    labelList row(halo_.size(), -1);
+    DynamicList<label> cells;
+    for (label celli = 0; celli < halo_.nCells(); ++celli)
     {
-        if (graded[owner_[facei]] || graded[neighbour_[facei]])
+        if (graded[celli])
         {
-            grad.append(facei);
+            row[celli] = cells.size();
+            cells.append(celli);
         }
     }
-    gradFaces_.transfer(grad);
+
+    gradCells_.transfer(cells);
+
+    gradStart_.setSize(gradCells_.size() + 1, Zero);
+    forAll(owner_, facei)
+    {
+        for (const label celli : {owner_[facei], neighbour_[facei]})
+        {
+            if (row[celli] >= 0)
+            {
+                ++gradStart_[row[celli] + 1];
+            }
+        }
+    }
+    forAll(gradCells_, i)
+    {
+        gradStart_[i + 1] += gradStart_[i];
+    }
+
+    gradOwn_.setSize(gradCells_.size(), fourFloats{});
+    gradCell_.setSize(gradStart_.last());
+    gradWeight_.setSize(gradStart_.last());
+    labelList next(SubList<label>(gradStart_, gradCells_.size()));
+
+    forAll(owner_, facei)
+    {
+        const label own = owner_[facei];
+        const label nei = neighbour_[facei];
+        const fourFloats ofOwn = weight_[facei]*Sf_[facei];
+        const fourFloats ofNei = (1 - weight_[facei])*Sf_[facei];
+
+        if (row[own] >= 0)
+        {
+            const label at = next[row[own]]++;
+            gradOwn_[row[own]] += ofOwn;
+            gradCell_[at] = nei;
+            gradWeight_[at] = ofNei;
+        }
+        if (row[nei] >= 0)
+        {
+            const label at = next[row[nei]]++;
+            gradOwn_[row[nei]] -= ofNei;
+            gradCell_[at] = own;
+            gradWeight_[at] = -ofOwn;
+        }
+    }
+
+    gradU_.setSize(halo_.size(), columns{});
 }
 
 
@@ -125,6 +180,13 @@ void Foam::stokesOperator::setBoundary
     const volScalarField& p
 )
 {
+    patchStart_.clear();
+    boundaryCell_.clear();
+    boundarySf_.clear();
+    boundaryP_.clear();
+    boundaryPCoeff_.clear();
+    boundaryOpen_.clear();
+
     for (const fvPatch& patch : mesh_.boundary())
     {
         patchStart_.append(boundaryCell_.size());
@@ -197,6 +259,27 @@ void Foam::stokesOperator::setTurned
         }
     }
 
+    boolList graded;
+    graded.setSize(halo_.size(), false);
+    UIndirectList<bool>(graded, gradCells_) = true;
+    DynamicList<label> faces;
+    forAll(boundaryCell_, facei)
+    {
+        const columns& moved = boundaryU_[facei];
+        fourFloats size{};
+        for (const fourFloats& column : moved.column)
+        {
+            size += column*column;
+        }
+        if (graded[boundaryCell_[facei]] && dot3(size, fourOf(1)) > 0)
+        {
+            faces.append(facei);
+        }
+    }
+    gradFaces_.transfer(faces);
+
+    turnedFaces_.clear();
+    turned_.clear();
     for (const fvPatchVectorField& Up : U.boundaryField())
     {
         if (!isA<transformFvPatchVectorField>(Up))
@@ -231,7 +314,7 @@ void Foam::stokesOperator::setTurned
 }
 
 
-void Foam::stokesOperator::setCells(const volScalarField& rAU)
+void Foam::stokesOperator::setVolumes()
 {
     const scalarField V(mesh_.V()/pow3(units_.length));
     V_ = single(V);
@@ -239,13 +322,6 @@ void Foam::stokesOperator::setCells(const volScalarField& rAU)
     byV_ = single(scalarField(1/V));
     byV_.setSize(halo_.size());
     halo_.exchange(byV_);
-
-    rByV_ = single
-    (
-        scalarField(rAU.primitiveField()/units_.mobility()/V)
-    );
-    rByV_.setSize(halo_.size());
-    halo_.exchange(rByV_);
 }
 
 
@@ -289,27 +365,45 @@ void Foam::stokesOperator::setMomentum(const fvVectorMatrix& UEqn)
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::stokesOperator::stokesOperator
+Foam::stokesOperator::stokesOperator(const fvMesh& mesh, const scalar nu)
+:
+    mesh_(mesh),
+    units_(mesh, nu),
+    halo_(mesh_),
+    skew_(false),
+    velocity_(halo_.size())
+{
+    setFaces();
+    setSkewFaces();
+    setVolumes();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::stokesOperator::set
 (
     const fvVectorMatrix& UEqn,
     const volScalarField& rAU,
-    const dimensionedScalar& nu,
     const volVectorField& U,
     const volScalarField& p,
     const surfaceScalarField& phi
 )
-:
-    mesh_(U.mesh()),
-    units_{cbrt(gAverage(mesh_.V().field())), nu.value()},
-    halo_(mesh_),
-    skew_(false)
 {
-    setFaces();
-    setSkewFaces();
     setBoundary(rAU, U, p);
     setTurned(UEqn, phi, U);
-    setCells(rAU);
     setMomentum(UEqn);
+
+    rByV_ = single
+    (
+        scalarField(rAU.primitiveField()/units_.mobility())
+    );
+    rByV_.setSize(halo_.size());
+    halo_.exchange(rByV_);
+    forAll(rByV_, celli)
+    {
+        rByV_[celli] *= byV_[celli];
+    }
 
     const surfaceScalarField rAUf(fvc::interpolate(rAU));
     skewrAU_ = single
@@ -329,8 +423,6 @@ Foam::stokesOperator::stokesOperator
     );
 }
 
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 Foam::faceCoefficients Foam::stokesOperator::laplacian
 (

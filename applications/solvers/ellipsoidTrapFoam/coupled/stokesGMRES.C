@@ -127,23 +127,31 @@ static List<fourFloats> normalised
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::stokesGMRES::scaled(List<fourFloats>& w) const
+void Foam::stokesGMRES::scaled
+(
+    const List<fourFloats>& residual,
+    List<fourFloats>& w
+) const
 {
     forAll(scale_, i)
     {
-        w[i] = scale_[i]*r_[i];
+        w[i] = scale_[i]*residual[i];
     }
 }
 
 
-void Foam::stokesGMRES::precondition(const UList<fourFloats>& v)
+void Foam::stokesGMRES::precondition
+(
+    const stokesPreconditioner& preconditioner,
+    const UList<fourFloats>& v
+)
 {
     forAll(scale_, i)
     {
         r_[i] = v[i]/scale_[i];
     }
 
-    preconditioner_.precondition(r_, z_, pressureForce_);
+    preconditioner.precondition(r_, z_, pressureForce_);
 }
 
 
@@ -184,14 +192,9 @@ Foam::scalarField Foam::stokesGMRES::factors() const
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::stokesGMRES::stokesGMRES
-(
-    const stokesOperator& stokes,
-    const stokesPreconditioner& preconditioner
-)
+Foam::stokesGMRES::stokesGMRES(const stokesOperator& stokes)
 :
     stokes_(stokes),
-    preconditioner_(preconditioner),
     scale_(stokes.halo().nCells()),
     r_(stokes.halo().size(), fourFloats{}),
     z_(stokes.halo().size(), fourFloats{}),
@@ -214,14 +217,25 @@ Foam::stokesGMRES::stokesGMRES
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+Foam::scalar Foam::stokesGMRES::norm(const List<fourFloats>& residual) const
+{
+    List<fourFloats> w(scale_.size());
+    scaled(residual, w);
+
+    return sqrt(products(krylovBasis(), 0, w)[0]);
+}
+
+
 Foam::label Foam::stokesGMRES::solve
 (
+    const stokesPreconditioner& preconditioner,
+    const List<fourFloats>& residual,
     const scalar relTol,
     const label maxIterations
 )
 {
     List<fourFloats> w(scale_.size());
-    scaled(w);
+    scaled(residual, w);
 
     krylovBasis basis(maxIterations + 1);
     const scalar start = sqrt(products(basis, 0, w)[0]);
@@ -231,9 +245,9 @@ Foam::label Foam::stokesGMRES::solve
     label n = 0;
     while (n < maxIterations && mag(left_[n]) > relTol*start + VSMALL)
     {
-        precondition(basis[n]);
+        precondition(preconditioner, basis[n]);
         stokes_.apply(z_, pressureForce_, r_);
-        scaled(w);
+        scaled(r_, w);
 
         scalarField h(products(basis, n + 1, w));
         addMultiples(basis, n + 1, -h, w);
@@ -246,7 +260,7 @@ Foam::label Foam::stokesGMRES::solve
 
     w = fourFloats{};
     addMultiples(basis, n, factors(), w);
-    precondition(w);
+    precondition(preconditioner, w);
 
     return n;
 }

@@ -13,31 +13,24 @@ License
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::List<Foam::fourFloats> Foam::stokesOperator::interpolated
+void Foam::stokesOperator::interpolate
 (
     const List<fourFloats>& x,
     const List<fourFloats>& pressureForce
 ) const
 {
     // Of the force the fourth value is zero
-    List<fourFloats> velocity(x);
-    forAll(velocity, celli)
+    forAll(velocity_, celli)
     {
-        velocity[celli] += rByV_[celli]*pressureForce[celli];
+        velocity_[celli] = x[celli] + rByV_[celli]*pressureForce[celli];
     }
-
-    return velocity;
 }
 
 
-float Foam::stokesOperator::flux
-(
-    const label facei,
-    const List<fourFloats>& velocity
-) const
+float Foam::stokesOperator::flux(const label facei) const
 {
-    const fourFloats& own = velocity[owner_[facei]];
-    const fourFloats& nei = velocity[neighbour_[facei]];
+    const fourFloats& own = velocity_[owner_[facei]];
+    const fourFloats& nei = velocity_[neighbour_[facei]];
     const float w = weight_[facei];
 
     return
@@ -46,13 +39,9 @@ float Foam::stokesOperator::flux
 }
 
 
-float Foam::stokesOperator::boundaryFlux
-(
-    const label facei,
-    const List<fourFloats>& velocity
-) const
+float Foam::stokesOperator::boundaryFlux(const label facei) const
 {
-    const fourFloats& own = velocity[boundaryCell_[facei]];
+    const fourFloats& own = velocity_[boundaryCell_[facei]];
     const float through = -boundaryPCoeff_[facei]*own[3];
 
     return
@@ -92,35 +81,34 @@ void Foam::stokesOperator::addSkew
 ) const
 {
     // The derivatives in each direction, times the volume
-    List<columns> gradU(halo_.size(), columns{});
-
-    for (const label facei : gradFaces_)
+    forAll(gradCells_, i)
     {
-        const float w = weight_[facei];
-        const fourFloats Sf = Sf_[facei];
-        const fourFloats velocity =
-            w*x[owner_[facei]] + (1 - w)*x[neighbour_[facei]];
-        fourFloats* const own = gradU[owner_[facei]].column;
-        fourFloats* const nei = gradU[neighbour_[facei]].column;
-
-        for (int d = 0; d < 3; ++d)
+        const label celli = gradCells_[i];
+        const fourFloats own = gradOwn_[i];
+        fourFloats dx = own[0]*x[celli];
+        fourFloats dy = own[1]*x[celli];
+        fourFloats dz = own[2]*x[celli];
+        for (label k = gradStart_[i]; k < gradStart_[i + 1]; ++k)
         {
-            const fourFloats part = Sf[d]*velocity;
-            own[d] += part;
-            nei[d] -= part;
+            const fourFloats weight = gradWeight_[k];
+            const fourFloats other = x[gradCell_[k]];
+            dx += weight[0]*other;
+            dy += weight[1]*other;
+            dz += weight[2]*other;
         }
+        gradU_[celli] = {{dx, dy, dz}};
     }
-    forAll(boundaryCell_, facei)
+    for (const label facei : gradFaces_)
     {
         const label celli = boundaryCell_[facei];
         const fourFloats velocity = product(boundaryU_[facei], x[celli]);
 
         for (int d = 0; d < 3; ++d)
         {
-            gradU[celli].column[d] += boundarySf_[facei][d]*velocity;
+            gradU_[celli].column[d] += boundarySf_[facei][d]*velocity;
         }
     }
-    halo_.exchange(gradU);
+    halo_.exchange(gradU_);
 
     forAll(skewFaces_, i)
     {
@@ -135,7 +123,7 @@ void Foam::stokesOperator::addSkew
         {
             added -=
                 skewSf_[i][d]
-               *(wOwn*gradU[own].column[d] + wNei*gradU[nei].column[d]);
+               *(wOwn*gradU_[own].column[d] + wNei*gradU_[nei].column[d]);
         }
         added[3] = skewFlux(i, pressureForce);
         y[own] += added;
@@ -179,7 +167,7 @@ void Foam::stokesOperator::apply
     List<fourFloats>& y
 ) const
 {
-    const List<fourFloats> velocity(interpolated(x, pressureForce));
+    interpolate(x, pressureForce);
 
     forAll(diagonal_, celli)
     {
@@ -194,7 +182,7 @@ void Foam::stokesOperator::apply
     {
         const label own = owner_[facei];
         const label nei = neighbour_[facei];
-        const float through = flux(facei, velocity);
+        const float through = flux(facei);
         fourFloats ofOwn = upper_[facei]*x[nei];
         fourFloats ofNei = lower_[facei]*x[own];
         ofOwn[3] = through;
@@ -205,7 +193,7 @@ void Foam::stokesOperator::apply
     }
     forAll(boundaryCell_, facei)
     {
-        y[boundaryCell_[facei]][3] += boundaryFlux(facei, velocity);
+        y[boundaryCell_[facei]][3] += boundaryFlux(facei);
     }
 
     forAll(turnedFaces_, i)
@@ -228,12 +216,12 @@ void Foam::stokesOperator::addFlux
     surfaceScalarField& phi
 ) const
 {
-    const List<fourFloats> velocity(interpolated(x, pressureForce));
+    interpolate(x, pressureForce);
 
     List<float> through(owner_.size());
     forAll(through, facei)
     {
-        through[facei] = flux(facei, velocity);
+        through[facei] = flux(facei);
     }
     forAll(skewFaces_, i)
     {
@@ -258,7 +246,7 @@ void Foam::stokesOperator::addFlux
                *(
                     coupled
                   ? through[facei++]
-                  : boundaryFlux(start + i, velocity)
+                  : boundaryFlux(start + i)
                 );
         }
     }

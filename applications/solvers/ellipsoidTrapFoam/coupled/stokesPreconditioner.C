@@ -97,7 +97,7 @@ Foam::stokesPreconditioner::stokesPreconditioner
 :
     stokes_(stokes),
     diagonal_(dominant(stokes)),
-    momentum_(stokes.halo(), stokes.momentumFaces(), diagonal_, false),
+    momentum_(stokes.halo(), stokes.momentumFaces(), diagonal_, false, 2),
     pressure_()
 {
     List<float> upper, diagonal;
@@ -110,7 +110,7 @@ Foam::stokesPreconditioner::stokesPreconditioner
     (
         new aggregationMultigrid<float>
         (
-            stokes.halo(), faces, diagonal, !fixedPressure
+            stokes.halo(), faces, diagonal, !fixedPressure, 1
         )
     );
 }
