@@ -13,6 +13,7 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "ellipsoidCloud.H"
+#include "cellPoses.H"
 #include "ellipsoidParcel.H"
 #include "masterGate.H"
 #include "fvMesh.H"
@@ -261,6 +262,7 @@ void Foam::ellipsoidCloud::write()
     }
 
     tracks_->flush();
+    writePoses();
     writeParcels();
 
     dictionary tables;
@@ -274,6 +276,17 @@ void Foam::ellipsoidCloud::write()
     notes.add("tables", tables);
 
     checkpoint::end(time, notes);
+}
+
+
+void Foam::ellipsoidCloud::writePoses() const
+{
+    const masterGate once;
+
+    if (Pstream::master())
+    {
+        Foam::writePoses(tracks_->set(), cells_, mesh_.time().timeName());
+    }
 }
 
 

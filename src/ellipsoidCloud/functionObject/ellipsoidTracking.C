@@ -110,6 +110,10 @@ bool Foam::functionObjects::ellipsoidTracking::read(const dictionary& dict)
 
     endTime_ = dict.getCheck<scalar>("endTime", scalarMinMax::ge(VSMALL));
     deltaT_ = dict.getCheck<scalar>("deltaT", scalarMinMax::ge(VSMALL));
+    writeInterval_ = dict.getCheckOrDefault<scalar>
+    (
+        "writeInterval", endTime_, scalarMinMax::ge(VSMALL)
+    );
     U_ = dict.getOrDefault<word>("U", "U");
     p_ = dict.getOrDefault<word>("p", "p");
     phi_ = dict.getOrDefault<word>("phi", "phi");
@@ -141,10 +145,17 @@ bool Foam::functionObjects::ellipsoidTracking::end()
         copyOf(mesh_.lookupObject<surfaceScalarField>(phi_), mesh)()
     );
 
+    const label steps = max(label(1), label(writeInterval_/deltaT_ + 0.5));
+
     cells.begin();
     while (clock.loop())
     {
         cells.evolve();
+
+        if (clock.timeIndex() % steps == 0)
+        {
+            cells.writePoses();
+        }
     }
     cells.finish();
 
