@@ -262,8 +262,8 @@ void Foam::ellipsoidCloud::write()
     }
 
     tracks_->flush();
-    writePoses();
     writeParcels();
+    writePoses();
 
     dictionary tables;
     tables.add("events", statistics_->log.notes());
