@@ -386,19 +386,11 @@ void Foam::checkpoint::setAsideIncomplete(const argList& args)
         const dictionary mark(parsed(readMark(path), markFile(path)));
         const bool other = isFile(path/"U") || isDir(path/"polyMesh");
 
-        if (copied(mark, path))
-        {
-            // decomposePar makes no directory where there are no cells, but
-            // ranks have to start from the same time
-            mkDir(path);
-            meet();
-            return;
-        }
-
         // Complete, or a flow or mesh to start from, or another program's
         if
         (
-            returnReduce(!mark.empty(), andOp<bool>())
+            copied(mark, path)
+         || returnReduce(!mark.empty(), andOp<bool>())
          || (
                 !returnReduce(begun(path), orOp<bool>())
              && (!tracked || returnReduce(other, orOp<bool>()))

@@ -225,7 +225,12 @@ void Foam::ellipsoidCloud::setFlow
 
     domain_.reset(new cellDomain(properties_, *undecomposed_, field_));
     criterion_.setInletSpeed(inletFlux::speedOf(*undecomposed_));
-    reportReynolds(inletFlux(U, phi), properties_.options().kinematic_viscosity);
+    reportFlow
+    (
+        inletFlux(U, phi),
+        properties_.options().kinematic_viscosity,
+        criterion_.slowSpeed()
+    );
 
     checkPlaces();
     makeInjections();

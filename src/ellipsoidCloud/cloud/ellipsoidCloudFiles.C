@@ -15,7 +15,7 @@ Description
 #include "ellipsoidCloud.H"
 #include "ellipsoidParcel.H"
 #include "masterGate.H"
-#include "fvMesh.H"
+#include "volFields.H"
 #include "atomicWrite.H"
 
 #include <cmath>
@@ -259,6 +259,16 @@ void Foam::ellipsoidCloud::write()
     {
         cannotWrite(time.path()/time.timeName()/"uniform"/"time");
     }
+
+    // decomposePar and reconstructPar go to a time only for its fields and cells,
+    // and there may be no cells
+    volScalarField::Internal state
+    (
+        IOobject("ellipsoidCloudState", time.timeName(), mesh_),
+        mesh_,
+        dimensionedScalar(dimless, Zero)
+    );
+    atomicWrite(state);
 
     tracks_->flush();
     writeParcels();
