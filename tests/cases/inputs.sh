@@ -8,8 +8,10 @@
 # message must have; 'line': it names the line of what was appended.
 # Of every row: exit status, one message (or, where the status is 0, a warning), and that all files of the
 # case are as they were. Rows run side by side, each in a copy of the case.
-# Sourced after cells.sh.
+# Sourced from the top folder.
 # License: GPL-3.0-or-later, see COPYING.
+
+. tests/cases/cells.sh
 
 # Digests of all files in the present folder but logs
 digests()       { find . -type f ! -name 'log*' -exec cksum {} + | sort -k 3; }

@@ -49,7 +49,7 @@ SourceFiles
 #include "steadyFlow.H"
 #include "checkpoint.H"
 #include "commit.H"
-#include "ellipsoidCore.H"
+#include "ellipsoidProperties.H"
 
 using namespace Foam;
 
@@ -105,19 +105,29 @@ int main(int argc, char *argv[])
     const bool flowOnly = args.found("flowOnly");
     const bool dryRun = args.found("dry-run");
 
-    if (!flowOnly && !dryRun)
-    {
-        checkpoint::setAsideIncomplete(args);
-    }
+    const word start
+    (
+        flowOnly ? word::null : checkpoint::setAsideIncomplete(args, dryRun)
+    );
 
     Info<< "ellipsoidTrapFoam " << ELLIPSOID_VERSION << ", "
         << ELLIPSOID_COMMIT << nl << endl;
 
     #include "createTime.H"
 
+    if (dryRun && !start.empty())
+    {
+        runTime.setTime(readScalar(start), 0);
+    }
+
     // The digits of writePrecision are for files
     Sout.precision(6);
     Pout.precision(6);
+
+    if (!flowOnly)
+    {
+        ellipsoidProperties::checkDimensions(runTime);
+    }
 
     // Not createMesh.H, which takes a column of cells for a dry run
     Info<< "Create mesh for time = " << runTime.timeName() << nl << endl;

@@ -362,12 +362,16 @@ void Foam::checkpoint::checkMesh(const dictionary& notesNow) const
 }
 
 
-void Foam::checkpoint::setAsideIncomplete(const argList& args)
+Foam::word Foam::checkpoint::setAsideIncomplete
+(
+    const argList& args,
+    const bool dryRun
+)
 {
     // Where ranks share files, times without their end are refused, not moved
     if (!fromLatestTime(args) || sharedFiles())
     {
-        return;
+        return word::null;
     }
 
     bool tracked = isDir
@@ -397,15 +401,15 @@ void Foam::checkpoint::setAsideIncomplete(const argList& args)
             )
         )
         {
-            return;
+            return name;
         }
 
         Info<< "ellipsoidCloud: time " << name
-            << " was not written to its end: set aside as " << name
-            << ".incomplete, going on from " << std::next(time)->second
-            << endl;
+            << " was not written to its end: " << (dryRun ? "to be " : "")
+            << "set aside as " << name << ".incomplete, going on from "
+            << std::next(time)->second << endl;
 
-        if (isDir(path))
+        if (!dryRun && isDir(path))
         {
             rmDir(path + ".incomplete", true);
 
@@ -418,6 +422,8 @@ void Foam::checkpoint::setAsideIncomplete(const argList& args)
         }
         meet();
     }
+
+    return times.empty() ? word::null : times.begin()->second;
 }
 
 

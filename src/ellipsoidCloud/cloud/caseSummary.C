@@ -166,7 +166,7 @@ void Foam::reportCase
 )
 {
     const ellipsoid_options& options = properties.options();
-    const cellPopulation::setting sizes(properties.section("cell"), options);
+    const cellPopulation::setting sizes(properties, options);
     scalar widest = 0;
     scalar longest = 0;
 
@@ -174,7 +174,7 @@ void Foam::reportCase
     {
         const ellipsoid_options one
         (
-            ellipsoid_options_resized(&options, size.length, size.width)
+            cellPopulation::optionsOf(options, size)
         );
         widest = max(widest, widthOf(one));
         longest = max(longest, 2*longestSemiAxis(one));

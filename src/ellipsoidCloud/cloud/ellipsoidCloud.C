@@ -65,13 +65,15 @@ namespace Foam
 void Foam::ellipsoidCloud::makeInjections()
 {
     const dictionary& dict = properties_.subDict("injection");
+    const scalar runStart = readScalar(firstTime_);
     label nCells = 0;
 
     for (const entry& e : dict)
     {
         const cellInjection::setting from
         {
-            e.dict(), *undecomposed_, *domain_, population_, nCells
+            e.dict(), *undecomposed_, *domain_, population_, nCells,
+            runStart
         };
 
         injections_.append(cellInjection::New(from).ptr());
@@ -158,7 +160,7 @@ void Foam::ellipsoidCloud::addNew(const scalar start, const scalar end)
 
     for (const cellState& cell : newCells)
     {
-        population_.take(cell.id, cellSize{cell.length, cell.width});
+        population_.take(cell.id, cell.size);
     }
     cells_.append(newCells);
     Foam::sort(cells_);
@@ -253,9 +255,21 @@ void Foam::ellipsoidCloud::begin()
 {
     const fileName folder(statistics_->log.name().path());
 
-    if (Pstream::master() && !earlier_.found() && isDir(folder))
+    // Tables that reach beyond the start are cut there
+    const bool goesOn = earlier_.found();
+    const bool cut =
+        mesh_.time().times().last().value() > mesh_.time().value();
+
+    if (Pstream::master() && isDir(folder) && (cut || !goesOn))
     {
-        if (!mvBak(folder, "bak"))
+        const fileName copy(folder + ".part");
+
+        if
+        (
+            (goesOn && !cp(folder, copy))
+         || !mvBak(folder, "bak")
+         || (goesOn && !mv(copy, folder))
+        )
         {
             cannotWrite(folder);
         }

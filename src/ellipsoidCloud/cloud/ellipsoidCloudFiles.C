@@ -68,10 +68,7 @@ void Foam::ellipsoidCloud::readCells()
         (
             ellipsoidProperties::complaint
             (
-                ellipsoid_options_resized
-                (
-                    &properties_.options(), cell.length, cell.width
-                )
+                cellPopulation::optionsOf(properties_.options(), cell.size)
             )
         );
         if (!complaint.empty())
@@ -82,7 +79,7 @@ void Foam::ellipsoidCloud::readCells()
               + complaint
             );
         }
-        population_.take(cell.id, cellSize{cell.length, cell.width});
+        population_.take(cell.id, cell.size);
     }
 }
 

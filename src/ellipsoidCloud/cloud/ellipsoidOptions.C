@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "ellipsoidProperties.H"
+#include "dimensionedTypes.H"
 #include "electricField.H"
 #include "Switch.H"
 
@@ -91,6 +92,38 @@ namespace Foam
         return allowed;
     }
 
+    //- Value of an entry, which may have dimensions in front
+    template<class Type>
+    static Type valueOf(const dictionary& dict, const ellipsoid_option& option)
+    {
+        static const HashTable<dimensionSet> units
+        ({
+            {"C", dimCurrent*dimTime},
+            {"C m", dimCurrent*dimTime*dimLength},
+            {"K", dimTemperature},
+            {"N", dimForce},
+            {"N m", dimForce*dimLength},
+            {"Pa", dimPressure},
+            {"V/m", dimForce/(dimCurrent*dimTime)},
+            {"kg/m3", dimDensity},
+            {"m", dimLength},
+            {"m/s", dimVelocity},
+            {"m/s2", dimAcceleration},
+            {"s", dimTime},
+            {"s/m", dimless/dimVelocity}
+        });
+        const word keyword(option.entry);
+        const ITstream& is = dict.lookup(keyword);
+
+        return
+            is.size() && is.first() == token::BEGIN_SQR
+          ? dimensioned<Type>
+            (
+                keyword, units.lookup(option.unit, dimless), dict
+            ).value()
+          : dict.get<Type>(keyword);
+    }
+
     //- Read an entry into a member of the options
     static void readMember
     (
@@ -105,13 +138,13 @@ namespace Foam
         switch (option.type)
         {
             case ELLIPSOID_OPTION_REAL:
-                *static_cast<double*>(member) = dict.get<scalar>(keyword);
+                *static_cast<double*>(member) = valueOf<scalar>(dict, option);
                 return;
 
             case ELLIPSOID_OPTION_VECTOR:
                 std::copy_n
                 (
-                    dict.get<vector>(keyword).v_,
+                    valueOf<vector>(dict, option).v_,
                     3,
                     static_cast<double*>(member)
                 );
@@ -201,6 +234,19 @@ void Foam::ellipsoidProperties::readOptions()
         IOWarningInFunction(section("forces"))
             << "a field is named in electricField, but charge and dipole"
             << " are 0: it acts on no cell" << endl;
+    }
+
+    // The default is of cells as wide as the paper's
+    const double* a = options_.semi_axes;
+    const scalar shortest = min(a[0], min(a[1], a[2]));
+
+    if
+    (
+        !section("contact").found("beadRadius")
+     && options_.bead_radius >= shortest
+    )
+    {
+        options_.bead_radius = 0.57*shortest;
     }
 
     pushing_ =

@@ -45,9 +45,10 @@ Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
 
     if (!isNumber || !(nuEntry.last().number() > 0))
     {
-        FatalIOErrorInFunction(dict)
-            << "nu " << nuEntry.toString() << " does not end in a positive"
-            << " number [m2/s]" << exit(FatalIOError);
+        ellipsoidProperties::refuse
+        (
+            dict, "nu", "nu", "a positive number [m2/s]"
+        );
     }
 
     if (nuEntry.size() > 1 && nuEntry.first() == token::BEGIN_SQR)

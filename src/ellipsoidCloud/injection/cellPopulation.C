@@ -44,7 +44,7 @@ namespace Foam
 
 Foam::cellPopulation::setting::setting
 (
-    const dictionary& cell,
+    const dictionary& properties,
     const ellipsoid_options& options
 )
 :
@@ -54,8 +54,13 @@ Foam::cellPopulation::setting::setting
     truncation(0),
     values()
 {
+    readListed(properties.subOrEmptyDict("injection"), medianSize(options));
+
+    const dictionary& cell = properties.subOrEmptyDict("cell");
+
     if (!cell.found("sizes"))
     {
+        checkExtremes(properties, options);
         return;
     }
 
@@ -103,6 +108,33 @@ Foam::cellPopulation::setting::setting
 }
 
 
+void Foam::cellPopulation::setting::readListed
+(
+    const dictionary& injections,
+    const cellSize& median
+)
+{
+    typedef List<Pair<scalar>> pairs;
+
+    for (const entry& e : injections)
+    {
+        const dictionary& dict = e.dict();
+
+        for (const auto& size : dict.getOrDefault<pairs>("sizes", {}))
+        {
+            listed.append
+            (
+                cellSize{size.first(), size.second(), median.density}
+            );
+        }
+        for (const scalar d : dict.getOrDefault<scalarList>("densities", {}))
+        {
+            listed.append(cellSize{median.length, median.width, d});
+        }
+    }
+}
+
+
 void Foam::cellPopulation::setting::checkExtremes
 (
     const dictionary& dict,
@@ -113,10 +145,7 @@ void Foam::cellPopulation::setting::checkExtremes
     {
         const string complaint
         (
-            ellipsoidProperties::complaint
-            (
-                ellipsoid_options_resized(&options, size.length, size.width)
-            )
+            ellipsoidProperties::complaint(optionsOf(options, size))
         );
 
         if (!complaint.empty())
@@ -133,7 +162,7 @@ void Foam::cellPopulation::setting::checkExtremes
 Foam::cellPopulation::cellPopulation(const ellipsoidProperties& properties)
 :
     properties_(properties),
-    setting_(properties.section("cell"), properties.options()),
+    setting_(properties, properties.options()),
     median_(modelOf(properties.options()))
 {}
 
@@ -145,11 +174,11 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
     const ellipsoid_options& options
 ) const
 {
-    DynamicList<cellSize> sizes;
+    DynamicList<cellSize> sizes(listed);
 
     for (const Pair<scalar>& row : values)
     {
-        sizes.append(cellSize{row.first(), row.second()});
+        sizes.append(cellSize{row.first(), row.second(), options.density});
     }
 
     // The ranges of the core that a size can leave are monotonic in both
@@ -163,7 +192,8 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
                 cellSize
                 {
                     middle.length*exp(l*lengthDeviation),
-                    middle.width*exp(w*widthDeviation)
+                    middle.width*exp(w*widthDeviation),
+                    middle.density
                 }
             );
         }
@@ -173,12 +203,32 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
 }
 
 
+ellipsoid_options Foam::cellPopulation::optionsOf
+(
+    const ellipsoid_options& options,
+    const cellSize& size
+)
+{
+    ellipsoid_options one
+    (
+        ellipsoid_options_resized(&options, size.length, size.width)
+    );
+    one.density = size.density;
+
+    return one;
+}
+
+
 Foam::cellSize Foam::cellPopulation::medianSize
 (
     const ellipsoid_options& options
 )
 {
-    return cellSize{2*options.semi_axes[1], 2*options.semi_axes[0]};
+    return
+        cellSize
+        {
+            2*options.semi_axes[1], 2*options.semi_axes[0], options.density
+        };
 }
 
 
@@ -195,7 +245,8 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
 
         const Pair<scalar>& row =
             setting_.values[label(uniform*setting_.values.size())];
-        size = cellSize{row.first(), row.second()};
+        size.length = row.first();
+        size.width = row.second();
     }
     else if (setting_.type == dtLogNormal)
     {
@@ -217,10 +268,7 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
 
 ellipsoid_model Foam::cellPopulation::made(const cellSize& size) const
 {
-    return modelOf
-    (
-        ellipsoid_options_resized(&median_.options, size.length, size.width)
-    );
+    return modelOf(optionsOf(median_.options, size));
 }
 
 
@@ -228,7 +276,12 @@ void Foam::cellPopulation::take(const label id, const cellSize& size)
 {
     const cellSize middle(medianSize());
 
-    if (size.length != middle.length || size.width != middle.width)
+    if
+    (
+        size.length != middle.length
+     || size.width != middle.width
+     || size.density != middle.density
+    )
     {
         models_.set(id, new ellipsoid_model(made(size)));
     }
