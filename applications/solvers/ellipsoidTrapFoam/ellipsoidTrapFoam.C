@@ -178,6 +178,10 @@ int main(int argc, char *argv[])
 
     if (dryRun)
     {
+        if (accepted && !flowOnly)
+        {
+            cells->forecast();
+        }
         Info<< "Nothing was solved or written" << endl;
     }
     else if (!flowOnly)

@@ -227,9 +227,13 @@ void Foam::ellipsoidCloud::setFlow
 
     domain_.reset(new cellDomain(properties_, *undecomposed_, field_));
     criterion_.setInletSpeed(inletFlux::speedOf(*undecomposed_));
+
+    const inletFlux through(U, phi);
+    passage_ =
+        through.closed() ? VGREAT : gSum(mesh_.V())/through.inflow;
     reportFlow
     (
-        inletFlux(U, phi),
+        through,
         properties_.options().kinematic_viscosity,
         criterion_.slowSpeed()
     );

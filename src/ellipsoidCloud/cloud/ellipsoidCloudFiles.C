@@ -17,6 +17,8 @@ Description
 #include "masterGate.H"
 #include "volFields.H"
 #include "atomicWrite.H"
+#include "clockTime.H"
+#include "memInfo.H"
 
 #include <cmath>
 
@@ -281,6 +283,72 @@ void Foam::ellipsoidCloud::write()
     notes.add("tables", tables);
 
     checkpoint::end(time, notes);
+}
+
+
+void Foam::ellipsoidCloud::forecast()
+{
+    // Clock time [s] that a dry run may take
+    const scalar trial = 1;
+
+    const scalar deltaT = mesh_.time().deltaTValue();
+    const scalar start = time_;
+    const scalar end = mesh_.time().endTime().value();
+
+    const label nCells = cells_.size();
+
+    // What cells are on their way until a time, in all [s]: each as long as the
+    // fluid takes to pass
+    const auto onTheWay =
+        [&](const scalar until)
+        {
+            scalar sum = nCells*min(until - start, passage_);
+
+            for (const cellInjection& injection : injections_)
+            {
+                for (const Tuple2<scalar, label>& cell : injection.times())
+                {
+                    if (cell.first() >= start && cell.first() < until)
+                    {
+                        sum += min(until - cell.first(), passage_);
+                    }
+                }
+            }
+            return sum;
+        };
+
+    const clockTime timer;
+    DynamicList<cellEvent> events;
+    scalar spent = 0;
+
+    while (spent < trial && time_ < end - 0.5*deltaT)
+    {
+        addNew(time_, time_ + deltaT);
+        interval_->advanceInterval
+        (
+            cells_, criterion_, time_, time_ + deltaT, events
+        );
+        time_ += deltaT;
+        spent = returnReduce(timer.elapsedTime(), maxOp<scalar>());
+    }
+
+    const groupAdvance::account& done = interval_->done();
+    const scalar steps = returnReduce
+    (
+        scalar(done.steps.accepted + done.steps.rejected), sumOp<scalar>()
+    );
+    const scalar memory =
+        returnReduce(scalar(memInfo().peak()), maxOp<scalar>());
+    const scalar part = onTheWay(time_)/max(onTheWay(end), VSMALL);
+    const scalar factor = 1/max(part, VSMALL);
+
+    Info<< "case: a trial to t = " << shortText(time_).c_str() << " s made "
+        << word::printf("%.2g", 100*part) << " % of the cells' way, in "
+        << word::printf("%.2g", spent) << " s and "
+        << word::printf("%.2g", memory/1024) << " MB; all of it: about "
+        << word::printf("%.1g", steps*factor) << " steps, "
+        << word::printf("%.1g", spent*factor) << " s, and more where cells are"
+        << " held for long" << endl;
 }
 
 
