@@ -352,7 +352,7 @@ int ellipsoid_beads(const ellipsoid_options *options,
 
 /*
     Whether the ellipsoid itself, not its beads, cuts a wall facet; exact, but
-    that it is a part in 1e9 smaller, so that one that touches does not. The
+    that it is a part in 1e10 smaller, so that one that touches does not. The
     cell's centre is taken to be on the fluid's side. *overlaps is 0 or 1.
 */
 ellipsoid_status

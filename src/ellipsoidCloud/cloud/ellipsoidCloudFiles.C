@@ -345,10 +345,10 @@ void Foam::ellipsoidCloud::forecast()
     Info<< "case: a trial to t = " << shortText(time_).c_str() << " s made "
         << word::printf("%.2g", 100*part) << " % of the cells' way, in "
         << word::printf("%.2g", spent) << " s and "
-        << word::printf("%.2g", memory/1024) << " MB; all of it: about "
+        << word::printf("%.2g", memory/1024) << " MB; all of it: at least "
         << word::printf("%.1g", steps*factor) << " steps, "
-        << word::printf("%.1g", spent*factor) << " s, and more where cells are"
-        << " held for long" << endl;
+        << word::printf("%.1g", spent*factor) << " s, more where cells pile up"
+        << endl;
 }
 
 

@@ -96,31 +96,14 @@ namespace Foam
     template<class Type>
     static Type valueOf(const dictionary& dict, const ellipsoid_option& option)
     {
-        static const HashTable<dimensionSet> units
-        ({
-            {"C", dimCurrent*dimTime},
-            {"C m", dimCurrent*dimTime*dimLength},
-            {"K", dimTemperature},
-            {"N", dimForce},
-            {"N m", dimForce*dimLength},
-            {"Pa", dimPressure},
-            {"V/m", dimForce/(dimCurrent*dimTime)},
-            {"kg/m3", dimDensity},
-            {"m", dimLength},
-            {"m/s", dimVelocity},
-            {"m/s2", dimAcceleration},
-            {"s", dimTime},
-            {"s/m", dimless/dimVelocity}
-        });
         const word keyword(option.entry);
-        const ITstream& is = dict.lookup(keyword);
 
         return
-            is.size() && is.first() == token::BEGIN_SQR
-          ? dimensioned<Type>
+            ellipsoidProperties::hasUnit
             (
-                keyword, units.lookup(option.unit, dimless), dict
-            ).value()
+                dict, keyword, nameOf(option), option.unit
+            )
+          ? dimensioned<Type>(keyword, dict).value()
           : dict.get<Type>(keyword);
     }
 
@@ -281,6 +264,58 @@ void Foam::ellipsoidProperties::checkOptions() const
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::ellipsoidProperties::hasUnit
+(
+    const dictionary& dict,
+    const word& keyword,
+    const string& name,
+    const word& unit
+)
+{
+    static const HashTable<dimensionSet> units
+    ({
+        {"C", dimCurrent*dimTime},
+        {"C m", dimCurrent*dimTime*dimLength},
+        {"K", dimTemperature},
+        {"N", dimForce},
+        {"N m", dimForce*dimLength},
+        {"Pa", dimPressure},
+        {"V/m", dimForce/(dimCurrent*dimTime)},
+        {"kg/m3", dimDensity},
+        {"m", dimLength},
+        {"m/s", dimVelocity},
+        {"m/s2", dimAcceleration},
+        {"m2/s", dimViscosity},
+        {"s", dimTime},
+        {"s/m", dimless/dimVelocity}
+    });
+    ITstream is(dict.lookup(keyword));
+
+    if (is.empty() || is.first() != token::BEGIN_SQR)
+    {
+        return false;
+    }
+
+    const dimensionSet expected(units.lookup(unit, dimless));
+    dimensionSet given(dimless);
+    is >> given;
+
+    if (given != expected)
+    {
+        refuse
+        (
+            dict,
+            keyword,
+            name,
+            (unit.empty() ? "no unit" : unit) + ", the dimensions "
+          + shortText(expected)
+        );
+    }
+
+    return true;
+}
+
 
 Foam::string Foam::ellipsoidProperties::complaint
 (

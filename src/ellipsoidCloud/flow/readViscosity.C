@@ -51,19 +51,7 @@ Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
         );
     }
 
-    if (nuEntry.size() > 1 && nuEntry.first() == token::BEGIN_SQR)
-    {
-        ITstream is(nuEntry);
-        dimensionSet dimensions(dimless);
-        is >> dimensions;
-
-        if (dimensions != dimViscosity)
-        {
-            FatalIOErrorInFunction(dict)
-                << "nu " << nuEntry.toString() << " is not in m2/s, the"
-                << " dimensions " << dimViscosity << exit(FatalIOError);
-        }
-    }
+    ellipsoidProperties::hasUnit(dict, "nu", "nu", "m2/s");
 
     const dimensionedScalar nu("nu", dimViscosity, dict);
 
