@@ -160,6 +160,13 @@ void Foam::cellInjection::setTimes(const label number)
     const label seed = from_.population.properties().seed();
     times_.setSize(number);
 
+    if (number > 1000000)
+    {
+        Warning
+            << "injection " << dict.dictName() << " makes " << number
+            << " cells: is concentration in 1/m3, rate in 1/s?" << nl << endl;
+    }
+
     forAll(times_, i)
     {
         scalar uniform;
