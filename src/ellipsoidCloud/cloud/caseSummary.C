@@ -88,7 +88,8 @@ static void reportCell(const ellipsoid_options& options)
         options.semi_axes[0], options.semi_axes[1], options.semi_axes[2]
     );
 
-    Info<< "case: cells of " << um(2*axes).c_str() << " along their axes" << endl;
+    Info<< "case: cells of " << um(2*axes).c_str() << " along their axes"
+        << endl;
 
     const scalar ratio = options.density/options.fluid_density;
 

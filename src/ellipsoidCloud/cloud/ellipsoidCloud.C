@@ -143,8 +143,9 @@ void Foam::ellipsoidCloud::checkTimes() const
             << "no cell enters while the run lasts, from "
             << shortText(time_).c_str() << " to " << shortText(end).c_str()
             << " s: they are to enter from " << shortText(first).c_str()
-            << " to " << shortText(last).c_str() << " s" << nl << "    Correct start of the injections, or startTime"
-            << " and endTime of controlDict" << exit(FatalIOError);
+            << " to " << shortText(last).c_str() << " s" << nl
+            << "    Correct start of the injections, or startTime and endTime"
+            << " of controlDict" << exit(FatalIOError);
     }
 }
 

@@ -17,7 +17,7 @@ Description
 #include "masterGate.H"
 #include "volFields.H"
 #include "atomicWrite.H"
-#include "clockTime.H"
+#include "cpuTime.H"
 #include "memInfo.H"
 
 #include <cmath>
@@ -259,8 +259,8 @@ void Foam::ellipsoidCloud::write()
         cannotWrite(time.path()/time.timeName()/"uniform"/"time");
     }
 
-    // decomposePar and reconstructPar go to a time only for its fields and cells,
-    // and there may be no cells
+    // decomposePar and reconstructPar go to a time only for its fields and
+    // cells, and there may be no cells
     volScalarField::Internal state
     (
         IOobject("ellipsoidCloudState", time.timeName(), mesh_),
@@ -288,7 +288,7 @@ void Foam::ellipsoidCloud::write()
 
 void Foam::ellipsoidCloud::forecast()
 {
-    // Clock time [s] that a dry run may take
+    // Processor time [s] that a dry run may take
     const scalar trial = 1;
 
     const scalar deltaT = mesh_.time().deltaTValue();
@@ -317,7 +317,7 @@ void Foam::ellipsoidCloud::forecast()
             return sum;
         };
 
-    const clockTime timer;
+    const cpuTime timer;
     DynamicList<cellEvent> events;
     scalar spent = 0;
 
@@ -329,7 +329,7 @@ void Foam::ellipsoidCloud::forecast()
             cells_, criterion_, time_, time_ + deltaT, events
         );
         time_ += deltaT;
-        spent = returnReduce(timer.elapsedTime(), maxOp<scalar>());
+        spent = returnReduce(timer.elapsedCpuTime(), maxOp<scalar>());
     }
 
     const groupAdvance::account& done = interval_->done();

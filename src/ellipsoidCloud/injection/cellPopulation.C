@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "cellPopulation.H"
+#include "Pair.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -94,7 +95,8 @@ Foam::cellPopulation::setting::setting
     else
     {
         ellipsoidProperties::checkKeywords(dict, {"type", "values"});
-        values = dict.get<List<Pair<scalar>>>("values");
+        dict.lookup("values");
+        values = listedSizes(dict, "values", medianSize(options));
 
         if (values.empty())
         {
@@ -114,19 +116,11 @@ void Foam::cellPopulation::setting::readListed
     const cellSize& median
 )
 {
-    typedef List<Pair<scalar>> pairs;
-
     for (const entry& e : injections)
     {
         const dictionary& dict = e.dict();
 
-        for (const auto& size : dict.getOrDefault<pairs>("sizes", {}))
-        {
-            listed.append
-            (
-                cellSize{size.first(), size.second(), median.density}
-            );
-        }
+        listed.append(listedSizes(dict, "sizes", median));
         for (const scalar d : dict.getOrDefault<scalarList>("densities", {}))
         {
             listed.append(cellSize{median.length, median.width, d});
@@ -175,11 +169,7 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
 ) const
 {
     DynamicList<cellSize> sizes(listed);
-
-    for (const Pair<scalar>& row : values)
-    {
-        sizes.append(cellSize{row.first(), row.second(), options.density});
-    }
+    sizes.append(values);
 
     // The ranges of the core that a size can leave are monotonic in both
     const cellSize middle(medianSize(options));
@@ -200,6 +190,29 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
     }
 
     return List<cellSize>(std::move(sizes));
+}
+
+
+Foam::List<Foam::cellSize> Foam::cellPopulation::listedSizes
+(
+    const dictionary& dict,
+    const word& entry,
+    const cellSize& other
+)
+{
+    const List<Pair<scalar>> pairs
+    (
+        dict.getOrDefault<List<Pair<scalar>>>(entry, {})
+    );
+    List<cellSize> sizes(pairs.size(), other);
+
+    forAll(pairs, i)
+    {
+        sizes[i].length = pairs[i].first();
+        sizes[i].width = pairs[i].second();
+    }
+
+    return sizes;
 }
 
 
@@ -243,10 +256,7 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
         scalar uniform;
         ellipsoid_random_uniform(seed, id, rsSize, 0, 1, &uniform);
 
-        const Pair<scalar>& row =
-            setting_.values[label(uniform*setting_.values.size())];
-        size.length = row.first();
-        size.width = row.second();
+        size = setting_.values[label(uniform*setting_.values.size())];
     }
     else if (setting_.type == dtLogNormal)
     {

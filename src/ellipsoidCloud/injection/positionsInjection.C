@@ -45,8 +45,8 @@ class positionsInjection
         //- As many quaternions, or none
         const List<FixedList<scalar, 4>> orientations_;
 
-        //- As many pairs of length and width [m], or none
-        const List<Pair<scalar>> sizes_;
+        //- As many, or none
+        const List<cellSize> sizes_;
 
         //- As many [kg/m3], or none
         const scalarList densities_;
@@ -66,13 +66,8 @@ class positionsInjection
 
         virtual cellSize sizeOf(const label i) const
         {
-            cellSize own(cellInjection::sizeOf(i));
+            cellSize own(sizes_.size() ? sizes_[i] : cellInjection::sizeOf(i));
 
-            if (sizes_.size())
-            {
-                own.length = sizes_[i].first();
-                own.width = sizes_[i].second();
-            }
             if (densities_.size())
             {
                 own.density = densities_[i];
@@ -121,7 +116,13 @@ public:
                     "orientations", {}
                 )
             ),
-            sizes_(from_.dict.getOrDefault<List<Pair<scalar>>>("sizes", {})),
+            sizes_
+            (
+                cellPopulation::listedSizes
+                (
+                    from_.dict, "sizes", from_.population.medianSize()
+                )
+            ),
             densities_(from_.dict.getOrDefault<scalarList>("densities", {}))
         {
             check("orientations", orientations_.size());
