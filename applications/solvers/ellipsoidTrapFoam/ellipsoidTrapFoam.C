@@ -74,6 +74,60 @@ static void track(Time& runTime, ellipsoidCloud& cells)
 }
 
 
+//- The flow, then the cells
+static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
+{
+    const bool flowOnly = args.found("flowOnly");
+    const bool dryRun = args.found("dry-run");
+    const flowFields::solveType solve =
+        args.found("frozenFlow") ? flowFields::NO : flowFields::solveOf(mesh);
+
+    // Read before the flow takes its time: bad input ends the run here
+    autoPtr<ellipsoidCloud> cells;
+    if (!flowOnly)
+    {
+        cells.reset(new ellipsoidCloud(mesh));
+    }
+
+    autoPtr<flowFields> flow(steadyFlow::New(mesh, solve));
+    const bool accepted = flow->accept();
+
+    if (!accepted && !dryRun)
+    {
+        flow->solve();
+        flow->write();
+    }
+
+    if (accepted || !dryRun)
+    {
+        flow->report(flowOnly ? 0 : cells->fluidDensity());
+
+        if (!flowOnly)
+        {
+            cells->setFlow(flow->U(), flow->p(), flow->phi());
+        }
+    }
+    else
+    {
+        Info<< "flow: to be solved; when that is done, -dry-run says more"
+            << endl;
+    }
+
+    if (dryRun)
+    {
+        if (accepted && !flowOnly)
+        {
+            cells->forecast();
+        }
+        Info<< "Nothing was solved or written" << endl;
+    }
+    else if (!flowOnly)
+    {
+        track(runTime, *cells);
+    }
+}
+
+
 static void addOptions()
 {
     argList::addNote
@@ -142,52 +196,7 @@ int main(int argc, char *argv[])
         )
     );
 
-    const flowFields::solveType solve =
-        args.found("frozenFlow") ? flowFields::NO : flowFields::solveOf(mesh);
-
-    // Read before the flow takes its time: bad input ends the run here
-    autoPtr<ellipsoidCloud> cells;
-    if (!flowOnly)
-    {
-        cells.reset(new ellipsoidCloud(mesh));
-    }
-
-    autoPtr<flowFields> flow(steadyFlow::New(mesh, solve));
-    const bool accepted = flow->accept();
-
-    if (!accepted && !dryRun)
-    {
-        flow->solve();
-        flow->write();
-    }
-
-    if (accepted || !dryRun)
-    {
-        flow->report(flowOnly ? 0 : cells->fluidDensity());
-
-        if (!flowOnly)
-        {
-            cells->setFlow(flow->U(), flow->p(), flow->phi());
-        }
-    }
-    else
-    {
-        Info<< "flow: to be solved; when that is done, -dry-run says more"
-            << endl;
-    }
-
-    if (dryRun)
-    {
-        if (accepted && !flowOnly)
-        {
-            cells->forecast();
-        }
-        Info<< "Nothing was solved or written" << endl;
-    }
-    else if (!flowOnly)
-    {
-        track(runTime, *cells);
-    }
+    runCase(args, mesh, runTime);
 
     Info<< "End\n" << endl;
 
