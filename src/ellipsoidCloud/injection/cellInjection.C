@@ -61,6 +61,7 @@ Foam::string Foam::cellInjection::overlap
     );
     ellipsoid_model model(m);
     ellipsoid_contact contact;
+    model.options.contact = 1;
     model.options.contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;
 
     // Of the ellipsoid; else beads stand out of it
