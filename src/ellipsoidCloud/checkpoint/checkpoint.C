@@ -69,7 +69,7 @@ namespace Foam
                 args.rootPath()/args.globalCaseName()/"system"/"controlDict"
             );
         }
-        Pstream::scatter(text);
+        broadcast(text);
 
         return
             !text.empty()
@@ -379,7 +379,7 @@ Foam::word Foam::checkpoint::setAsideIncomplete
         args.rootPath()/args.globalCaseName()
        /"postProcessing"/"ellipsoidCloud"
     );
-    Pstream::scatter(tracked);
+    broadcast(tracked);
 
     const std::set<namedTime> times(allTimes(args.path()));
 

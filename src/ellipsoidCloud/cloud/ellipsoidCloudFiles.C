@@ -13,6 +13,7 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "ellipsoidCloud.H"
+#include "cellPoses.H"
 #include "ellipsoidParcel.H"
 #include "masterGate.H"
 #include "volFields.H"
@@ -271,6 +272,7 @@ void Foam::ellipsoidCloud::write()
 
     tracks_->flush();
     writeParcels();
+    writePoses();
 
     dictionary tables;
     tables.add("events", statistics_->log.notes());
@@ -349,6 +351,17 @@ void Foam::ellipsoidCloud::forecast()
         << word::printf("%.1g", steps*factor) << " steps, "
         << word::printf("%.1g", spent*factor) << " s, more where cells pile up"
         << endl;
+}
+
+
+void Foam::ellipsoidCloud::writePoses() const
+{
+    const masterGate once;
+
+    if (Pstream::master())
+    {
+        Foam::writePoses(tracks_->set(), cells_, mesh_.time().timeName());
+    }
 }
 
 

@@ -111,6 +111,21 @@ namespace Foam
           : word(field.name);
     }
 
+    //- A file of the cloud, in its folder at the present time
+    static IOobject fileIn
+    (
+        const cloud& c,
+        const word& name,
+        const IOobject::readOption read
+    )
+    {
+        return
+            IOobject
+            (
+                name, c.time().timeName(), c, read, IOobject::NO_WRITE, false
+            );
+    }
+
     //- Where a state has a member
     static char* memberOf(cellState& state, const cellField& field)
     {
@@ -131,7 +146,7 @@ namespace Foam
         {
             const IOField<Type> values
             (
-                c.fieldIOobject(fileOf(field, d), IOobject::MUST_READ),
+                fileIn(c, fileOf(field, d), IOobject::MUST_READ),
                 c.size() > 0
             );
             c.checkFieldIOobject(c, values);
@@ -157,7 +172,7 @@ namespace Foam
         {
             IOField<Type> values
             (
-                c.fieldIOobject(fileOf(field, d), IOobject::NO_READ), c.size()
+                fileIn(c, fileOf(field, d), IOobject::NO_READ), c.size()
             );
 
             forAll(cells, i)
@@ -237,7 +252,7 @@ void Foam::ellipsoidParcel::writeFields(const Cloud<ellipsoidParcel>& c)
 
     IOField<label> zeros
     (
-        c.fieldIOobject("origProcId", IOobject::NO_READ),
+        fileIn(c, "origProcId", IOobject::NO_READ),
         labelField(c.size(), 0)
     );
     atomicWrite(zeros, c.size() > 0);
