@@ -351,7 +351,8 @@ int ellipsoid_beads(const ellipsoid_options *options,
                     double bead[ELLIPSOID_MAX_BEADS][3]);
 
 /*
-    Whether the ellipsoid itself, not its beads, cuts a wall facet; exact. The
+    Whether the ellipsoid itself, not its beads, cuts a wall facet; exact, but
+    that it is a part in 1e10 smaller, so that one that touches does not. The
     cell's centre is taken to be on the fluid's side. *overlaps is 0 or 1.
 */
 ellipsoid_status

@@ -90,6 +90,28 @@ static void test_faults_are_named(void **unused)
     assert_refused(maximum_steps, 0, "maximum_steps");
 }
 
+/* A sphere as one bead of its own radius; a larger bead, or more of them, have no room. */
+static void test_sphere_as_one_bead(void **state)
+{
+    (void)state;
+    ellipsoid_options options = ellipsoid_options_default();
+    const char *field = NULL;
+
+    options.semi_axes[1] = options.bead_radius = 0.5e-6;
+    options.bead_count = 1;
+    assert_int_equal(ellipsoid_options_check(&options, NULL, NULL),
+                     ELLIPSOID_OK);
+    options.bead_radius *= 1 + 1e-15;
+    assert_int_equal(ellipsoid_options_check(&options, &field, NULL),
+                     ELLIPSOID_BAD_OPTION);
+    assert_string_equal(field, "bead_radius");
+    options.bead_radius = 0.5e-6;
+    options.bead_count = 2;
+    assert_int_equal(ellipsoid_options_check(&options, &field, NULL),
+                     ELLIPSOID_BAD_OPTION);
+    assert_string_equal(field, "bead_radius");
+}
+
 /* Where a member of the options is, for its type. */
 static void set_member(const ellipsoid_option *option, int component,
                        double value, ellipsoid_options *options)
@@ -323,6 +345,7 @@ static void test_every_status_has_a_text(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sphere_as_one_bead),
         cmocka_unit_test(test_default_is_accepted),
         cmocka_unit_test(test_faults_are_named),
         cmocka_unit_test(test_ends_of_ranges),

@@ -25,7 +25,7 @@ static int overlaps(wall_mesh *mesh, const double x[3], const double q[4])
 }
 
 /* Over a plane of many facets the height at which it touches is the support along
-   the normal: overlap just below, none just above, for any orientation. */
+   the normal: overlap just below, none just above nor there, for any orientation. */
 static void test_plane(void **unused)
 {
     const double corner[3] = {-20 * um, -20 * um, 0};
@@ -55,6 +55,8 @@ static void test_plane(void **unused)
         x[2] = reach * (1 - 1e-9);
         assert_int_equal(overlaps(&mesh, x, q), 1);
         x[2] = reach * (1 + 1e-9);
+        assert_int_equal(overlaps(&mesh, x, q), 0);
+        x[2] = reach;
         assert_int_equal(overlaps(&mesh, x, q), 0);
     }
     wall_mesh_free(&mesh);

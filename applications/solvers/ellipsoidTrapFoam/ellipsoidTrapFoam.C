@@ -49,7 +49,7 @@ SourceFiles
 #include "steadyFlow.H"
 #include "checkpoint.H"
 #include "commit.H"
-#include "ellipsoidCore.H"
+#include "ellipsoidProperties.H"
 
 using namespace Foam;
 
@@ -74,64 +74,11 @@ static void track(Time& runTime, ellipsoidCloud& cells)
 }
 
 
-static void addOptions()
+//- The flow, then the cells
+static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
 {
-    argList::addNote
-    (
-        "Solve the steady incompressible laminar flow, then track rigid"
-        " ellipsoids through it. Version " ELLIPSOID_VERSION ", "
-        ELLIPSOID_COMMIT
-    );
-    argList::addBoolOption("flowOnly", "Stop after the flow");
-    argList::addBoolOption
-    (
-        "dry-run",
-        "Read and check everything, solve and write nothing"
-    );
-    argList::addBoolOption
-    (
-        "frozenFlow",
-        "Take the flow as it is read, of whatever solver"
-    );
-}
-
-
-int main(int argc, char *argv[])
-{
-    addOptions();
-
-    #include "setRootCaseLists.H"
-
     const bool flowOnly = args.found("flowOnly");
     const bool dryRun = args.found("dry-run");
-
-    if (!flowOnly && !dryRun)
-    {
-        checkpoint::setAsideIncomplete(args);
-    }
-
-    Info<< "ellipsoidTrapFoam " << ELLIPSOID_VERSION << ", "
-        << ELLIPSOID_COMMIT << nl << endl;
-
-    #include "createTime.H"
-
-    // The digits of writePrecision are for files
-    Sout.precision(6);
-    Pout.precision(6);
-
-    // Not createMesh.H, which takes a column of cells for a dry run
-    Info<< "Create mesh for time = " << runTime.timeName() << nl << endl;
-    const fvMesh mesh
-    (
-        IOobject
-        (
-            fvMesh::defaultRegion,
-            runTime.timeName(),
-            runTime,
-            IOobject::MUST_READ
-        )
-    );
-
     const flowFields::solveType solve =
         args.found("frozenFlow") ? flowFields::NO : flowFields::solveOf(mesh);
 
@@ -168,12 +115,88 @@ int main(int argc, char *argv[])
 
     if (dryRun)
     {
+        if (accepted && !flowOnly)
+        {
+            cells->forecast();
+        }
         Info<< "Nothing was solved or written" << endl;
     }
     else if (!flowOnly)
     {
         track(runTime, *cells);
     }
+}
+
+
+static void addOptions()
+{
+    argList::addNote
+    (
+        "Solve the steady incompressible laminar flow, then track rigid"
+        " ellipsoids through it. Version " ELLIPSOID_VERSION ", "
+        ELLIPSOID_COMMIT
+    );
+    argList::addBoolOption("flowOnly", "Stop after the flow");
+    argList::addBoolOption
+    (
+        "dry-run",
+        "Read and check everything, solve and write nothing"
+    );
+    argList::addBoolOption
+    (
+        "frozenFlow",
+        "Take the flow as it is read, of whatever solver"
+    );
+}
+
+
+int main(int argc, char *argv[])
+{
+    addOptions();
+
+    #include "setRootCaseLists.H"
+
+    const bool flowOnly = args.found("flowOnly");
+    const bool dryRun = args.found("dry-run");
+
+    const word start
+    (
+        flowOnly ? word::null : checkpoint::setAsideIncomplete(args, dryRun)
+    );
+
+    Info<< "ellipsoidTrapFoam " << ELLIPSOID_VERSION << ", "
+        << ELLIPSOID_COMMIT << nl << endl;
+
+    #include "createTime.H"
+
+    if (dryRun && !start.empty())
+    {
+        runTime.setTime(readScalar(start), 0);
+    }
+
+    // The digits of writePrecision are for files
+    Sout.precision(6);
+    Pout.precision(6);
+
+    if (!flowOnly)
+    {
+        ellipsoidProperties::checkDimensions(runTime);
+    }
+
+    // Not createMesh.H, which takes a column of cells for a dry run
+    Info<< "Create mesh for time = " << runTime.timeName() << nl << endl;
+    const fvMesh mesh
+    (
+        IOobject
+        (
+            fvMesh::defaultRegion,
+            runTime.timeName(),
+            runTime,
+            IOobject::MUST_READ
+        )
+    );
+
+    runCase(args, mesh, runTime);
 
     Info<< "End\n" << endl;
 

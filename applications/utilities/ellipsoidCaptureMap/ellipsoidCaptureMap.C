@@ -110,6 +110,7 @@ int main(int argc, char *argv[])
     Sout.precision(6);
     Pout.precision(6);
 
+    ellipsoidProperties::checkDimensions(runTime);
     #include "createMesh.H"
 
     ellipsoidProperties properties(mesh);

@@ -198,7 +198,10 @@ static void check_relations(verdict *v, const ellipsoid_options *o)
             INDEX_wall_range, NULL);
     require(v,
             !matters(o, INDEX_bead_radius)
-                || (o->bead_radius > 0 && o->bead_radius < smallest),
+                || (o->bead_radius > 0
+                    && (o->bead_radius < smallest
+                        || (o->bead_count == 1
+                            && o->bead_radius == smallest))),
             INDEX_bead_radius, NULL);
     require(v,
             !matters(o, INDEX_adhesion_range)

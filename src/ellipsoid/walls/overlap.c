@@ -95,8 +95,11 @@ ellipsoid_overlaps_walls(const ellipsoid_model *model,
                          const ellipsoid_surroundings *surroundings,
                          const double x[3], const double q[4], int *overlaps)
 {
-    const double *axes = model->options.semi_axes;
-    const double longest = fmax(axes[0], fmax(axes[1], axes[2]));
+    const double *a = model->options.semi_axes;
+    const double longest = fmax(a[0], fmax(a[1], a[2]));
+    /* To touch is not to cut, whatever rounding says */
+    const double inside = 1 - 1e-10;
+    const double axes[3] = {inside * a[0], inside * a[1], inside * a[2]};
     ellipsoid_facet_list list;
     ellipsoid_surface body;
 

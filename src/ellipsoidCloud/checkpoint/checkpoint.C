@@ -362,12 +362,16 @@ void Foam::checkpoint::checkMesh(const dictionary& notesNow) const
 }
 
 
-void Foam::checkpoint::setAsideIncomplete(const argList& args)
+Foam::word Foam::checkpoint::setAsideIncomplete
+(
+    const argList& args,
+    const bool dryRun
+)
 {
     // Where ranks share files, times without their end are refused, not moved
     if (!fromLatestTime(args) || sharedFiles())
     {
-        return;
+        return word::null;
     }
 
     bool tracked = isDir
@@ -386,34 +390,26 @@ void Foam::checkpoint::setAsideIncomplete(const argList& args)
         const dictionary mark(parsed(readMark(path), markFile(path)));
         const bool other = isFile(path/"U") || isDir(path/"polyMesh");
 
-        if (copied(mark, path))
-        {
-            // decomposePar makes no directory where there are no cells, but
-            // ranks have to start from the same time
-            mkDir(path);
-            meet();
-            return;
-        }
-
         // Complete, or a flow or mesh to start from, or another program's
         if
         (
-            returnReduce(!mark.empty(), andOp<bool>())
+            copied(mark, path)
+         || returnReduce(!mark.empty(), andOp<bool>())
          || (
                 !returnReduce(begun(path), orOp<bool>())
              && (!tracked || returnReduce(other, orOp<bool>()))
             )
         )
         {
-            return;
+            return name;
         }
 
         Info<< "ellipsoidCloud: time " << name
-            << " was not written to its end: set aside as " << name
-            << ".incomplete, going on from " << std::next(time)->second
-            << endl;
+            << " was not written to its end: " << (dryRun ? "to be " : "")
+            << "set aside as " << name << ".incomplete, going on from "
+            << std::next(time)->second << endl;
 
-        if (isDir(path))
+        if (!dryRun && isDir(path))
         {
             rmDir(path + ".incomplete", true);
 
@@ -426,6 +422,8 @@ void Foam::checkpoint::setAsideIncomplete(const argList& args)
         }
         meet();
     }
+
+    return times.empty() ? word::null : times.begin()->second;
 }
 
 

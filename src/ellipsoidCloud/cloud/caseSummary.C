@@ -10,7 +10,7 @@ License
 
 #include "caseSummary.H"
 #include "captureCriterion.H"
-#include "ellipsoidProperties.H"
+#include "cellPopulation.H"
 #include "fvMesh.H"
 #include "inletFlux.H"
 #include "narrowestGaps.H"
@@ -34,7 +34,21 @@ static string um(const vector& v)
 }
 
 
-static void reportMesh(const fvMesh& mesh, const scalar width)
+//- Width of a cell: twice its shortest semi-axis
+static scalar widthOf(const ellipsoid_options& options)
+{
+    const double* a = options.semi_axes;
+
+    return 2*min(a[0], min(a[1], a[2]));
+}
+
+
+static void reportMesh
+(
+    const fvMesh& mesh,
+    const scalar width,
+    const scalar length
+)
 {
     // A chip is smaller
     const scalar largest = 1;
@@ -57,6 +71,13 @@ static void reportMesh(const fvMesh& mesh, const scalar width)
             << um(cmptMin(span)) << " um. Entries are in metres: semiAxes"
             << " (0.5e-6 2e-6 0.5e-6)" << exit(FatalError);
     }
+    else if (cmptMin(span) < length)
+    {
+        Warning
+            << "A cell is " << um(length) << " um long, the device only "
+            << um(cmptMin(span)) << " um: is there room for it to enter?" << nl
+            << endl;
+    }
 }
 
 
@@ -67,7 +88,25 @@ static void reportCell(const ellipsoid_options& options)
         options.semi_axes[0], options.semi_axes[1], options.semi_axes[2]
     );
 
-    Info<< "case: cells of " << um(2*axes).c_str() << " along their axes" << endl;
+    Info<< "case: cells of " << um(2*axes).c_str() << " along their axes"
+        << endl;
+
+    const scalar ratio = options.density/options.fluid_density;
+
+    // Of bubbles in a liquid or drops in a gas, but not of cells
+    if (max(ratio, 1/ratio) > 100)
+    {
+        Warning
+            << "cell/density " << options.density << " and fluid/density "
+            << options.fluid_density << " differ by much: both are in kg/m3"
+            << nl << endl;
+    }
+    if (options.brownian && options.temperature < 200)
+    {
+        Warning
+            << "brownian/temperature " << options.temperature
+            << " is that of no liquid: it is in K" << nl << endl;
+    }
 }
 
 
@@ -128,31 +167,57 @@ void Foam::reportCase
 )
 {
     const ellipsoid_options& options = properties.options();
-    const double* axes = options.semi_axes;
-    const scalar width = 2*min(axes[0], min(axes[1], axes[2]));
+    const cellPopulation::setting sizes(properties, options);
+    scalar widest = 0;
+    scalar longest = 0;
 
-    reportMesh(mesh, width);
+    for (const cellSize& size : sizes.extremes(options))
+    {
+        const ellipsoid_options one
+        (
+            cellPopulation::optionsOf(options, size)
+        );
+        widest = max(widest, widthOf(one));
+        longest = max(longest, 2*longestSemiAxis(one));
+    }
+
+    reportMesh(mesh, widest, longest);
     reportCell(options);
-    reportSieves(mesh, criterion, width);
+    reportSieves(mesh, criterion, widthOf(options));
 
     const scalar deltaT = mesh.time().deltaTValue();
+    const scalar end = mesh.time().endTime().value();
+    const scalar holdTime = criterion.holdTime();
 
-    if (deltaT > criterion.holdTime())
+    if (deltaT > holdTime)
     {
         Warning
-            << "deltaT " << deltaT << " s is longer than holdTime "
-            << criterion.holdTime() << " s: cells are judged once a deltaT"
-            << nl << endl;
+            << "deltaT " << deltaT << " s is longer than holdTime " << holdTime
+            << " s: cells are judged once a deltaT" << nl << endl;
+    }
+    if (holdTime > end)
+    {
+        Warning
+            << "holdTime " << holdTime << " s is longer than the run: no cell"
+            << " can be caught until " << end << " s" << nl << endl;
     }
 }
 
 
-void Foam::reportReynolds
+void Foam::reportFlow
 (
     const inletFlux& through,
-    const scalar nu
+    const scalar nu,
+    const scalar slowSpeed
 )
 {
+    if (slowSpeed >= through.speed && through.speed > 0)
+    {
+        Warning
+            << "capture: what is below " << slowSpeed << " m/s is slow, and"
+            << " the mean inlet speed only " << through.speed << " m/s: cells"
+            << " that move with the flow would be caught" << nl << endl;
+    }
     if (through.closed())
     {
         return;

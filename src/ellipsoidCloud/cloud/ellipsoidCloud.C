@@ -65,13 +65,15 @@ namespace Foam
 void Foam::ellipsoidCloud::makeInjections()
 {
     const dictionary& dict = properties_.subDict("injection");
+    const scalar runStart = readScalar(firstTime_);
     label nCells = 0;
 
     for (const entry& e : dict)
     {
         const cellInjection::setting from
         {
-            e.dict(), *undecomposed_, *domain_, population_, nCells
+            e.dict(), *undecomposed_, *domain_, population_, nCells,
+            runStart
         };
 
         injections_.append(cellInjection::New(from).ptr());
@@ -141,8 +143,9 @@ void Foam::ellipsoidCloud::checkTimes() const
             << "no cell enters while the run lasts, from "
             << shortText(time_).c_str() << " to " << shortText(end).c_str()
             << " s: they are to enter from " << shortText(first).c_str()
-            << " to " << shortText(last).c_str() << " s" << nl << "    Correct start of the injections, or startTime"
-            << " and endTime of controlDict" << exit(FatalIOError);
+            << " to " << shortText(last).c_str() << " s" << nl
+            << "    Correct start of the injections, or startTime and endTime"
+            << " of controlDict" << exit(FatalIOError);
     }
 }
 
@@ -158,7 +161,7 @@ void Foam::ellipsoidCloud::addNew(const scalar start, const scalar end)
 
     for (const cellState& cell : newCells)
     {
-        population_.take(cell.id, cellSize{cell.length, cell.width});
+        population_.take(cell.id, cell.size);
     }
     cells_.append(newCells);
     Foam::sort(cells_);
@@ -225,7 +228,16 @@ void Foam::ellipsoidCloud::setFlow
 
     domain_.reset(new cellDomain(properties_, *undecomposed_, field_));
     criterion_.setInletSpeed(inletFlux::speedOf(*undecomposed_));
-    reportReynolds(inletFlux(U, phi), properties_.options().kinematic_viscosity);
+
+    const inletFlux through(U, phi);
+    passage_ =
+        through.closed() ? VGREAT : gSum(mesh_.V())/through.inflow;
+    reportFlow
+    (
+        through,
+        properties_.options().kinematic_viscosity,
+        criterion_.slowSpeed()
+    );
 
     checkPlaces();
     makeInjections();
@@ -248,9 +260,21 @@ void Foam::ellipsoidCloud::begin()
 {
     const fileName folder(statistics_->log.name().path());
 
-    if (Pstream::master() && !earlier_.found() && isDir(folder))
+    // Tables that reach beyond the start are cut there
+    const bool goesOn = earlier_.found();
+    const bool cut =
+        mesh_.time().times().last().value() > mesh_.time().value();
+
+    if (Pstream::master() && isDir(folder) && (cut || !goesOn))
     {
-        if (!mvBak(folder, "bak"))
+        const fileName copy(folder + ".part");
+
+        if
+        (
+            (goesOn && !cp(folder, copy))
+         || !mvBak(folder, "bak")
+         || (goesOn && !mv(copy, folder))
+        )
         {
             cannotWrite(folder);
         }

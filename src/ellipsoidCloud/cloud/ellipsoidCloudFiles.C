@@ -16,8 +16,10 @@ Description
 #include "cellPoses.H"
 #include "ellipsoidParcel.H"
 #include "masterGate.H"
-#include "fvMesh.H"
+#include "volFields.H"
 #include "atomicWrite.H"
+#include "cpuTime.H"
+#include "memInfo.H"
 
 #include <cmath>
 
@@ -69,10 +71,7 @@ void Foam::ellipsoidCloud::readCells()
         (
             ellipsoidProperties::complaint
             (
-                ellipsoid_options_resized
-                (
-                    &properties_.options(), cell.length, cell.width
-                )
+                cellPopulation::optionsOf(properties_.options(), cell.size)
             )
         );
         if (!complaint.empty())
@@ -83,7 +82,7 @@ void Foam::ellipsoidCloud::readCells()
               + complaint
             );
         }
-        population_.take(cell.id, cellSize{cell.length, cell.width});
+        population_.take(cell.id, cell.size);
     }
 }
 
@@ -261,6 +260,16 @@ void Foam::ellipsoidCloud::write()
         cannotWrite(time.path()/time.timeName()/"uniform"/"time");
     }
 
+    // decomposePar and reconstructPar go to a time only for its fields and
+    // cells, and there may be no cells
+    volScalarField::Internal state
+    (
+        IOobject("ellipsoidCloudState", time.timeName(), mesh_),
+        mesh_,
+        dimensionedScalar(dimless, Zero)
+    );
+    atomicWrite(state);
+
     tracks_->flush();
     writeParcels();
     writePoses();
@@ -276,6 +285,72 @@ void Foam::ellipsoidCloud::write()
     notes.add("tables", tables);
 
     checkpoint::end(time, notes);
+}
+
+
+void Foam::ellipsoidCloud::forecast()
+{
+    // Processor time [s] that a dry run may take
+    const scalar trial = 1;
+
+    const scalar deltaT = mesh_.time().deltaTValue();
+    const scalar start = time_;
+    const scalar end = mesh_.time().endTime().value();
+
+    const label nCells = cells_.size();
+
+    // What cells are on their way until a time, in all [s]: each as long as the
+    // fluid takes to pass
+    const auto onTheWay =
+        [&](const scalar until)
+        {
+            scalar sum = nCells*min(until - start, passage_);
+
+            for (const cellInjection& injection : injections_)
+            {
+                for (const Tuple2<scalar, label>& cell : injection.times())
+                {
+                    if (cell.first() >= start && cell.first() < until)
+                    {
+                        sum += min(until - cell.first(), passage_);
+                    }
+                }
+            }
+            return sum;
+        };
+
+    const cpuTime timer;
+    DynamicList<cellEvent> events;
+    scalar spent = 0;
+
+    while (spent < trial && time_ < end - 0.5*deltaT)
+    {
+        addNew(time_, time_ + deltaT);
+        interval_->advanceInterval
+        (
+            cells_, criterion_, time_, time_ + deltaT, events
+        );
+        time_ += deltaT;
+        spent = returnReduce(timer.elapsedCpuTime(), maxOp<scalar>());
+    }
+
+    const groupAdvance::account& done = interval_->done();
+    const scalar steps = returnReduce
+    (
+        scalar(done.steps.accepted + done.steps.rejected), sumOp<scalar>()
+    );
+    const scalar memory =
+        returnReduce(scalar(memInfo().peak()), maxOp<scalar>());
+    const scalar part = onTheWay(time_)/max(onTheWay(end), VSMALL);
+    const scalar factor = 1/max(part, VSMALL);
+
+    Info<< "case: a trial to t = " << shortText(time_).c_str() << " s made "
+        << word::printf("%.2g", 100*part) << " % of the cells' way, in "
+        << word::printf("%.2g", spent) << " s and "
+        << word::printf("%.2g", memory/1024) << " MB; all of it: at least "
+        << word::printf("%.1g", steps*factor) << " steps, "
+        << word::printf("%.1g", spent*factor) << " s, more where cells pile up"
+        << endl;
 }
 
 

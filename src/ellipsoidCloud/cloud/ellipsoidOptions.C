@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "ellipsoidProperties.H"
+#include "dimensionedTypes.H"
 #include "electricField.H"
 #include "Switch.H"
 
@@ -91,6 +92,21 @@ namespace Foam
         return allowed;
     }
 
+    //- Value of an entry, which may have dimensions in front
+    template<class Type>
+    static Type valueOf(const dictionary& dict, const ellipsoid_option& option)
+    {
+        const word keyword(option.entry);
+
+        return
+            ellipsoidProperties::hasUnit
+            (
+                dict, keyword, nameOf(option), option.unit
+            )
+          ? dimensioned<Type>(keyword, dict).value()
+          : dict.get<Type>(keyword);
+    }
+
     //- Read an entry into a member of the options
     static void readMember
     (
@@ -105,13 +121,13 @@ namespace Foam
         switch (option.type)
         {
             case ELLIPSOID_OPTION_REAL:
-                *static_cast<double*>(member) = dict.get<scalar>(keyword);
+                *static_cast<double*>(member) = valueOf<scalar>(dict, option);
                 return;
 
             case ELLIPSOID_OPTION_VECTOR:
                 std::copy_n
                 (
-                    dict.get<vector>(keyword).v_,
+                    valueOf<vector>(dict, option).v_,
                     3,
                     static_cast<double*>(member)
                 );
@@ -203,6 +219,19 @@ void Foam::ellipsoidProperties::readOptions()
             << " are 0: it acts on no cell" << endl;
     }
 
+    // The default is of cells as wide as the paper's
+    const double* a = options_.semi_axes;
+    const scalar shortest = min(a[0], min(a[1], a[2]));
+
+    if
+    (
+        !section("contact").found("beadRadius")
+     && options_.bead_radius >= shortest
+    )
+    {
+        options_.bead_radius = 0.57*shortest;
+    }
+
     pushing_ =
         section("contact").getOrDefault("cells", Switch(true))
      && options_.contact;
@@ -235,6 +264,58 @@ void Foam::ellipsoidProperties::checkOptions() const
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::ellipsoidProperties::hasUnit
+(
+    const dictionary& dict,
+    const word& keyword,
+    const string& name,
+    const word& unit
+)
+{
+    static const HashTable<dimensionSet> units
+    ({
+        {"C", dimCurrent*dimTime},
+        {"C m", dimCurrent*dimTime*dimLength},
+        {"K", dimTemperature},
+        {"N", dimForce},
+        {"N m", dimForce*dimLength},
+        {"Pa", dimPressure},
+        {"V/m", dimForce/(dimCurrent*dimTime)},
+        {"kg/m3", dimDensity},
+        {"m", dimLength},
+        {"m/s", dimVelocity},
+        {"m/s2", dimAcceleration},
+        {"m2/s", dimViscosity},
+        {"s", dimTime},
+        {"s/m", dimless/dimVelocity}
+    });
+    ITstream is(dict.lookup(keyword));
+
+    if (is.empty() || is.first() != token::BEGIN_SQR)
+    {
+        return false;
+    }
+
+    const dimensionSet expected(units.lookup(unit, dimless));
+    dimensionSet given(dimless);
+    is >> given;
+
+    if (given != expected)
+    {
+        refuse
+        (
+            dict,
+            keyword,
+            name,
+            (unit.empty() ? "no unit" : unit) + ", the dimensions "
+          + shortText(expected)
+        );
+    }
+
+    return true;
+}
+
 
 Foam::string Foam::ellipsoidProperties::complaint
 (

@@ -13,10 +13,9 @@ License
 #include "readViscosity.H"
 #include "captureCriterion.H"
 #include "cellInjection.H"
-#include "emptyPolyPatch.H"
+#include "polyBoundaryMeshEntries.H"
 #include "processorPolyPatch.H"
 #include "stringListOps.H"
-#include "wedgePolyPatch.H"
 #include "Time.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -74,20 +73,6 @@ void Foam::ellipsoidProperties::checkPatches
     const polyBoundaryMesh& patches
 ) const
 {
-    for (const polyPatch& pp : patches)
-    {
-        if (isA<emptyPolyPatch>(pp) || isA<wedgePolyPatch>(pp))
-        {
-            FatalErrorInFunction
-                << "patch " << pp.name() << " of "
-                << patches.mesh().meshDir()/"boundary"
-                << " is of type " << pp.type() << nl
-                << "    A cell is a body in three dimensions: its mesh has "
-                << "walls (type wall) and open ends (type patch)"
-                << exit(FatalError);
-        }
-    }
-
     checkUnreached(patches);
 
     const dictionary& injections = subDict("injection");
@@ -111,6 +96,42 @@ void Foam::ellipsoidProperties::checkPatches
 
     captureCriterion(section("capture"), patches);
     cellTracks::setting(section("tracks"));
+}
+
+
+// * * * * * * * * * * * * * * Static Functions * * * * * * * * * * * * * * * //
+
+void Foam::ellipsoidProperties::checkDimensions(const Time& time)
+{
+    const polyBoundaryMeshEntries patches
+    (
+        IOobject
+        (
+            "boundary",
+            time.findInstance(polyMesh::meshSubDir, "boundary"),
+            polyMesh::meshSubDir,
+            time,
+            IOobject::MUST_READ,
+            IOobject::NO_WRITE,
+            false
+        )
+    );
+    const masterGate once;
+
+    for (const entry& patch : patches)
+    {
+        const word type(patch.dict().get<word>("type"));
+
+        if (type == "empty" || type == "wedge")
+        {
+            FatalErrorInFunction
+                << "patch " << patch.keyword() << " of "
+                << patches.objectPath() << " is of type " << type << nl
+                << "    A cell is a body in three dimensions: its mesh has "
+                << "walls (type wall) and open ends (type patch)"
+                << exit(FatalError);
+        }
+    }
 }
 
 
@@ -144,8 +165,8 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
 
     readOptions();
     checkOptions();
-    cellPopulation::setting(section("cell"), options_);
     checkPatches(mesh.boundaryMesh());
+    cellPopulation::setting(*this, options_);
 }
 
 

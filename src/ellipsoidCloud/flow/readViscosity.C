@@ -45,24 +45,13 @@ Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
 
     if (!isNumber || !(nuEntry.last().number() > 0))
     {
-        FatalIOErrorInFunction(dict)
-            << "nu " << nuEntry.toString() << " does not end in a positive"
-            << " number [m2/s]" << exit(FatalIOError);
+        ellipsoidProperties::refuse
+        (
+            dict, "nu", "nu", "a positive number [m2/s]"
+        );
     }
 
-    if (nuEntry.size() > 1 && nuEntry.first() == token::BEGIN_SQR)
-    {
-        ITstream is(nuEntry);
-        dimensionSet dimensions(dimless);
-        is >> dimensions;
-
-        if (dimensions != dimViscosity)
-        {
-            FatalIOErrorInFunction(dict)
-                << "nu " << nuEntry.toString() << " is not in m2/s, the"
-                << " dimensions " << dimViscosity << exit(FatalIOError);
-        }
-    }
+    ellipsoidProperties::hasUnit(dict, "nu", "nu", "m2/s");
 
     const dimensionedScalar nu("nu", dimViscosity, dict);
 

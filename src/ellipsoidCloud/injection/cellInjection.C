@@ -9,7 +9,8 @@ License
 \*---------------------------------------------------------------------------*/
 #include "cellInjection.H"
 #include "cellSurroundings.H"
-#include "polyBoundaryMesh.H"
+#include "polyMesh.H"
+#include "Switch.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -42,6 +43,51 @@ Foam::HashTable<Foam::wordList>& Foam::cellInjection::keywords()
 }
 
 
+const Foam::polyMesh& Foam::cellInjection::mesh() const
+{
+    return refCast<const polyMesh>(from_.population.properties().db());
+}
+
+
+Foam::string Foam::cellInjection::overlap
+(
+    const cellState& cell,
+    const ellipsoid_model& m
+) const
+{
+    const cellSurroundings around
+    (
+        from_.domain, frozenFlow::probe{cell.tet, -1}
+    );
+    ellipsoid_model model(m);
+    ellipsoid_contact contact;
+    model.options.contact = 1;
+    model.options.contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;
+
+    // Of the ellipsoid; else beads stand out of it
+    for (const bool beads : {false, true})
+    {
+        ellipsoid_facet_cache cache;
+        ellipsoid_facet_cache_clear(&cache);
+
+        const ellipsoid_status status = ellipsoid_contact_evaluate
+        (
+            beads ? &m : &model, &around, &cell.body, &cache, &contact, nullptr
+        );
+
+        if (status == ELLIPSOID_OK && contact.surface_count)
+        {
+            return
+                " overlaps a wall, "
+              + mesh().boundaryMesh()[contact.surface[0]].name() + ", by "
+              + shortText(contact.deepest) + " m";
+        }
+    }
+
+    return " overlaps a wall";
+}
+
+
 Foam::cellState Foam::cellInjection::drawn
 (
     const Tuple2<scalar, label>& planned
@@ -50,13 +96,11 @@ Foam::cellState Foam::cellInjection::drawn
     cellState cell = cellState();
     cell.id = planned.second();
 
-    const cellSize size(from_.population.drawn(cell.id));
-    cell.length = size.length;
-    cell.width = size.width;
+    cell.size = sizeOf(cell.id - from_.firstId);
 
     const label seed = from_.population.properties().seed();
     const label maxAttempts = isRandom() ? 1000 : 1;
-    const ellipsoid_model model(from_.population.made(size));
+    const ellipsoid_model model(from_.population.made(cell.size));
 
     bool inside = false;
 
@@ -81,10 +125,17 @@ Foam::cellState Foam::cellInjection::drawn
         }
     }
 
+    const string outside
+    (
+        " lies outside the mesh, which reaches from "
+      + shortText(mesh().bounds().min()) + " to "
+      + shortText(mesh().bounds().max()) + " m"
+    );
+
     FatalIOErrorInFunction(from_.dict)
         << "cell " << cell.id << " of injection " << from_.dict.dictName()
         << " at " << shortText(cell.centre()).c_str()
-        << (inside ? " overlaps a wall" : " lies outside the mesh") << nl
+        << (inside ? overlap(cell, model) : outside).c_str() << nl
         << "    " << maxAttempts << " position(s) tried, this the last"
         << exit(FatalIOError);
 
@@ -99,10 +150,23 @@ void Foam::cellInjection::setTimes(const label number)
     typedef ellipsoidProperties entries;
     const dictionary& dict = from_.dict;
 
-    const scalar start = dict.getOrDefault<scalar>("start", 0);
+    const scalar start =
+        dict.getOrDefault<scalar>("start", 0)
+      + (
+            dict.getOrDefault("relativeStart", Switch(false))
+          ? from_.runStart
+          : 0
+        );
     const scalar duration = entries::number(dict, "duration", atLeast(0), 0.0);
     const label seed = from_.population.properties().seed();
     times_.setSize(number);
+
+    if (number > 1000000)
+    {
+        Warning
+            << "injection " << dict.dictName() << " makes " << number
+            << " cells: is concentration in 1/m3, rate in 1/s?" << nl << endl;
+    }
 
     forAll(times_, i)
     {
@@ -204,7 +268,7 @@ void Foam::cellInjection::checkEntries(const dictionary& dict)
 
     wordList allowed
     ({
-        "type", "start", "duration",
+        "type", "start", "relativeStart", "duration",
         "orientation", "axis", "quaternion", "eulerAngles"
     });
     allowed.append(keywords()[type]);
@@ -236,11 +300,14 @@ Foam::word Foam::cellInjection::findPatch
 
 void Foam::cellInjection::check() const
 {
-    if (!isRandom())
+    for (const Tuple2<scalar, label>& cell : times_)
     {
-        for (const Tuple2<scalar, label>& cell : times_)
+        drawn(cell);
+
+        // Where the first finds no place, hardly any other will
+        if (isRandom())
         {
-            drawn(cell);
+            return;
         }
     }
 }
@@ -291,13 +358,20 @@ bool Foam::cellInjection::overlaps
     ellipsoid_contact contact;
     ellipsoid_facet_cache_clear(&cache);
 
-    // Where the core cannot tell, another pose is drawn
+    // Where the core cannot tell, another pose is drawn. To touch, whatever
+    // rounding says, is not to overlap, but adhesion may pull without
     return
         ellipsoid_contact_evaluate
         (
             &model, &around, &pose, &cache, &contact, nullptr
         )
-     || contact.bead_contacts;
+     || (
+            contact.bead_contacts
+         && (
+                contact.deepest <= 0
+             || contact.deepest > 1e-9*model.options.bead_radius
+            )
+        );
 }
 
 

@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "cellPopulation.H"
+#include "Pair.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -44,7 +45,7 @@ namespace Foam
 
 Foam::cellPopulation::setting::setting
 (
-    const dictionary& cell,
+    const dictionary& properties,
     const ellipsoid_options& options
 )
 :
@@ -54,8 +55,13 @@ Foam::cellPopulation::setting::setting
     truncation(0),
     values()
 {
+    readListed(properties.subOrEmptyDict("injection"), medianSize(options));
+
+    const dictionary& cell = properties.subOrEmptyDict("cell");
+
     if (!cell.found("sizes"))
     {
+        checkExtremes(properties, options);
         return;
     }
 
@@ -89,7 +95,8 @@ Foam::cellPopulation::setting::setting
     else
     {
         ellipsoidProperties::checkKeywords(dict, {"type", "values"});
-        values = dict.get<List<Pair<scalar>>>("values");
+        dict.lookup("values");
+        values = listedSizes(dict, "values", medianSize(options));
 
         if (values.empty())
         {
@@ -103,6 +110,25 @@ Foam::cellPopulation::setting::setting
 }
 
 
+void Foam::cellPopulation::setting::readListed
+(
+    const dictionary& injections,
+    const cellSize& median
+)
+{
+    for (const entry& e : injections)
+    {
+        const dictionary& dict = e.dict();
+
+        listed.append(listedSizes(dict, "sizes", median));
+        for (const scalar d : dict.getOrDefault<scalarList>("densities", {}))
+        {
+            listed.append(cellSize{median.length, median.width, d});
+        }
+    }
+}
+
+
 void Foam::cellPopulation::setting::checkExtremes
 (
     const dictionary& dict,
@@ -113,10 +139,7 @@ void Foam::cellPopulation::setting::checkExtremes
     {
         const string complaint
         (
-            ellipsoidProperties::complaint
-            (
-                ellipsoid_options_resized(&options, size.length, size.width)
-            )
+            ellipsoidProperties::complaint(optionsOf(options, size))
         );
 
         if (!complaint.empty())
@@ -133,7 +156,7 @@ void Foam::cellPopulation::setting::checkExtremes
 Foam::cellPopulation::cellPopulation(const ellipsoidProperties& properties)
 :
     properties_(properties),
-    setting_(properties.section("cell"), properties.options()),
+    setting_(properties, properties.options()),
     median_(modelOf(properties.options()))
 {}
 
@@ -145,12 +168,8 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
     const ellipsoid_options& options
 ) const
 {
-    DynamicList<cellSize> sizes;
-
-    for (const Pair<scalar>& row : values)
-    {
-        sizes.append(cellSize{row.first(), row.second()});
-    }
+    DynamicList<cellSize> sizes(listed);
+    sizes.append(values);
 
     // The ranges of the core that a size can leave are monotonic in both
     const cellSize middle(medianSize(options));
@@ -163,7 +182,8 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
                 cellSize
                 {
                     middle.length*exp(l*lengthDeviation),
-                    middle.width*exp(w*widthDeviation)
+                    middle.width*exp(w*widthDeviation),
+                    middle.density
                 }
             );
         }
@@ -173,12 +193,55 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
 }
 
 
+Foam::List<Foam::cellSize> Foam::cellPopulation::listedSizes
+(
+    const dictionary& dict,
+    const word& entry,
+    const cellSize& other
+)
+{
+    const List<Pair<scalar>> pairs
+    (
+        dict.getOrDefault<List<Pair<scalar>>>(entry, {})
+    );
+    List<cellSize> sizes(pairs.size(), other);
+
+    forAll(pairs, i)
+    {
+        sizes[i].length = pairs[i].first();
+        sizes[i].width = pairs[i].second();
+    }
+
+    return sizes;
+}
+
+
+ellipsoid_options Foam::cellPopulation::optionsOf
+(
+    const ellipsoid_options& options,
+    const cellSize& size
+)
+{
+    ellipsoid_options one
+    (
+        ellipsoid_options_resized(&options, size.length, size.width)
+    );
+    one.density = size.density;
+
+    return one;
+}
+
+
 Foam::cellSize Foam::cellPopulation::medianSize
 (
     const ellipsoid_options& options
 )
 {
-    return cellSize{2*options.semi_axes[1], 2*options.semi_axes[0]};
+    return
+        cellSize
+        {
+            2*options.semi_axes[1], 2*options.semi_axes[0], options.density
+        };
 }
 
 
@@ -193,9 +256,7 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
         scalar uniform;
         ellipsoid_random_uniform(seed, id, rsSize, 0, 1, &uniform);
 
-        const Pair<scalar>& row =
-            setting_.values[label(uniform*setting_.values.size())];
-        size = cellSize{row.first(), row.second()};
+        size = setting_.values[label(uniform*setting_.values.size())];
     }
     else if (setting_.type == dtLogNormal)
     {
@@ -217,10 +278,7 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
 
 ellipsoid_model Foam::cellPopulation::made(const cellSize& size) const
 {
-    return modelOf
-    (
-        ellipsoid_options_resized(&median_.options, size.length, size.width)
-    );
+    return modelOf(optionsOf(median_.options, size));
 }
 
 
@@ -228,7 +286,12 @@ void Foam::cellPopulation::take(const label id, const cellSize& size)
 {
     const cellSize middle(medianSize());
 
-    if (size.length != middle.length || size.width != middle.width)
+    if
+    (
+        size.length != middle.length
+     || size.width != middle.width
+     || size.density != middle.density
+    )
     {
         models_.set(id, new ellipsoid_model(made(size)));
     }

@@ -10,7 +10,8 @@ Class
     Foam::positionsInjection
 
 Description
-    Cells at given positions and, if given, with given orientations.
+    Cells at given positions and, if given, with given orientations, sizes and
+    densities.
 
 Usage
     \verbatim
@@ -19,6 +20,8 @@ Usage
         type         positions;
         positions    ((0 0 5e-6) (1e-6 0 5e-6));
         orientations ((0 0 0 1) (0 0 0.6 0.8));     // optional quaternions
+        sizes        ((4e-6 1e-6) (5e-6 1.2e-6));   // optional (length width)
+        densities    (1040 1100);                   // optional
     }
     \endverbatim
 
@@ -42,6 +45,12 @@ class positionsInjection
         //- As many quaternions, or none
         const List<FixedList<scalar, 4>> orientations_;
 
+        //- As many, or none
+        const List<cellSize> sizes_;
+
+        //- As many [kg/m3], or none
+        const scalarList densities_;
+
 
     // Private Member Functions
 
@@ -53,6 +62,29 @@ class positionsInjection
         virtual point position(const label i, const vector&) const
         {
             return positions_[i];
+        }
+
+        virtual cellSize sizeOf(const label i) const
+        {
+            cellSize own(sizes_.size() ? sizes_[i] : cellInjection::sizeOf(i));
+
+            if (densities_.size())
+            {
+                own.density = densities_[i];
+            }
+
+            return own;
+        }
+
+        //- End the run if a list is not as long as that of the positions
+        void check(const char* entry, const label n) const
+        {
+            if (n && n != positions_.size())
+            {
+                FatalIOErrorInFunction(from_.dict)
+                    << positions_.size() << " positions but " << n << ' '
+                    << entry << exit(FatalIOError);
+            }
         }
 
         virtual void orientation(const label i, scalar q[4]) const
@@ -83,16 +115,19 @@ public:
                 (
                     "orientations", {}
                 )
-            )
+            ),
+            sizes_
+            (
+                cellPopulation::listedSizes
+                (
+                    from_.dict, "sizes", from_.population.medianSize()
+                )
+            ),
+            densities_(from_.dict.getOrDefault<scalarList>("densities", {}))
         {
-            const label n = orientations_.size();
-
-            if (n && n != positions_.size())
-            {
-                FatalIOErrorInFunction(from_.dict)
-                    << positions_.size() << " positions but " << n
-                    << " orientations" << exit(FatalIOError);
-            }
+            check("orientations", orientations_.size());
+            check("sizes", sizes_.size());
+            check("densities", densities_.size());
 
             setTimes(positions_.size());
         }
@@ -105,7 +140,7 @@ defineTypeNameAndDebug(positionsInjection, 0);
 
 static const cellInjection::addType<positionsInjection> addPositionsInjection
 ({
-    "positions", "orientations"
+    "positions", "orientations", "sizes", "densities"
 });
 
 } // End namespace Foam

@@ -38,14 +38,12 @@ Foam::independentCells::followSome
     groupScheduler scheduler(population_, domain_, nullptr);
     DynamicList<cellEvent> events;
 
-    const cellSize size(population_.medianSize());
     List<cellState> cells(starts);
     labelList which(identity(starts.size()));
     List<ending> endings(starts.size(), ending{cellState::inFlight, -1, -1});
     for (cellState& cell : cells)
     {
-        cell.length = size.length;
-        cell.width = size.width;
+        cell.size = population_.medianSize();
         cellInjection::wait(cell, 0, domain_.flow);
     }
 

@@ -42,7 +42,6 @@ void Foam::captureStatistics::count(const cellEvent& event)
 
 void Foam::captureStatistics::readLog()
 {
-    const cellSize size(set_.population.medianSize());
     std::istringstream lines(log.text());
     std::string line;
     std::getline(lines, line);
@@ -50,8 +49,7 @@ void Foam::captureStatistics::readLog()
     while (std::getline(lines, line))
     {
         cellEvent event = cellEvent();
-        event.cell.length = size.length;
-        event.cell.width = size.width;
+        event.cell.size = set_.population.medianSize();
 
         if (!event.read(line, set_))
         {

@@ -69,7 +69,7 @@ void Foam::captureStatistics::writeCells() const
         }
         if (sizes)
         {
-            os << ',' << cell.last.length << ',' << cell.last.width;
+            os << ',' << cell.last.size.length << ',' << cell.last.size.width;
         }
         os << '\n';
     }
@@ -161,7 +161,7 @@ void Foam::captureStatistics::reportContact(Ostream& os) const
 
         const scalar beadRadius =
             median.options.bead_radius
-           *(r.last.width/set_.population.medianSize().width);
+           *(r.last.size.width/set_.population.medianSize().width);
         wallPart = max(wallPart, 100*r.last.deepest/beadRadius);
         cellPart = max(cellPart, 100*r.last.deepestCell/beadRadius);
 

@@ -35,8 +35,8 @@ namespace Foam
 
         if (sizes)
         {
-            numbers.append(&cell.length);
-            numbers.append(&cell.width);
+            numbers.append(&cell.size.length);
+            numbers.append(&cell.size.width);
         }
 
         return numbers;
