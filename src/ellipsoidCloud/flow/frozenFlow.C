@@ -21,7 +21,8 @@ License
 const Foam::Enum<Foam::frozenFlow::schemeType> Foam::frozenFlow::schemeNames
 ({
     { schemeType::stCellPoint, "cellPoint" },
-    { schemeType::stCellPointQuadratic, "cellPointQuadratic" }
+    { schemeType::stCellPointQuadratic, "cellPointQuadratic" },
+    { schemeType::stDivergenceFree, "divergenceFree" }
 });
 
 
@@ -119,6 +120,7 @@ Foam::frozenFlow::locationType Foam::frozenFlow::walk
     {
         const flowTet& tet = tets_[at.tet];
         c = coordinates(tet, x);
+        c.tet = at.tet;
 
         // Leave by the face most exceeded that leads on; a patch only where
         // no face does, since the way round a corner may graze it. Nor go
@@ -162,6 +164,25 @@ Foam::frozenFlow::locationType Foam::frozenFlow::walk
 }
 
 
+Foam::tetFlow Foam::frozenFlow::flowIn
+(
+    const label teti,
+    const tetCoordinates& c
+) const
+{
+    const auto vertex =
+        [&](const int a) -> const flowVertex&
+        {
+            return vertices_[c.vertices[a]];
+        };
+
+    return tetFlow
+    (
+        c.gradient, vertex, excess_[teti].flux, excess_[teti].straight
+    );
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::frozenFlow::frozenFlow
@@ -196,6 +217,7 @@ Foam::frozenFlow::frozenFlow
     Pstream::scatter(field_);
     Pstream::scatter(tets_);
     Pstream::scatter(cellTets_);
+    Pstream::scatter(excess_);
     Pstream::scatter(patchLocation_);
 
     centres_.setSize(cellTets_.size() - 1);
@@ -324,6 +346,23 @@ void Foam::frozenFlow::velocity
     scalar (*jacobian)[3]
 ) const
 {
+    if (scheme_ == stDivergenceFree)
+    {
+        vector value;
+        tensor derivatives;
+
+        flowIn(c.tet, c).evaluate
+        (
+            c.weight, value, jacobian ? &derivatives : nullptr
+        );
+        copy(value, velocity);
+        if (jacobian)
+        {
+            copy(derivatives, jacobian);
+        }
+        return;
+    }
+
     const auto u =
         [&](const label i) -> const vector& { return vertices_[i].u; };
 
