@@ -16,6 +16,8 @@ License
 #include "wallPolyPatch.H"
 #include "treeBoundBox.H"
 
+#include <algorithm>
+
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
 const Foam::Enum<Foam::frozenFlow::schemeType> Foam::frozenFlow::schemeNames
@@ -38,6 +40,22 @@ namespace Foam
     static inline void copy(const tensor& from, scalar (*to)[3])
     {
         std::copy_n(from.v_, 9, &to[0][0]);
+    }
+
+    //- Take coordinates beyond a face back to it
+    static void toFace(scalar weight[4])
+    {
+        scalar sum = 0;
+
+        for (int a = 0; a < 4; ++a)
+        {
+            weight[a] = max(weight[a], scalar(0));
+            sum += weight[a];
+        }
+        for (int a = 0; a < 4; ++a)
+        {
+            weight[a] /= sum;
+        }
     }
 
     //- End the run if what should be an open end is a wall to the flow
@@ -348,13 +366,25 @@ void Foam::frozenFlow::velocity
 {
     if (scheme_ == stDivergenceFree)
     {
+        // Beyond an open patch, what is not linear stays as it is there
+        tetCoordinates inside(c);
+        if (*std::min_element(c.weight, c.weight + 4) < -1e-9)
+        {
+            toFace(inside.weight);
+        }
+
         vector value;
         tensor derivatives;
 
         flowIn(c.tet, c).evaluate
         (
-            c.weight, value, jacobian ? &derivatives : nullptr
+            inside.weight, value, jacobian ? &derivatives : nullptr
         );
+        for (int a = 0; a < 4; ++a)
+        {
+            value +=
+                (c.weight[a] - inside.weight[a])*vertices_[c.vertices[a]].u;
+        }
         copy(value, velocity);
         if (jacobian)
         {
@@ -423,19 +453,13 @@ void Foam::frozenFlow::velocity
 
     if (walk(pointOf(x), at, c) == pBeyondWall)
     {
-        // Back to the face beyond which the position lies
-        scalar sum = 0;
-
-        for (int a = 0; a < 4; ++a)
+        toFace(c.weight);
+        this->velocity(c, velocity, nullptr);
+        if (jacobian)
         {
-            c.weight[a] = max(c.weight[a], scalar(0));
-            c.gradient[a] = Zero;
-            sum += c.weight[a];
+            copy(tensor::zero, jacobian);
         }
-        for (scalar& weight : c.weight)
-        {
-            weight /= sum;
-        }
+        return;
     }
 
     this->velocity(c, velocity, jacobian);
