@@ -336,10 +336,14 @@ namespace Foam
                     if (usedFaceFor[facei] != celli)
                     {
                         usedFaceFor[facei] = celli;
+
+                        // The mean over the face, as wide as its cell
+                        const vector& S = mesh.faceAreas()[facei];
+                        const symmTensor along(I - sqr(S/mag(S)));
                         add
                         (
                             mesh.faceCentres()[facei],
-                            symmTensor::zero,
+                            symm(along & M[mesh.faceOwner()[facei]] & along),
                             walls.velocity(facei)
                         );
                     }
