@@ -17,12 +17,15 @@ License
 #include "wallPolyPatch.H"
 #include "treeBoundBox.H"
 
+#include <algorithm>
+
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
 const Foam::Enum<Foam::frozenFlow::schemeType> Foam::frozenFlow::schemeNames
 ({
     { schemeType::stCellPoint, "cellPoint" },
-    { schemeType::stCellPointQuadratic, "cellPointQuadratic" }
+    { schemeType::stCellPointQuadratic, "cellPointQuadratic" },
+    { schemeType::stDivergenceFree, "divergenceFree" }
 });
 
 
@@ -38,6 +41,22 @@ namespace Foam
     static inline void copy(const tensor& from, scalar (*to)[3])
     {
         std::copy_n(from.v_, 9, &to[0][0]);
+    }
+
+    //- Take coordinates beyond a face back to it
+    static void toFace(scalar weight[4])
+    {
+        scalar sum = 0;
+
+        for (int a = 0; a < 4; ++a)
+        {
+            weight[a] = max(weight[a], scalar(0));
+            sum += weight[a];
+        }
+        for (int a = 0; a < 4; ++a)
+        {
+            weight[a] /= sum;
+        }
     }
 
     //- End the run if what should be an open end is a wall to the flow
@@ -120,6 +139,7 @@ Foam::frozenFlow::locationType Foam::frozenFlow::walk
     {
         const flowTet& tet = tets_[at.tet];
         c = coordinates(tet, x);
+        c.tet = at.tet;
 
         // Leave by the face most exceeded that leads on; a patch only where
         // no face does, since the way round a corner may graze it. Nor go
@@ -163,6 +183,25 @@ Foam::frozenFlow::locationType Foam::frozenFlow::walk
 }
 
 
+Foam::tetFlow Foam::frozenFlow::flowIn
+(
+    const label teti,
+    const tetCoordinates& c
+) const
+{
+    const auto vertex =
+        [&](const int a) -> const flowVertex&
+        {
+            return vertices_[c.vertices[a]];
+        };
+
+    return tetFlow
+    (
+        c.gradient, vertex, excess_[teti].flux, excess_[teti].straight
+    );
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::frozenFlow::frozenFlow
@@ -197,6 +236,7 @@ Foam::frozenFlow::frozenFlow
     broadcast(field_);
     broadcast(tets_);
     broadcast(cellTets_);
+    broadcast(excess_);
     broadcast(patchLocation_);
 
     centres_.setSize(cellTets_.size() - 1);
@@ -325,6 +365,35 @@ void Foam::frozenFlow::velocity
     scalar (*jacobian)[3]
 ) const
 {
+    if (scheme_ == stDivergenceFree)
+    {
+        // Beyond an open patch, what is not linear stays as it is there
+        tetCoordinates inside(c);
+        if (*std::min_element(c.weight, c.weight + 4) < -1e-9)
+        {
+            toFace(inside.weight);
+        }
+
+        vector value;
+        tensor derivatives;
+
+        flowIn(c.tet, c).evaluate
+        (
+            inside.weight, value, jacobian ? &derivatives : nullptr
+        );
+        for (int a = 0; a < 4; ++a)
+        {
+            value +=
+                (c.weight[a] - inside.weight[a])*vertices_[c.vertices[a]].u;
+        }
+        copy(value, velocity);
+        if (jacobian)
+        {
+            copy(derivatives, jacobian);
+        }
+        return;
+    }
+
     const auto u =
         [&](const label i) -> const vector& { return vertices_[i].u; };
 
@@ -385,19 +454,13 @@ void Foam::frozenFlow::velocity
 
     if (walk(pointOf(x), at, c) == pBeyondWall)
     {
-        // Back to the face beyond which the position lies
-        scalar sum = 0;
-
-        for (int a = 0; a < 4; ++a)
+        toFace(c.weight);
+        this->velocity(c, velocity, nullptr);
+        if (jacobian)
         {
-            c.weight[a] = max(c.weight[a], scalar(0));
-            c.gradient[a] = Zero;
-            sum += c.weight[a];
+            copy(tensor::zero, jacobian);
         }
-        for (scalar& weight : c.weight)
-        {
-            weight /= sum;
-        }
+        return;
     }
 
     this->velocity(c, velocity, jacobian);

@@ -15,6 +15,7 @@ Description
 #include "frozenFlow.H"
 #include "baffleSides.H"
 #include "undecomposedFlow.H"
+#include "vertexFit.H"
 #include "volPointInterpolation.H"
 #include "fvcGrad.H"
 #include "wallPolyPatch.H"
@@ -108,6 +109,7 @@ namespace Foam
         const baffleSides& baffles,
         const UList<labelPair>& faceTets,
         const label celli,
+        const labelUList& bases,
         label teti,
         List<flowTet>& tets
     )
@@ -120,7 +122,7 @@ namespace Foam
         {
             const face& f = mesh.faces()[facei];
             const label owned = (mesh.faceOwner()[facei] == celli);
-            const label base = max(mesh.tetBasePtIs()[facei], label(0));
+            const label base = bases[facei];
             const label patchi = mesh.boundaryMesh().whichPatch(facei);
 
             for (label trii = 1; trii < f.size() - 1; ++trii, ++teti)
@@ -171,6 +173,7 @@ namespace Foam
     (
         const polyMesh& mesh,
         const baffleSides& baffles,
+        const bool widest,
         labelList& cellTets
     )
     {
@@ -192,11 +195,23 @@ namespace Foam
         }
         cellTets[mesh.nCells()] = nTets;
 
+        labelList bases(mesh.tetBasePtIs());
+        forAll(bases, facei)
+        {
+            bases[facei] =
+                widest
+              ? frozenFlow::fanBase(mesh, facei)
+              : max(bases[facei], label(0));
+        }
+
         List<flowTet> tets(nTets);
 
         forAll(mesh.cells(), celli)
         {
-            splitCell(mesh, baffles, faceTets, celli, cellTets[celli], tets);
+            splitCell
+            (
+                mesh, baffles, faceTets, celli, bases, cellTets[celli], tets
+            );
         }
 
         return tets;
@@ -275,8 +290,24 @@ void Foam::frozenFlow::make
 {
     const baffleSides baffles(undecomposed.mesh());
 
-    tets_ = makeTets(undecomposed.mesh(), baffles, cellTets_);
+    tets_ = makeTets
+    (
+        undecomposed.mesh(), baffles, scheme_ == stDivergenceFree, cellTets_
+    );
     vertices_ = makeVertices(undecomposed, rho, baffles);
+
+    if (scheme_ == stDivergenceFree)
+    {
+        const vertexFit fit(undecomposed.U(), baffles);
+
+        forAll(vertices_, i)
+        {
+            vertices_[i].u = fit.u[i];
+            vertices_[i].gradient = fit.gradient[i];
+        }
+        matchFluxes(undecomposed);
+        makeExcess(undecomposed);
+    }
 
     if (E.valid())
     {
@@ -285,6 +316,48 @@ void Foam::frozenFlow::make
             *E, baffles, "electric", "look at what forces/electricField names"
         );
     }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::label Foam::frozenFlow::fanBase
+(
+    const polyMesh& mesh,
+    const label facei
+)
+{
+    const face& f = mesh.faces()[facei];
+    const vector& S = mesh.faceAreas()[facei];
+    label best = max(mesh.tetBasePtIs()[facei], label(0));
+    scalar widest = -GREAT;
+
+    for (label base = 0; f.size() > 4 && base < f.size(); ++base)
+    {
+        const point& x = mesh.points()[f[base]];
+        scalar narrowest = GREAT;
+
+        for (label i = 1; i < f.size() - 1; ++i)
+        {
+            const vector a(mesh.points()[f[(base + i) % f.size()]] - x);
+            const vector b
+            (
+                mesh.points()[f[(base + i + 1) % f.size()]] - x
+            );
+            narrowest = min
+            (
+                narrowest,
+                ((a ^ b) & S)/max(max(magSqr(a), magSqr(b)), magSqr(b - a))
+            );
+        }
+        if (narrowest > widest)
+        {
+            widest = narrowest;
+            best = base;
+        }
+    }
+
+    return best;
 }
 
 

@@ -79,21 +79,25 @@ namespace Foam
         return result;
     }
 
-    //- Boundary values of a field by the faces of this rank
-    template<class GeoField>
-    static Field<typename GeoField::value_type> boundaryValues
+    //- Values of a field at the faces of this rank, 0 where it has none
+    template<class Type, template<class> class PatchField, class GeoMesh>
+    static Field<Type> valuesAtFaces
     (
-        const GeoField& field,
+        const GeometricField<Type, PatchField, GeoMesh>& field,
         const label nFaces
     )
     {
-        typedef typename GeoField::value_type Type;
+        const bool atFaces = std::is_same<GeoMesh, surfaceMesh>::value;
         Field<Type> values(nFaces, Zero);
 
+        if (atFaces)
+        {
+            SubList<Type>(values, field.size()) = field.primitiveField();
+        }
         for (const auto& pf : field.boundaryField())
         {
             // Faces of processor patches are inner ones of the other mesh
-            if (!isA<processorPolyPatch>(pf.patch().patch()))
+            if (atFaces || !isA<processorPolyPatch>(pf.patch().patch()))
             {
                 SubList<Type>(values, pf.size(), pf.patch().start()) = pf;
             }
@@ -180,23 +184,27 @@ Foam::undecomposedFlow::gather
 {
     typedef GeometricField<Type, PatchField, GeoMesh> fieldType;
 
+    const bool atFaces = std::is_same<GeoMesh, surfaceMesh>::value;
+
+    Field<Type> partValues(valuesAtFaces(field, part_.nFaces()));
+    if (atFaces)
+    {
+        for (const label facei : turnedFaces_)
+        {
+            partValues[facei] *= -1;
+        }
+    }
+
     const Field<Type> faceValues
     (
-        putTogether
-        (
-            boundaryValues(field, part_.nFaces()),
-            faceAddressing_,
-            mesh().nFaces()
-        )
+        putTogether(partValues, faceAddressing_, mesh().nFaces())
     );
-    Field<Type> values;
-    if (std::is_same<GeoMesh, volMesh>::value)
-    {
-        values = putTogether
-        (
-            field.primitiveField(), cellAddressing_, mesh().nCells()
-        );
-    }
+    const Field<Type> cellValues
+    (
+        atFaces
+      ? Field<Type>()
+      : putTogether(field.primitiveField(), cellAddressing_, mesh().nCells())
+    );
 
     if (!Pstream::master())
     {
@@ -224,7 +232,8 @@ Foam::undecomposedFlow::gather
         )
     );
 
-    forAll(values, i)
+    const Field<Type>& values = atFaces ? faceValues : cellValues;
+    forAll(*result, i)
     {
         (*result)[i] = values[i];
     }
@@ -251,10 +260,15 @@ Foam::undecomposedFlow::undecomposedFlow(const fvMesh& mesh)
     {
         cellAddressing_ = readAddressing("cellProcAddressing", mesh);
         faceAddressing_ = readAddressing("faceProcAddressing", mesh);
-        for (label& facei : faceAddressing_)
+        forAll(faceAddressing_, facei)
         {
             // From 1, negative where the normal is the opposite there
-            facei = mag(facei) - 1;
+            label& whole = faceAddressing_[facei];
+            if (whole < 0)
+            {
+                turnedFaces_.append(facei);
+            }
+            whole = mag(whole) - 1;
         }
 
         if (Pstream::master())

@@ -1,0 +1,390 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+Description
+    The tetrahedra of the frozen flow and the values at their vertices, made
+Description
+    The flux through each face of the tetrahedra: that of the solver through
+    the faces of the mesh, none in sum out of any tetrahedron.
+
+\*---------------------------------------------------------------------------*/
+
+#include "frozenFlow.H"
+#include "tetFlow.H"
+#include "undecomposedFlow.H"
+#include "LLTMatrix.H"
+#include "bitSet.H"
+#include "surfaceFields.H"
+#include "volFields.H"
+#include "wallPolyPatch.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- Edges of triangles on walls, by vertices
+    static HashSet<edge, Hash<edge>> wallEdges
+    (
+        const polyMesh& mesh,
+        const UList<flowTet>& tets
+    )
+    {
+        HashSet<edge, Hash<edge>> edges;
+
+        for (const flowTet& tet : tets)
+        {
+            const label patchi = -1 - tet.neighbours[0];
+
+            if (patchi >= 0 && isA<wallPolyPatch>(mesh.boundaryMesh()[patchi]))
+            {
+                for (label i = 1; i < 4; ++i)
+                {
+                    edges.insert
+                    (
+                        edge(tet.vertices[i], tet.vertices[i % 3 + 1])
+                    );
+                }
+            }
+        }
+
+        return edges;
+    }
+
+    //- Those of the edges of a tetrahedron, a bit for each in lexical order
+    static label straightEdges
+    (
+        const flowTet& tet,
+        const HashSet<edge, Hash<edge>>& edges
+    )
+    {
+        label straight = 0;
+        label edgei = 0;
+
+        for (label a = 0; a < 3; ++a)
+        {
+            for (label b = a + 1; b < 4; ++b, ++edgei)
+            {
+                if (edges.found(edge(tet.vertices[a], tet.vertices[b])))
+                {
+                    straight |= 1 << edgei;
+                }
+            }
+        }
+
+        return straight;
+    }
+
+    //- Spread the flux that is missing in the tetrahedra of a cell by the least
+    //  fluxes through the faces between them
+    static void spread
+    (
+        const UList<flowTet>& tets,
+        const UList<FixedList<scalar, 4>>& areas,
+        const scalarField& volumes,
+        const scalarField& missing,
+        const label first,
+        UList<flowTetExcess>& excess
+    )
+    {
+        const label n = volumes.size();
+        scalarSquareMatrix conductances(n, Zero);
+
+        const auto conductance =
+            [&](const label i, const label k)
+            {
+                const label j = tets[first + i].neighbours[k] - first;
+
+                return
+                    sqr(areas[i][k])
+                   /(mag(volumes[i]) + mag(volumes[j]) + VSMALL);
+            };
+
+        for (label i = 0; i < n; ++i)
+        {
+            for (label k = 1; k < 4; ++k)
+            {
+                const label j = tets[first + i].neighbours[k] - first;
+                conductances(i, i) += conductance(i, k);
+                conductances(i, j) -= conductance(i, k);
+            }
+        }
+        conductances(0, 0) *= 2;
+
+        scalarField potential(n);
+        LLTMatrix<scalar>(conductances).solve(potential, missing);
+
+        for (label i = 0; i < n; ++i)
+        {
+            for (label k = 1; k < 4; ++k)
+            {
+                const label j = tets[first + i].neighbours[k] - first;
+                excess[first + i].flux[k] =
+                    conductance(i, k)*(potential[i] - potential[j]);
+            }
+        }
+    }
+
+    //- Is the velocity at a patch not free, as at a mirror?
+    static bool isConstrained(const polyMesh& mesh, const label patchi)
+    {
+        const polyPatch& pp = mesh.boundaryMesh()[patchi];
+        return !pp.coupled() && polyPatch::constraintType(pp.type());
+    }
+
+    //- Vertices whose velocity a wall or a mirror gives
+    static bitSet fixedVertices
+    (
+        const polyMesh& mesh,
+        const UList<flowTet>& tets,
+        const label nVertices
+    )
+    {
+        bitSet fixed(nVertices);
+        for (const flowTet& tet : tets)
+        {
+            const label patchi = -1 - tet.neighbours[0];
+
+            if
+            (
+                patchi >= 0
+             && (
+                    isA<wallPolyPatch>(mesh.boundaryMesh()[patchi])
+                 || isConstrained(mesh, patchi)
+                )
+            )
+            {
+                for (label i = 1; i < 4; ++i)
+                {
+                    fixed.set(tet.vertices[i]);
+                }
+            }
+        }
+
+        return fixed;
+    }
+
+    //- The flux through a face of the mesh; none through one of an empty patch
+    static scalar fluxThrough
+    (
+        const surfaceScalarField& phi,
+        const label facei
+    )
+    {
+        const polyBoundaryMesh& patches = phi.mesh().boundaryMesh();
+        const label patchi = patches.whichPatch(facei);
+
+        if (patchi < 0)
+        {
+            return phi[facei];
+        }
+        const scalarField& values = phi.boundaryField()[patchi];
+        return values.size() ? values[facei - patches[patchi].start()] : 0;
+    }
+
+    //- Mean over a triangle of the velocity that is quadratic on its edges
+    static vector meanVelocity
+    (
+        const flowVertex& a,
+        const flowVertex& b,
+        const flowVertex& c
+    )
+    {
+        const auto bend =
+            [](const flowVertex& v, const flowVertex& w)
+            {
+                return (v.gradient - w.gradient) & (w.x - v.x);
+            };
+
+        return
+            (a.u + b.u + c.u)/3 + (bend(a, b) + bend(b, c) + bend(c, a))/24;
+    }
+
+    //- For each face of the mesh, of the cell that owns it, the face and the
+    //  first and the end of the tetrahedra at its triangles
+    template<class Action>
+    static void forFaces
+    (
+        const polyMesh& mesh,
+        const labelUList& cellTets,
+        const Action& action
+    )
+    {
+        for (label celli = 0; celli < mesh.nCells(); ++celli)
+        {
+            label teti = cellTets[celli];
+
+            for (const label facei : mesh.cells()[celli])
+            {
+                const label first = teti;
+                teti += mesh.faces()[facei].size() - 2;
+
+                if (mesh.faceOwner()[facei] == celli)
+                {
+                    action(facei, first, teti);
+                }
+            }
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::frozenFlow::matchFluxes(const undecomposedFlow& undecomposed)
+{
+    const polyMesh& mesh = undecomposed.mesh();
+    const surfaceScalarField& phi = undecomposed.phi();
+
+    // Least squares for what the velocity of each vertex lacks normal to the
+    // faces about it
+    symmTensorField normals(vertices_.size(), Zero);
+    vectorField missing(vertices_.size(), Zero);
+    labelHashSet corners;
+
+    const auto compare =
+        [&](const label facei, const label first, const label end)
+        {
+            const label patchi = mesh.boundaryMesh().whichPatch(facei);
+            scalar flux = fluxThrough(phi, facei);
+            vector area(Zero);
+
+            corners.clear();
+            corners.insert(mesh.faceOwner()[facei]);
+            if (patchi < 0)
+            {
+                corners.insert(mesh.faceNeighbour()[facei]);
+            }
+
+            for (label teti = first; teti < end; ++teti)
+            {
+                const label* v = tets_[teti].vertices;
+                const flowVertex& a = vertices_[v[1]];
+                const flowVertex& b = vertices_[v[2]];
+                const flowVertex& c = vertices_[v[3]];
+                const vector S(0.5*((b.x - a.x) ^ (c.x - a.x)));
+
+                flux -= meanVelocity(a, b, c) & S;
+                area += S;
+                corners.insert({v[1], v[2], v[3]});
+            }
+
+            if (patchi >= 0 && isConstrained(mesh, patchi))
+            {
+                return;
+            }
+
+            const vector n(area/mag(area));
+            for (const label i : corners)
+            {
+                normals[i] += sqr(n);
+                missing[i] += (flux/mag(area))*n;
+            }
+        };
+    forFaces(mesh, cellTets_, compare);
+
+    const bitSet fixed(fixedVertices(mesh, tets_, vertices_.size()));
+
+    forAll(vertices_, i)
+    {
+        const scalar size = tr(normals[i]);
+        if (!fixed.test(i) && size > 0)
+        {
+            // Nothing along a direction that no face is normal to
+            const symmTensor M(normals[i] + 1e-6*size*symmTensor::I);
+            vertices_[i].u += inv(M) & missing[i];
+        }
+    }
+}
+
+
+void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
+{
+    const polyMesh& mesh = undecomposed.mesh();
+    const surfaceScalarField& phi = undecomposed.phi();
+    const auto edges = wallEdges(mesh, tets_);
+
+    List<FixedList<scalar, 4>> areas(tets_.size());
+    List<FixedList<scalar, 4>> fluxes(tets_.size());
+    scalarField volumes(tets_.size());
+
+    excess_.setSize(tets_.size());
+
+    forAll(tets_, teti)
+    {
+        const flowTet& tet = tets_[teti];
+        flowTetExcess& e = excess_[teti];
+        e = flowTetExcess{{0, 0, 0, 0}, straightEdges(tet, edges)};
+
+        const tetCoordinates c(coordinates(tet, vertices_[tet.vertices[0]].x));
+        const tetFlow flow(flowIn(teti, c));
+        volumes[teti] = flow.volume();
+
+        for (label i = 0; i < 4; ++i)
+        {
+            areas[teti][i] = 3*mag(flow.volume()*c.gradient[i]);
+            fluxes[teti][i] = flow.quadraticFlux(i);
+        }
+    }
+
+    // Through the faces of the mesh, as to their triangles' areas
+    const auto share =
+        [&](const label facei, const label first, const label end)
+        {
+            scalar missing = fluxThrough(phi, facei);
+            scalar area = 0;
+
+            for (label i = first; i < end; ++i)
+            {
+                area += areas[i][0];
+                missing -= fluxes[i][0];
+            }
+            for (label i = first; i < end; ++i)
+            {
+                excess_[i].flux[0] = missing*areas[i][0]/area;
+
+                if (tets_[i].neighbours[0] >= 0)
+                {
+                    excess_[tets_[i].neighbours[0]].flux[0] =
+                        -excess_[i].flux[0];
+                }
+            }
+        };
+    forFaces(mesh, cellTets_, share);
+
+    for (label celli = 0; celli < mesh.nCells(); ++celli)
+    {
+        const label first = cellTets_[celli];
+        const label n = cellTets_[celli + 1] - first;
+        const scalarField cellVolumes(SubField<scalar>(volumes, n, first));
+        scalarField missing(n);
+
+        forAll(missing, i)
+        {
+            missing[i] = -excess_[first + i].flux[0];
+            for (const scalar flux : fluxes[first + i])
+            {
+                missing[i] -= flux;
+            }
+        }
+        // A flow that is not free of divergence has it everywhere in the cell
+        missing -= sum(missing)/sum(cellVolumes)*cellVolumes;
+
+        spread
+        (
+            tets_,
+            SubList<FixedList<scalar, 4>>(areas, n, first),
+            cellVolumes,
+            missing,
+            first,
+            excess_
+        );
+    }
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,438 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "vertexFit.H"
+#include "baffleSides.H"
+#include "symmTensorField.H"
+#include "symmetryPlanePolyPatch.H"
+#include "symmetryPolyPatch.H"
+#include "volFields.H"
+#include "wallPolyPatch.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- A quadratic polynomial of a vector about a centre
+    struct quadratic
+    {
+        vector value;
+        tensor gradient;            // dv_i/dx_j
+        symmTensor curvature[3];    // d2v_i/dx_j dx_k
+
+        vector at(const vector& d) const
+        {
+            vector v(value + (gradient & d));
+            for (direction i = 0; i < 3; ++i)
+            {
+                v[i] += 0.5*(d & (curvature[i] & d));
+            }
+            return v;
+        }
+
+        tensor gradientAt(const vector& d) const
+        {
+            return gradient + tensor
+            (
+                curvature[0] & d, curvature[1] & d, curvature[2] & d
+            );
+        }
+    };
+
+    //- The faces of walls at each vertex that is a point, and what they do
+    class wallsAtVertices
+    {
+        const volVectorField& U_;
+        List<DynamicList<label>> faces_;
+
+    public:
+
+        wallsAtVertices(const volVectorField& U, const baffleSides& baffles)
+        :
+            U_(U),
+            faces_(U.mesh().nPoints() + baffles.sides().size())
+        {
+            for (const polyPatch& pp : U.mesh().boundaryMesh())
+            {
+                const label nFaces = isA<wallPolyPatch>(pp) ? pp.size() : 0;
+
+                for (label i = 0; i < nFaces; ++i)
+                {
+                    for (const label pointi : pp[i])
+                    {
+                        faces_[baffles.vertex(pointi, pp.faceCells()[i])]
+                            .append(pp.start() + i);
+                    }
+                }
+            }
+        }
+
+        const UList<label>& faces(const label vertexi) const
+        {
+            return faces_[vertexi];
+        }
+
+        const vector& velocity(const label facei) const
+        {
+            const polyBoundaryMesh& patches = U_.mesh().boundaryMesh();
+            const label patchi = patches.whichPatch(facei);
+
+            return U_.boundaryField()[patchi][facei - patches[patchi].start()];
+        }
+
+        //- Give a vertex the velocity of its walls, and a gradient that
+        //  agrees with them
+        void impose(const label vertexi, vector& u, tensor& gradient) const
+        {
+            const UList<label>& faces = faces_[vertexi];
+            if (faces.empty())
+            {
+                return;
+            }
+
+            vector sum(Zero), area(Zero);
+            for (const label facei : faces)
+            {
+                const vector& S = U_.mesh().faceAreas()[facei];
+                sum += velocity(facei);
+                area += S/mag(S);
+            }
+            u = sum/scalar(faces.size());
+
+            const vector n(area/(mag(area) + VSMALL));
+            bool flat = true;
+            for (const label facei : faces)
+            {
+                const vector& S = U_.mesh().faceAreas()[facei];
+                // A wall that turns keeps its own gradient
+                if (mag(velocity(facei) - u) > SMALL*mag(u))
+                {
+                    return;
+                }
+                flat = flat && (S & n) > 0.9*mag(S);
+            }
+
+            const vector slope(gradient & n);
+            gradient = flat ? tensor((slope - n*(n & slope))*n) : tensor(Zero);
+        }
+    };
+
+    //- Second moments of the cells about their centres by volume [m2]
+    static symmTensorField secondMoments(const polyMesh& mesh)
+    {
+        symmTensorField moments(mesh.nCells(), Zero);
+        scalarField volumes(mesh.nCells(), Zero);
+
+        forAll(mesh.faces(), facei)
+        {
+            const face& f = mesh.faces()[facei];
+            for (label side = 0; side < 1 + mesh.isInternalFace(facei); ++side)
+            {
+                const label celli =
+                    side ? mesh.faceNeighbour()[facei]
+                  : mesh.faceOwner()[facei];
+                const point& c = mesh.cellCentres()[celli];
+
+                for (label i = 1; i < f.size() - 1; ++i)
+                {
+                    const vector a(mesh.points()[f[0]] - c);
+                    const vector b(mesh.points()[f[i]] - c);
+                    const vector d(mesh.points()[f[i + 1]] - c);
+                    const scalar volume = (side ? -1 : 1)*(a & (b ^ d));
+
+                    moments[celli] +=
+                        volume*(sqr(a) + sqr(b) + sqr(d) + sqr(a + b + d))/20;
+                    volumes[celli] += volume;
+                }
+            }
+        }
+
+        return moments/volumes;
+    }
+
+    //- Least squares with columns for the three gradients, the six curvatures
+    //  and the three components of the velocity
+    class leastSquares
+    {
+        static const direction nUnknowns = 9;
+        static const direction nColumns = 12;
+
+        DynamicList<FixedList<scalar, nColumns>> rows_;
+
+    public:
+
+        void clear()
+        {
+            rows_.clear();
+        }
+
+        //- That the velocity differs by du where d is, and the second moments
+        //  by M; lengths by that of the mesh cell
+        void append(const vector& d, const symmTensor& M, const vector& du)
+        {
+            const scalar w = 1/mag(d);
+            const symmTensor dd(sqr(d) + M);
+
+            rows_.append
+            (
+                FixedList<scalar, nColumns>
+                ({
+                    w*d.x(), w*d.y(), w*d.z(),
+                    w*dd.xx()/2, w*dd.yy()/2, w*dd.zz()/2,
+                    w*dd.xy(), w*dd.xz(), w*dd.yz(),
+                    w*du.x(), w*du.y(), w*du.z()
+                })
+            );
+        }
+
+        //- Solve by Gram and Schmidt. An unknown that the others determine
+        //  already, as in a mesh one cell thick, is 0.
+        void solve(quadratic& p)
+        {
+            scalar R[nUnknowns][nColumns];
+            bool kept[nUnknowns];
+
+            for (direction j = 0; j < nUnknowns; ++j)
+            {
+                scalar before = 0;
+                for (const auto& row : rows_)
+                {
+                    before += sqr(row[j]);
+                }
+
+                for (direction i = 0; i < j; ++i)
+                {
+                    if (kept[i])
+                    {
+                        project(i, j, R[i][j]);
+                    }
+                }
+
+                scalar norm = 0;
+                for (const auto& row : rows_)
+                {
+                    norm += sqr(row[j]);
+                }
+
+                kept[j] = norm > 1e-4*before && norm > VSMALL;
+                const scalar inverse = kept[j] ? 1/Foam::sqrt(norm) : 0;
+                R[j][j] = inverse;
+                for (auto& row : rows_)
+                {
+                    row[j] *= inverse;
+                }
+            }
+
+            vector x[nUnknowns];
+            for (direction j = 0; j < nUnknowns; ++j)
+            {
+                for (direction k = nUnknowns; kept[j] && k < nColumns; ++k)
+                {
+                    project(j, k, R[j][k]);
+                }
+            }
+            for (direction j = nUnknowns; j-- > 0;)
+            {
+                x[j] = Zero;
+                if (kept[j])
+                {
+                    x[j] = vector(R[j][9], R[j][10], R[j][11]);
+                    for (direction k = j + 1; k < nUnknowns; ++k)
+                    {
+                        x[j] -= kept[k] ? R[j][k]*x[k] : vector::zero;
+                    }
+                    x[j] *= R[j][j];
+                }
+            }
+
+            for (direction i = 0; i < 3; ++i)
+            {
+                for (direction j = 0; j < 3; ++j)
+                {
+                    p.gradient[3*i + j] = x[j][i];
+                }
+                p.curvature[i] = symmTensor
+                (
+                    x[3][i], x[6][i], x[7][i], x[4][i], x[8][i], x[5][i]
+                );
+            }
+        }
+
+    private:
+
+        //- Take a column's part along a normalised one away
+        void project(const direction along, const direction of, scalar& part)
+        {
+            part = 0;
+            for (const auto& row : rows_)
+            {
+                part += row[along]*row[of];
+            }
+            for (auto& row : rows_)
+            {
+                row[of] -= part*row[along];
+            }
+        }
+    };
+
+    //- The polynomials of all cells
+    static List<quadratic> fitCells
+    (
+        const volVectorField& U,
+        const baffleSides& baffles,
+        const wallsAtVertices& walls
+    )
+    {
+        const polyMesh& mesh = U.mesh();
+        const vectorField& centres = mesh.cellCentres();
+        const symmTensorField M(secondMoments(mesh));
+        List<quadratic> fits(mesh.nCells());
+
+        leastSquares equations;
+        labelList usedFor(mesh.nCells(), -1);
+        labelList usedFaceFor(mesh.nFaces(), -1);
+
+        forAll(fits, celli)
+        {
+            const scalar length = Foam::sqrt(tr(M[celli]));
+            const auto add =
+                [&](const point& x, const symmTensor& m, const vector& u)
+                {
+                    equations.append
+                    (
+                        (x - centres[celli])/length,
+                        (m - M[celli])/sqr(length),
+                        u - U[celli]
+                    );
+                };
+
+            equations.clear();
+            usedFor[celli] = celli;
+
+            for (const label pointi : mesh.cellPoints()[celli])
+            {
+                const label vertexi = baffles.vertex(pointi, celli);
+
+                for (const label other : mesh.pointCells()[pointi])
+                {
+                    if
+                    (
+                        usedFor[other] != celli
+                     && baffles.vertex(pointi, other) == vertexi
+                    )
+                    {
+                        usedFor[other] = celli;
+                        add(centres[other], M[other], U[other]);
+                    }
+                }
+                for (const label facei : walls.faces(vertexi))
+                {
+                    if (usedFaceFor[facei] != celli)
+                    {
+                        usedFaceFor[facei] = celli;
+
+                        // The mean over the face, as wide as its cell
+                        const vector& S = mesh.faceAreas()[facei];
+                        const symmTensor along(I - sqr(S/mag(S)));
+                        add
+                        (
+                            mesh.faceCentres()[facei],
+                            symm(along & M[mesh.faceOwner()[facei]] & along),
+                            walls.velocity(facei)
+                        );
+                    }
+                }
+            }
+
+            quadratic& p = fits[celli];
+            equations.solve(p);
+            p.gradient /= length;
+            p.value = U[celli];
+            for (direction i = 0; i < 3; ++i)
+            {
+                p.curvature[i] /= sqr(length);
+                p.value[i] -= 0.5*(p.curvature[i] && M[celli]);
+            }
+        }
+
+        return fits;
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::vertexFit::vertexFit
+(
+    const volVectorField& U,
+    const baffleSides& baffles
+)
+{
+    const polyMesh& mesh = U.mesh();
+    const label nCells = mesh.nCells();
+    const wallsAtVertices walls(U, baffles);
+    const List<quadratic> fits(fitCells(U, baffles, walls));
+
+    u.setSize(nCells + mesh.nPoints() + baffles.sides().size(), Zero);
+    gradient.setSize(u.size(), Zero);
+    scalarField weights(u.size(), Zero);
+
+    forAll(fits, celli)
+    {
+        u[celli] = fits[celli].value;
+        gradient[celli] = fits[celli].gradient;
+        weights[celli] = 1;
+
+        for (const label pointi : mesh.cellPoints()[celli])
+        {
+            const vector d(mesh.points()[pointi] - mesh.cellCentres()[celli]);
+            const scalar w = 1/mag(d);
+            const label vertexi = nCells + baffles.vertex(pointi, celli);
+
+            u[vertexi] += w*fits[celli].at(d);
+            gradient[vertexi] += w*fits[celli].gradientAt(d);
+            weights[vertexi] += w;
+        }
+    }
+
+    // A point of a baffle is of no cell but as its sides
+    weights = max(weights, VSMALL);
+    u /= weights;
+    gradient /= weights;
+
+    for (label i = 0; i < u.size() - nCells; ++i)
+    {
+        walls.impose(i, u[nCells + i], gradient[nCells + i]);
+    }
+
+    for (const polyPatch& pp : mesh.boundaryMesh())
+    {
+        const bool mirror =
+            isA<symmetryPolyPatch>(pp) || isA<symmetryPlanePolyPatch>(pp);
+
+        for (label i = 0; mirror && i < pp.size(); ++i)
+        {
+            const vector n(pp.faceAreas()[i]/mag(pp.faceAreas()[i]));
+            const tensor along(I - n*n);
+
+            for (const label pointi : pp[i])
+            {
+                const label j =
+                    nCells + baffles.vertex(pointi, pp.faceCells()[i]);
+                tensor& G = gradient[j];
+
+                u[j] = along & u[j];
+                G = (along & G & along) + (n & G & n)*n*n;
+            }
+        }
+    }
+}
+
+
+// ************************************************************************* //
