@@ -428,9 +428,7 @@ bool Foam::steadyFlow::converged()
     iterate();
     const bool arrived = convergence_.sound() && convergence_.reachedBefore();
 
-    U_ == URead;
-    p_ == pRead;
-    phi_ == phiRead;
+    restore(URead, pRead, phiRead);
 
     if (arrived)
     {
@@ -440,6 +438,33 @@ bool Foam::steadyFlow::converged()
     convergence_.restart(U_, phi_);
 
     return arrived;
+}
+
+
+void Foam::steadyFlow::restore
+(
+    const volVectorField& U,
+    const volScalarField& p,
+    const surfaceScalarField& phi
+)
+{
+    U_ == U;
+    p_ == p;
+    phi_ == phi;
+}
+
+
+void Foam::steadyFlow::solveFrom
+(
+    const volVectorField& U,
+    const volScalarField& p,
+    const surfaceScalarField& phi,
+    const scalar tolerance
+)
+{
+    restore(U, p, phi);
+    convergence_.begin(tolerance);
+    solve();
 }
 
 

@@ -46,6 +46,21 @@ void Foam::ellipsoidCloud::makeTables()
 
     statistics_.reset(new captureStatistics(set, criterion_.sieves()));
     tracks_.reset(new cellTracks(set));
+
+    const occupancy::setting from
+    (
+        properties_.section("occupancy"), mesh_.boundaryMesh()
+    );
+    if (from.active)
+    {
+        const labelList held
+        (
+            earlier_.found()
+          ? earlier_.notes().getOrDefault("held", labelList())
+          : labelList()
+        );
+        occupancy_.reset(new occupancy(from, criterion_, set, held));
+    }
 }
 
 
@@ -271,6 +286,10 @@ void Foam::ellipsoidCloud::write()
     notes.add("time", time_);
     notes.add("folder", string(firstTime_));
     notes.add("mesh", meshNotes_);
+    if (occupancy_.valid())
+    {
+        occupancy_->note(notes, tables);
+    }
     notes.add("tables", tables);
 
     checkpoint::end(time, notes);

@@ -60,7 +60,7 @@ namespace Foam
                 "",
                 {
                     "interpolation", "seed", "injection", "capture", "tracks",
-                    "unreached"
+                    "unreached", "occupancy"
                 }
             },
             {"cell", {"sizes"}},

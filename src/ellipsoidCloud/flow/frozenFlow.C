@@ -228,6 +228,23 @@ Foam::frozenFlow::~frozenFlow() = default;
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+void Foam::frozenFlow::renew
+(
+    const undecomposedFlow& undecomposed,
+    const scalar rho
+)
+{
+    if (Pstream::master())
+    {
+        const undecomposedFlow::serialScope serial;
+
+        setVertices(undecomposed, rho);
+    }
+
+    Pstream::scatter(vertices_);
+}
+
+
 bool Foam::frozenFlow::find(const point& x, probe& at) const
 {
     const label celli = centreTree_->findNearest(x, sqr(GREAT)).index();

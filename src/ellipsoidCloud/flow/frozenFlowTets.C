@@ -266,6 +266,18 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+void Foam::frozenFlow::setVertices
+(
+    const undecomposedFlow& undecomposed,
+    const scalar rho
+)
+{
+    const baffleSides baffles(undecomposed.mesh());
+
+    vertices_ = makeVertices(undecomposed, rho, baffles);
+}
+
+
 void Foam::frozenFlow::make
 (
     const undecomposedFlow& undecomposed,

@@ -58,10 +58,12 @@ struct Foam::groupAdvance::member
         const ellipsoid_model& model;
         const cellDomain& domain;
         const bool sweeping;
+        const bool recording;
         DynamicList<segment>& path;
         cellSurroundings here;
         frozenFlow::locationType location;
         ellipsoid_step last;
+        heldWrench pull;
 
 
     // Member Functions
@@ -100,7 +102,10 @@ struct Foam::groupAdvance::member
                 return 1;
             }
 
-            m.path.append(segment{m.index, *step});
+            if (m.recording)
+            {
+                m.path.append(segment{m.index, *step});
+            }
             return 0;
         }
 
@@ -206,6 +211,48 @@ struct Foam::groupAdvance::member
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+const ellipsoid_model& Foam::groupAdvance::clamped(const label id)
+{
+    if (!clamped_.found(id))
+    {
+        ellipsoid_options options(population_.model(id).options);
+
+        // As heavy as the core allows
+        const scalar factor = 1e12/options.density;
+        options.density *= factor;
+        options.kinematic_viscosity *= factor;
+        options.buoyancy = 0;
+
+        autoPtr<ellipsoid_model> model(new ellipsoid_model);
+        ellipsoid_model_init(model.get(), &options);
+        clamped_.set(id, model.ptr());
+    }
+
+    return *clamped_[id];
+}
+
+
+void Foam::groupAdvance::rest
+(
+    List<cellSweep>& cells,
+    const labelUList& group,
+    const scalar end,
+    DynamicList<segment>& path
+) const
+{
+    for (const label i : group)
+    {
+        cellState& cell = cells[i].state;
+        path.append(segment{i, ellipsoid_step()});
+
+        ellipsoid_step& step = path.last().step;
+        step.start = cell.time;
+        step.end = cell.time = end;
+        step.before = step.after = cell.body;
+    }
+}
+
+
 bool Foam::groupAdvance::integrate
 (
     List<ellipsoid_member>& members,
@@ -274,11 +321,13 @@ bool Foam::groupAdvance::integrate
 Foam::groupAdvance::groupAdvance
 (
     const cellPopulation& population,
-    const cellDomain& domain
+    const cellDomain& domain,
+    const heldCells* held
 )
 :
     population_(population),
     domain_(domain),
+    held_(held),
     done_()
 {}
 
@@ -297,6 +346,17 @@ bool Foam::groupAdvance::advance
     if (!fits(cells, group, mayFail))
     {
         return false;
+    }
+
+    label nClamped = 0;
+    for (const label i : group)
+    {
+        nClamped += isClamped(cells[i].state.id);
+    }
+    if (nClamped == group.size())
+    {
+        rest(cells, group, end, path);
+        return true;
     }
 
     const clockTime timer;
@@ -329,12 +389,22 @@ bool Foam::groupAdvance::advance
             i,
             new member
             {
-                group[i], cell, population_.model(id), domain_,
-                properties.pushing(), path,
+                group[i], cell,
+                isClamped(id) ? clamped(id) : population_.model(id), domain_,
+                properties.pushing(), pulled < 0, path,
                 {domain_, frozenFlow::probe{cell.state.tet, -1}},
-                frozenFlow::pInside, ellipsoid_step()
+                frozenFlow::pInside, ellipsoid_step(), heldWrench()
             }
         );
+        if (isClamped(id) || (held_ && id == pulled))
+        {
+            own[i].here.setStill();
+        }
+        if (held_ && id == pulled)
+        {
+            own[i].pull = (*held_)[id];
+            own[i].here.setPull(own[i].pull);
+        }
         own[i].here.seed = properties.seed();
         own[i].here.id = id;
 
@@ -354,6 +424,14 @@ bool Foam::groupAdvance::advance
     const scalar start = cells[group[0]].state.time;
     const bool done = integrate(members, start, end, mayFail);
     std::fesetenv(&traps);
+
+    for (member& m : own)
+    {
+        if (isClamped(m.cell.state.id))
+        {
+            m.cell.state.body = m.cell.start;
+        }
+    }
 
     const scalar spent = timer.elapsedTime();
     done_.time += spent;
