@@ -175,7 +175,6 @@ bool Foam::occupancy::pulledOff
         group, identity(group.size()), cell.time + time, false, path
     );
 
-    if (getenv("OCC_DEBUG")) Info<< "trial " << cell.id << " moved " << group[own].state.centre() - cell.centre() << " steps " << label(trials_->done().steps.accepted) << endl;
     return
         group[own].gone()
      || mag(group[own].state.centre() - cell.centre())
