@@ -283,8 +283,7 @@ void Foam::ellipsoidCloud::renewFlow
 {
     domain_->flow.renew(*undecomposed_, fluidDensity());
 
-    occupancy_->take(wrenches, cells_);
-    if (judged)
+    if (!occupancy_->take(wrenches, cells_) || judged)
     {
         DynamicList<cellEvent> events;
         occupancy_->letGo(cells_, true, events);

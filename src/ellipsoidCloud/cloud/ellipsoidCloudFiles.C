@@ -53,13 +53,10 @@ void Foam::ellipsoidCloud::makeTables()
     );
     if (from.active)
     {
-        const labelList held
+        occupancy_.reset
         (
-            earlier_.found()
-          ? earlier_.notes().getOrDefault("held", labelList())
-          : labelList()
+            new occupancy(from, criterion_, set, earlier_.notes())
         );
-        occupancy_.reset(new occupancy(from, criterion_, set, held));
     }
 }
 

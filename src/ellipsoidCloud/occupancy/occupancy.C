@@ -94,7 +94,7 @@ Foam::occupancy::occupancy
     const setting& from,
     const captureCriterion& criterion,
     const tableSet& set,
-    const labelList& held
+    const dictionary& notes
 )
 :
     setting_(from),
@@ -103,9 +103,12 @@ Foam::occupancy::occupancy
     outdated_(false),
     fluxes_(set, "fluxes", "t,sieve,flux,share,cells", 9)
 {
-    for (const label id : held)
+    const labelList ids(notes.getOrDefault("held", labelList()));
+    const vectorField forces(notes.getOrDefault("heldForces", vectorField()));
+
+    forAll(ids, i)
     {
-        held_.insert(id, heldWrench());
+        held_.insert(ids[i], heldWrench{forces[i], Zero});
     }
 }
 
@@ -309,13 +312,14 @@ Foam::List<Foam::heldBody> Foam::occupancy::bodies
 }
 
 
-void Foam::occupancy::take
+bool Foam::occupancy::take
 (
     const UList<heldWrench>& wrenches,
     List<cellState>& cells
 )
 {
     label n = 0;
+    bool same = true;
 
     for (cellState& cell : cells)
     {
@@ -324,6 +328,7 @@ void Foam::occupancy::take
             heldWrench& wrench = held_[cell.id];
             const tensor R(rotationOf(cell.body.q));
 
+            same = same && wrench.force == wrenches[n].force;
             wrench.force = wrenches[n].force;
             wrench.torque = R.T() & wrenches[n].torque;
             ++n;
@@ -333,6 +338,8 @@ void Foam::occupancy::take
     }
 
     outdated_ = false;
+
+    return same;
 }
 
 
@@ -363,7 +370,15 @@ void Foam::occupancy::write
 
 void Foam::occupancy::note(dictionary& notes, dictionary& tables)
 {
-    notes.add("held", held_.sortedToc());
+    const labelList ids(held_.sortedToc());
+    vectorField forces(ids.size());
+    forAll(ids, i)
+    {
+        forces[i] = held_[ids[i]].force;
+    }
+
+    notes.add("held", ids);
+    notes.add("heldForces", forces);
     tables.add("fluxes", fluxes_.notes());
 }
 
