@@ -407,6 +407,40 @@ static void test_gap_agrees_with_overlap(void **unused)
     wall_mesh_free(&mesh);
 }
 
+/* A disc tilted about x against the edge of a wedge, upright over its middle and
+   clear of it: the normal of the edge's line that is least deep would be at a
+   point of that line beyond the disc. */
+static void test_no_contact_beyond_the_body(void **unused)
+{
+    const double tilt = 0.5235987755982988, low = 2, high = 3;
+    const double edge[2][3] = {{0.3, 0, low}, {0.3, 0, high}};
+    const double back[2][3] = {{9, 1, low}, {9, -1, low}};
+    const double x[3] = {0, 0, 0}, q[4] = {sin(tilt / 2), 0, 0, cos(tilt / 2)};
+    const ellipsoid_options options = exact_options(5, 5, 0.4);
+    const ellipsoid_model model = test_model(&options);
+    static ellipsoid_facet_cache cache;
+    ellipsoid_contact contact;
+    wall_mesh wall;
+
+    (void)unused;
+    wall_mesh_init(&wall);
+    wall_mesh_triangle(&wall, edge[0], edge[1], back[0], 0);
+    wall_mesh_triangle(&wall, edge[1], edge[0], back[1], 0);
+    wall_mesh_finish(&wall);
+
+    const ellipsoid_surroundings surroundings = inside(&wall);
+    kinds found = {0, 0, 0, 0};
+
+    count_kinds(&model, &wall, x, q, &found);
+    assert_int_equal(found.face + found.edge + found.vertex, 0);
+    ellipsoid_facet_cache_clear(&cache);
+    assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache, &contact,
+                            NULL));
+    assert_int_equal(contact.bead_contacts, 0);
+    assert_true(contact.gap > 0);
+    wall_mesh_free(&wall);
+}
+
 /* All kinds of contacts, alone and mixed. */
 static void test_exact_jacobian(void **unused)
 {
@@ -447,6 +481,7 @@ int main(void)
         cmocka_unit_test(test_lying_standing_tilted),
         cmocka_unit_test(test_edge_and_corner_by_trial),
         cmocka_unit_test(test_gap_agrees_with_overlap),
+        cmocka_unit_test(test_no_contact_beyond_the_body),
         cmocka_unit_test(test_exact_jacobian),
     };
 

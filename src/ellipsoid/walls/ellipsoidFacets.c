@@ -18,8 +18,10 @@
 
     Where several edges may have it, w on the line of one tells on which side of
     the edge to go on.
-    A face takes D along its own normal. Deeper than its radius of
-    curvature, an ellipsoid has other points nearer to w.
+    A face takes D along its own normal, an edge the largest D of the normals
+    perpendicular to it. Deeper than its radius of curvature, an ellipsoid has
+    other points nearer to w, and w may even lie beyond the body: no contact
+    is deeper than half the chord along the normal.
 */
 #include "walls/walls.h"
 
@@ -227,7 +229,7 @@ static int nearest_vertex(const ellipsoid_facet *facet,
 
 /* 1 in the first half of the chord that goes into the body at the contact point
    along the normal, 2 in the second, 0 beyond: on the body's other side. */
-static int side_of_face(const ellipsoid_surface *body,
+static int half_of_chord(const ellipsoid_surface *body,
                         const ellipsoid_surface_contact *c)
 {
     double along[3], inverse = 0;
@@ -305,7 +307,8 @@ int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
             return facet->edge[k] != ELLIPSOID_EDGE_CONCAVE
                 && ellipsoid_dot(contact->normal, facet->edge_inward[k])
                        <= rounding
-                && ellipsoid_dot(contact->normal, n) >= -rounding;
+                && ellipsoid_dot(contact->normal, n) >= -rounding
+                && half_of_chord(body, contact) == 1;
         }
         candidates |= 1 << (part < 0 ? k : (k + 1) % 3);
     }
@@ -315,7 +318,7 @@ int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
     }
 
     contact_plane(body, n, from[0], contact);
-    return side_of_face(body, contact);
+    return half_of_chord(body, contact);
 }
 
 int ellipsoid_surface_cut_plane(const ellipsoid_facet *facet,
