@@ -69,11 +69,11 @@ Foam::List<Foam::heldWrench> Foam::occupiedFlow::solve
     Info<< "occupancy: " << bodies.size() << " cells held" << endl;
     if (bodies.empty())
     {
-        flow_->restore(*U_, *p_, *phi_);
+        flow_->restore(*empty_);
     }
     else
     {
-        flow_->solveFrom(*U_, *p_, *phi_, cells_.occupied()->tolerance());
+        flow_->solveFrom(*empty_, cells_.occupied()->tolerance());
     }
 
     const List<heldWrench> wrenches
@@ -139,11 +139,9 @@ Foam::occupiedFlow::occupiedFlow(flowFields& empty, ellipsoidCloud& cells)
     {
         const undecomposedFlow::serialScope serial;
 
-        U_.reset(new volVectorField("emptyU", flow_->U()));
-        p_.reset(new volScalarField("emptyP", flow_->p()));
-        phi_.reset(new surfaceScalarField("emptyPhi", flow_->phi()));
+        empty_.reset(new steadyFlow::flow(*flow_));
 
-        const fvMesh& mesh = U_->mesh();
+        const fvMesh& mesh = flow_->U().mesh();
         solids_.reset(new solidBodies(mesh, readViscosity(mesh)));
     }
 }
@@ -154,9 +152,7 @@ Foam::occupiedFlow::~occupiedFlow()
     const undecomposedFlow::serialScope serial;
 
     solids_.clear();
-    phi_.clear();
-    p_.clear();
-    U_.clear();
+    empty_.clear();
     own_.clear();
 }
 

@@ -192,13 +192,29 @@ void Foam::steadyFlow::checkModels() const
 }
 
 
-Foam::dictionary Foam::steadyFlow::linearSolver(const word& fieldName) const
+void Foam::steadyFlow::restore(const flow& kept)
+{
+    U_ == kept.U;
+    p_ == kept.p;
+    phi_ == kept.phi;
+}
+
+
+Foam::dictionary Foam::steadyFlow::linearSolver
+(
+    const word& fieldName,
+    const bool judgeOnly
+) const
 {
     dictionary dict(mesh_.solverDict(fieldName));
 
     // A solver that is content with its start leaves the flow untouched, which
     // would pass for steady
     dict.set("minIter", max(dict.getOrDefault<label>("minIter", 1), label(1)));
+    if (judgeOnly)
+    {
+        dict.set("maxIter", 1);
+    }
 
     return dict;
 }
@@ -259,28 +275,32 @@ Foam::flowConvergence::forceRatios Foam::steadyFlow::forces
 
 Foam::scalar Foam::steadyFlow::linearTolerance(const scalar before) const
 {
-    // Nothing is known before the first iteration
+    // Nothing is known before the first correction. What it leaves of the forces
+    // is its convecting flux's fault
     if (!convergence_.sound() || convergence_.excess() <= SMALL)
     {
-        return 0.3;
+        return 3e-5;
     }
 
-    // Not farther than the targets ask, with room for what the iteration after
-    // the correction roughens; nor than pays, of what the next convecting flux
-    // will change again: a tenth of that
-    const scalar ahead = 0.05/convergence_.excess();
+    // Not farther than the targets ask, with room for what is measured in
+    // another way; nor than pays, of what the next convecting flux will change
+    // again: a tenth of that
+    const scalar ahead = 0.2/convergence_.excess();
     const scalar changing = 0.1*min(convergence_.excess()/before, scalar(1));
 
     return min(max(max(ahead, changing), scalar(1e-4)), scalar(0.3));
 }
 
 
-Foam::label Foam::steadyFlow::correct(const scalar relTol)
+Foam::label Foam::steadyFlow::correct
+(
+    coupledFlow& together,
+    const scalar relTol
+)
 {
     const sigFpe::ignore noTrap;
 
-    const label n =
-        coupledFlow(nu_, U_, p_, phi_).correct(momentum()(), relTol);
+    const label n = together.correct(momentum()(), relTol);
     if (p_.needReference())
     {
         const scalar shift = pRefValue_ - getRefCellValue(p_, pRefCell_);
@@ -291,10 +311,16 @@ Foam::label Foam::steadyFlow::correct(const scalar relTol)
 }
 
 
-void Foam::steadyFlow::iterate()
+void Foam::steadyFlow::iterate(const bool judgeOnly)
 {
     // A flow that diverges is reported as such, not by a signal
     const sigFpe::ignore noTrap;
+
+    autoPtr<flow> before;
+    if (judgeOnly)
+    {
+        before.reset(new flow(*this));
+    }
 
     tmp<fvVectorMatrix> equation(momentum());
     fvVectorMatrix& UEqn = equation.ref();
@@ -303,7 +329,7 @@ void Foam::steadyFlow::iterate()
     UEqn.relax();
     const SolverPerformance<vector> UPerf
     (
-        Foam::solve(UEqn == -fvc::grad(p_), linearSolver("U"))
+        Foam::solve(UEqn == -fvc::grad(p_), linearSolver("U", judgeOnly))
     );
 
     // Velocity without pressure gradient, and what a pressure gradient adds
@@ -334,7 +360,7 @@ void Foam::steadyFlow::iterate()
         );
         pEqn.setReference(pRefCell_, pRefValue_);
 
-        const solverPerformance perf(pEqn.solve(linearSolver("p")));
+        const solverPerformance perf(pEqn.solve(linearSolver("p", judgeOnly)));
         if (corr == 0)
         {
             pPerf = perf;
@@ -349,6 +375,10 @@ void Foam::steadyFlow::iterate()
     U_ = HbyA - rAtU*fvc::grad(p_);
     U_.correctBoundaryConditions();
 
+    if (judgeOnly)
+    {
+        restore(*before);
+    }
     convergence_.update(pPerf, UPerf, forcesFound, U_, phi_);
     forgetSolverPerformance(mesh_);
 }
@@ -421,14 +451,11 @@ bool Foam::steadyFlow::converged()
         return false;
     }
 
-    const volVectorField URead(U_);
-    const volScalarField pRead(p_);
-    const surfaceScalarField phiRead(phi_);
-
-    iterate();
+    const flow read(*this);
+    iterate(false);
     const bool arrived = convergence_.sound() && convergence_.reachedBefore();
 
-    restore(URead, pRead, phiRead);
+    restore(read);
 
     if (arrived)
     {
@@ -441,28 +468,9 @@ bool Foam::steadyFlow::converged()
 }
 
 
-void Foam::steadyFlow::restore
-(
-    const volVectorField& U,
-    const volScalarField& p,
-    const surfaceScalarField& phi
-)
+void Foam::steadyFlow::solveFrom(const flow& kept, const scalar tolerance)
 {
-    U_ == U;
-    p_ == p;
-    phi_ == phi;
-}
-
-
-void Foam::steadyFlow::solveFrom
-(
-    const volVectorField& U,
-    const volScalarField& p,
-    const surfaceScalarField& phi,
-    const scalar tolerance
-)
-{
-    restore(U, p, phi);
+    restore(kept);
     convergence_.begin(tolerance);
     solve();
 }
@@ -501,7 +509,8 @@ bool Foam::steadyFlow::accept()
 {
     if (solve_ == AUTO)
     {
-        if (converged())
+        // A flux that was not there to be read is not steady
+        if (hasFlux_ && converged())
         {
             return true;
         }
@@ -526,6 +535,12 @@ void Foam::steadyFlow::solve()
 
     // Of the coupled method: iterations of GMRES, and how far the flow had been
     // from the targets before the latest correction
+    autoPtr<coupledFlow> together;
+    if (coupled_)
+    {
+        together.reset(new coupledFlow(nu_, U_, p_, phi_));
+        together->setDirections();
+    }
     label nLinear = 0;
     scalar before = GREAT;
 
@@ -546,10 +561,10 @@ void Foam::steadyFlow::solve()
         if (coupled_)
         {
             const scalar relTol = linearTolerance(before);
-            before = convergence_.excess();
-            nLinear += correct(relTol);
+            before = iteration > 0 ? convergence_.excess() : GREAT;
+            nLinear += correct(*together, relTol);
         }
-        iterate();
+        iterate(coupled_);
         ++iteration;
 
         if (!convergence_.sound())

@@ -13,18 +13,33 @@ License
 #include "Pstream.H"
 #include "PstreamReduceOps.H"
 #include "scalarMatrices.H"
-#include "singlePrecision.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// The single values of a list
+template<class Type>
+static UList<float> flat(UList<Type>& values)
+{
+    return UList<float>
+    (
+        reinterpret_cast<float*>(values.begin()),
+        values.size()*(sizeof(Type)/sizeof(float))
+    );
+}
+
+} // End namespace Foam
+
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 template<class Type>
 void Foam::aggregationMultigrid<Type>::coarsen()
 {
-    // Matchings by pairs from one level to the next
-    const label nMatchings = 2;
-
-    // Rows on all ranks of levels that are worth a second cycle
-    const label manyRows = 2000;
+    // Of the diagonal; what couples less is nearly independent
+    const float threshold = 0.06;
 
     // Rows on all ranks that are few enough
     const label fewRows = 100;
@@ -35,34 +50,27 @@ void Foam::aggregationMultigrid<Type>::coarsen()
     while (rows > fewRows && rows < 0.9*before)
     {
         level& fine = levels_.last();
-        fine.nCycles = rows > manyRows ? 2 : 1;
-        sparseRows<Type> matrix;
-        for (label matching = 0; matching < nMatchings; ++matching)
-        {
-            const sparseRows<Type>& last = matching ? matrix : fine.matrix;
-            labelList aggregates;
-            const label n = last.pair(aggregates);
-            matrix = sparseRows<Type>(last, n, aggregates);
-
-            if (matching)
-            {
-                for (label& aggregate : fine.aggregates)
-                {
-                    aggregate = aggregates[aggregate];
-                }
-            }
-            else
-            {
-                fine.aggregates.transfer(aggregates);
-                fine.aggregates.setSize(fine.matrix.size());
-            }
-        }
+        labelList aggregates;
+        const label n = fine.matrix.aggregate(threshold, aggregates);
+        fine.weights =
+            fine.matrix.smoothed
+            (
+                threshold,
+                SubList<label>(aggregates, fine.matrix.size())
+            );
 
         levels_.append(new level());
-        levels_.last().matrix = matrix;
+        level& coarse = levels_.last();
+        coarse.matrix = sparseRows<Type>
+        (
+            levels_[levels_.size() - 2].matrix,
+            levels_[levels_.size() - 2].weights,
+            n,
+            aggregates
+        );
 
         before = rows;
-        rows = returnReduce(matrix.size(), sumOp<label>());
+        rows = returnReduce(coarse.matrix.size(), sumOp<label>());
     }
 }
 
@@ -70,7 +78,8 @@ void Foam::aggregationMultigrid<Type>::coarsen()
 template<class Type>
 void Foam::aggregationMultigrid<Type>::invertCoarsest(const bool singular)
 {
-    const sparseRows<Type>& matrix = levels_.last().matrix;
+    sparseRows<Type>& matrix = levels_.last().matrix;
+    const UList<float> diagonal(flat(matrix.diagonal));
     const globalIndex rows(matrix.size());
     const label n = rows.size();
     offset_ = rows.offset(Pstream::myProcNo());
@@ -88,7 +97,7 @@ void Foam::aggregationMultigrid<Type>::invertCoarsest(const bool singular)
         row.setSize(n);
     }
 
-    for (direction cmpt = 0; cmpt < pTraits<Type>::nComponents; ++cmpt)
+    for (label cmpt = 0; cmpt < nValues; ++cmpt)
     {
         List<scalarSquareMatrix> parts(Pstream::nProcs());
         scalarSquareMatrix& mine = parts[Pstream::myProcNo()];
@@ -97,7 +106,7 @@ void Foam::aggregationMultigrid<Type>::invertCoarsest(const bool singular)
         for (label i = 0; i < matrix.size(); ++i)
         {
             const label row = offset_ + i;
-            mine(row, row) = component(matrix.diagonal[i], cmpt);
+            mine(row, row) = diagonal[nValues*i + cmpt];
             for (label k = matrix.start[i]; k < matrix.start[i + 1]; ++k)
             {
                 mine(row, column[matrix.column[k]]) += matrix.coefficient[k];
@@ -129,7 +138,7 @@ void Foam::aggregationMultigrid<Type>::invertCoarsest(const bool singular)
             LUBacksubstitute(all, pivots, solution);
             forAll(inverse_, i)
             {
-                setComponent(inverse_[i][j], cmpt) = solution[offset_ + i];
+                flat(inverse_[i])[nValues*j + cmpt] = solution[offset_ + i];
             }
         }
     }
@@ -141,20 +150,22 @@ void Foam::aggregationMultigrid<Type>::solveCoarsest() const
 {
     level& coarsest = levels_.last();
 
-    List<List<Type>> sources(Pstream::nProcs());
-    sources[Pstream::myProcNo()] = coarsest.source;
+    List<List<float>> sources(Pstream::nProcs());
+    sources[Pstream::myProcNo()] = flat(coarsest.source);
     Pstream::gatherList(sources);
     Pstream::scatterList(sources);
 
     forAll(inverse_, i)
     {
-        Type sum = Zero;
+        Type sum{};
         label j = 0;
-        for (const List<Type>& part : sources)
+        for (const List<float>& part : sources)
         {
-            for (const Type& value : part)
+            const Type* const values =
+                reinterpret_cast<const Type*>(part.begin());
+            for (label k = 0; k < part.size()/nValues; ++k)
             {
-                sum += product(inverse_[i][j++], value);
+                sum += inverse_[i][j++]*values[k];
             }
         }
         coarsest.solution[i] = sum;
@@ -165,8 +176,11 @@ void Foam::aggregationMultigrid<Type>::solveCoarsest() const
 template<class Type>
 void Foam::aggregationMultigrid<Type>::cycle(const label leveli) const
 {
-    // What piecewise constant interpolation lacks of a smooth correction
-    const float enlarged = 1.5;
+    if (leveli == levels_.size() - 1)
+    {
+        solveCoarsest();
+        return;
+    }
 
     level& here = levels_[leveli];
     level& next = levels_[leveli + 1];
@@ -177,7 +191,9 @@ void Foam::aggregationMultigrid<Type>::cycle(const label leveli) const
     const float* const __restrict__ a = here.matrix.coefficient.begin();
     // The diagonal's inverse
     const Type* const __restrict__ d = here.matrix.diagonal.begin();
-    const label* const __restrict__ aggregates = here.aggregates.begin();
+    const label* const __restrict__ first = here.weights.start.begin();
+    const label* const __restrict__ coarse = here.weights.column.begin();
+    const float* const __restrict__ w = here.weights.weight.begin();
     const Type* const __restrict__ b = here.source.begin();
     Type* const x = here.solution.begin();
 
@@ -186,28 +202,34 @@ void Foam::aggregationMultigrid<Type>::cycle(const label leveli) const
         Type sum = b[i];
         for (label k = start[i]; k < middle[i]; ++k)
         {
-            addProduct(-a[k], x[column[k]], sum);
+            sum -= a[k]*x[column[k]];
         }
-        x[i] = product(sum, d[i]);
+        x[i] = sum*d[i];
     }
     here.matrix.halo.exchange(here.solution);
 
-    next.source = Zero;
+    next.source = Type{};
     for (label i = 0; i < n; ++i)
     {
-        Type sum = Zero;
+        Type sum{};
         for (label k = middle[i]; k < start[i + 1]; ++k)
         {
-            addProduct(-a[k], x[column[k]], sum);
+            sum -= a[k]*x[column[k]];
         }
-        next.source[aggregates[i]] += sum;
+        for (label k = first[i]; k < first[i + 1]; ++k)
+        {
+            next.source[coarse[k]] += w[k]*sum;
+        }
     }
 
-    solve(leveli + 1);
+    cycle(leveli + 1);
 
     for (label i = 0; i < n; ++i)
     {
-        addProduct(enlarged, next.solution[aggregates[i]], x[i]);
+        for (label k = first[i]; k < first[i + 1]; ++k)
+        {
+            x[i] += w[k]*next.solution[coarse[k]];
+        }
     }
     here.matrix.halo.exchange(here.solution);
 
@@ -216,54 +238,9 @@ void Foam::aggregationMultigrid<Type>::cycle(const label leveli) const
         Type sum = b[i];
         for (label k = start[i]; k < start[i + 1]; ++k)
         {
-            addProduct(-a[k], x[column[k]], sum);
+            sum -= a[k]*x[column[k]];
         }
-        x[i] = product(sum, d[i]);
-    }
-}
-
-
-template<class Type>
-void Foam::aggregationMultigrid<Type>::solve(const label leveli) const
-{
-    if (leveli == levels_.size() - 1)
-    {
-        solveCoarsest();
-        return;
-    }
-
-    cycle(leveli);
-
-    level& here = levels_[leveli];
-    const sparseRows<Type>& matrix = here.matrix;
-
-    for (label cyclei = 1; cyclei < here.nCycles; ++cyclei)
-    {
-        const List<Type> before(here.solution);
-        matrix.halo.exchange(here.solution);
-
-        for (label i = 0; i < matrix.size(); ++i)
-        {
-            Type& residual = here.source[i];
-            // The diagonal's inverse is stored
-            residual -= cmptDivide(before[i], matrix.diagonal[i]);
-            for (label k = matrix.start[i]; k < matrix.start[i + 1]; ++k)
-            {
-                addProduct
-                (
-                   -matrix.coefficient[k],
-                    here.solution[matrix.column[k]],
-                    residual
-                );
-            }
-        }
-
-        cycle(leveli);
-
-        for (label i = 0; i < matrix.size(); ++i)
-        {
-            here.solution[i] += before[i];
-        }
+        x[i] = sum*d[i];
     }
 }
 
@@ -276,9 +253,11 @@ Foam::aggregationMultigrid<Type>::aggregationMultigrid
     const cellHalo& halo,
     const faceCoefficients& faces,
     const UList<Type>& diagonal,
-    const bool singular
+    const bool singular,
+    const label nCycles
 )
 :
+    nCycles_(nCycles),
     levels_(),
     inverse_(),
     offset_(0)
@@ -293,10 +272,10 @@ Foam::aggregationMultigrid<Type>::aggregationMultigrid
     {
         here.source.setSize(here.matrix.size());
         here.solution.setSize(here.matrix.halo.size());
-        here.solution = Zero;
+        here.solution = Type{};
         for (Type& value : here.matrix.diagonal)
         {
-            value = cmptDivide(pTraits<Type>::one, value);
+            value = 1/value;
         }
     }
 }
@@ -307,15 +286,42 @@ Foam::aggregationMultigrid<Type>::aggregationMultigrid
 template<class Type>
 const Foam::UList<Type>& Foam::aggregationMultigrid<Type>::solve() const
 {
-    solve(0);
-    return levels_[0].solution;
+    level& finest = levels_[0];
+    const sparseRows<Type>& matrix = finest.matrix;
+
+    cycle(0);
+    for (label cyclei = 1; cyclei < nCycles_; ++cyclei)
+    {
+        const List<Type> before(finest.solution);
+        matrix.halo.exchange(finest.solution);
+
+        for (label i = 0; i < matrix.size(); ++i)
+        {
+            // The diagonal's inverse is stored
+            Type residual = finest.source[i] - before[i]/matrix.diagonal[i];
+            for (label k = matrix.start[i]; k < matrix.start[i + 1]; ++k)
+            {
+                residual -=
+                    matrix.coefficient[k]*finest.solution[matrix.column[k]];
+            }
+            finest.source[i] = residual;
+        }
+
+        cycle(0);
+        for (label i = 0; i < matrix.size(); ++i)
+        {
+            finest.solution[i] += before[i];
+        }
+    }
+
+    return finest.solution;
 }
 
 
 // * * * * * * * * * * * * * * * * Instantiation * * * * * * * * * * * * * * //
 
 template class Foam::aggregationMultigrid<float>;
-template class Foam::aggregationMultigrid<Foam::floatVector>;
+template class Foam::aggregationMultigrid<Foam::fourFloats>;
 
 
 // ************************************************************************* //

@@ -16,21 +16,21 @@ License
 #include "fvMatrices.H"
 #include "fvMesh.H"
 #include "masterGate.H"
-#include "singlePrecision.H"
 #include "stokesGMRES.H"
 #include "surfaceInterpolate.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::coupledFlow::setResidual
+Foam::tmp<Foam::surfaceScalarField> Foam::coupledFlow::setResidual
 (
     const fvVectorMatrix& UEqn,
     const volScalarField& rAU,
-    stokesVector& r
-)
+    List<fourFloats>& r
+) const
 {
     const fvMesh& mesh = U_.mesh();
     const scalarField& V = mesh.V();
+    const stokesUnits& units = stokes_.units();
 
     const volVectorField gradP(fvc::grad(p_));
     const vectorField net
@@ -58,10 +58,12 @@ void Foam::coupledFlow::setResidual
             }
         }
     }
-    phi_ =
+    tmp<surfaceScalarField> flux
+    (
         fvc::flux(velocity)
-      - fvc::interpolate(rAU)*fvc::snGrad(p_)*mesh.magSf();
-    const volScalarField continuity(fvc::surfaceIntegrate(phi_));
+      - fvc::interpolate(rAU)*fvc::snGrad(p_)*mesh.magSf()
+    );
+    const volScalarField continuity(fvc::surfaceIntegrate(flux()));
 
     forAll(V, celli)
     {
@@ -73,9 +75,13 @@ void Foam::coupledFlow::setResidual
                 force[cmpt] = 0;
             }
         }
-        r.U[celli] = single(force);
-        r.p[celli] = -V[celli]*continuity[celli];
+        r[celli] = fourOf
+        (
+            force/units.force(), -V[celli]*continuity[celli]/units.flux()
+        );
     }
+
+    return flux;
 }
 
 
@@ -92,7 +98,10 @@ Foam::coupledFlow::coupledFlow
     nu_(nu),
     U_(U),
     p_(p),
-    phi_(phi)
+    phi_(phi),
+    stokes_(U.mesh(), nu.value()),
+    preconditioner_(),
+    firstNorm_(0)
 {}
 
 
@@ -111,6 +120,23 @@ void Foam::coupledFlow::check(const fvMesh& mesh, const dictionary& dict)
 }
 
 
+void Foam::coupledFlow::setDirections()
+{
+    if (gMax(mag(phi_)()) > 0)
+    {
+        return;
+    }
+
+    // Too short to convect anything
+    const dimensionedScalar duration
+    (
+        "duration", dimTime, 1e-6*stokes_.units().mobility()
+    );
+    phi_ = -duration*fvc::snGrad(p_)*U_.mesh().magSf();
+    U_.correctBoundaryConditions();
+}
+
+
 Foam::label Foam::coupledFlow::correct
 (
     const fvVectorMatrix& UEqn,
@@ -124,22 +150,33 @@ Foam::label Foam::coupledFlow::correct
     relaxed.relax();
     const volScalarField rAU(1/relaxed.A());
 
-    const stokesOperator stokes(UEqn, rAU, nu_, U_, p_, phi_);
-    const stokesPreconditioner preconditioner
-    (
-        stokes, nu_.value(), !p_.needReference()
-    );
-    stokesGMRES gmres(stokes, preconditioner, nu_.value());
+    stokes_.set(UEqn, rAU, U_, p_, phi_);
+    List<fourFloats> residual(U_.size());
+    phi_ = setResidual(UEqn, rAU, residual);
+    stokesGMRES gmres(stokes_);
 
-    setResidual(UEqn, rAU, gmres.residual());
-    const label n = gmres.solve(relTol, maxIterations);
+    // If what is left is this small a part, the equations are nearly the same
+    const scalar negligible = 0.01;
 
-    const stokesVector& found = gmres.correction();
-    stokes.addFlux(found, gmres.pressureForce(), phi_);
+    const scalar norm = gmres.norm(residual);
+    if (!preconditioner_.valid() || norm > negligible*firstNorm_)
+    {
+        preconditioner_.clear();
+        preconditioner_.reset
+        (
+            new stokesPreconditioner(stokes_, !p_.needReference())
+        );
+        firstNorm_ = norm;
+    }
+    const label n =
+        gmres.solve(*preconditioner_, residual, relTol, maxIterations);
+
+    const List<fourFloats>& found = gmres.correction();
+    stokes_.addFlux(found, gmres.pressureForce(), phi_);
     forAll(U_, celli)
     {
-        U_[celli] += doubled(found.U[celli]);
-        p_[celli] += found.p[celli];
+        U_[celli] += vectorOf(found[celli]);
+        p_[celli] += stokes_.units().pressure()*found[celli][3];
     }
     U_.correctBoundaryConditions();
     p_.correctBoundaryConditions();

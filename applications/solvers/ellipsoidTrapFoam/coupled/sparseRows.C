@@ -9,26 +9,168 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "sparseRows.H"
+#include "DynamicList.H"
+#include "ListOps.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
 
-static inline void addToAll(float& diagonal, const float value)
+static inline float least(const float x)
 {
-    diagonal += value;
+    return x;
 }
 
 
-static inline void addToAll(floatVector& diagonal, const float value)
+static inline float least(const fourFloats& x)
 {
-    diagonal.x() += value;
-    diagonal.y() += value;
-    diagonal.z() += value;
+    return min(min(x[0], x[1]), x[2]);
 }
+
+
+// The rows that each column of an interpolation has, as that of the columns
+static interpolation transposed(const interpolation& weights, const label n)
+{
+    interpolation result;
+    result.start.setSize(n + 1, Zero);
+    result.column.setSize(weights.column.size());
+    result.weight.setSize(weights.column.size());
+
+    for (const label col : weights.column)
+    {
+        ++result.start[col + 1];
+    }
+    for (label i = 0; i < n; ++i)
+    {
+        result.start[i + 1] += result.start[i];
+    }
+
+    labelList next(SubList<label>(result.start, n));
+    for (label i = 0; i < weights.start.size() - 1; ++i)
+    {
+        for (label k = weights.start[i]; k < weights.start[i + 1]; ++k)
+        {
+            const label at = next[weights.column[k]]++;
+            result.column[at] = i;
+            result.weight[at] = weights.weight[k];
+        }
+    }
+
+    return result;
+}
+
+
+// A row whose columns are met in any order
+class sparseSum
+{
+    List<scalar> value_;
+
+    boolList met_;
+
+    DynamicList<label> columns_;
+
+
+public:
+
+    explicit sparseSum(const label nColumns)
+    :
+        value_(nColumns, Zero),
+        met_(nColumns, false),
+        columns_()
+    {}
+
+
+    void add(const label column, const scalar value)
+    {
+        if (!met_[column])
+        {
+            met_[column] = true;
+            columns_.append(column);
+        }
+        value_[column] += value;
+    }
+
+
+    //- Append the row to others, columns below the diagonal first; it is empty
+    //- then.
+    //  \param middle  where those above the diagonal begin
+    //  \return the diagonal
+    scalar takeOut
+    (
+        const label row,
+        label& middle,
+        DynamicList<label>& column,
+        DynamicList<float>& coefficient
+    )
+    {
+        for (const bool lower : {true, false})
+        {
+            for (const label col : columns_)
+            {
+                if (col != row && (col < row) == lower)
+                {
+                    column.append(col);
+                    coefficient.append(value_[col]);
+                }
+            }
+            if (lower)
+            {
+                middle = column.size();
+            }
+        }
+
+        const scalar diagonal = value_[row];
+        for (const label col : columns_)
+        {
+            value_[col] = 0;
+            met_[col] = false;
+        }
+        columns_.clear();
+
+        return diagonal;
+    }
+};
 
 } // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+template<class Type>
+float Foam::sparseRows<Type>::leastDiagonal(const label row) const
+{
+    return least(diagonal[row]);
+}
+
+
+template<class Type>
+Foam::boolList Foam::sparseRows<Type>::strong(const float threshold) const
+{
+    boolList result(column.size(), false);
+
+    for (label i = 0; i < size(); ++i)
+    {
+        bool any = false;
+        for (label k = start[i]; k < start[i + 1]; ++k)
+        {
+            const label j = column[k];
+            if (j < size())
+            {
+                result[k] =
+                    sqr(coefficient[k]/threshold)
+                  > leastDiagonal(i)*leastDiagonal(j);
+                any = any || result[k];
+            }
+        }
+        for (label k = start[i]; !any && k < start[i + 1]; ++k)
+        {
+            result[k] = column[k] < size();
+        }
+    }
+
+    return result;
+}
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -93,6 +235,7 @@ template<class Type>
 Foam::sparseRows<Type>::sparseRows
 (
     const sparseRows& fine,
+    const interpolation& weights,
     const label nAggregates,
     labelList& aggregates
 )
@@ -100,127 +243,148 @@ Foam::sparseRows<Type>::sparseRows
     halo(fine.halo, nAggregates, aggregates),
     start(nAggregates + 1, Zero),
     middle(nAggregates, Zero),
-    column(fine.column.size()),
-    coefficient(fine.column.size()),
-    diagonal(nAggregates, Zero)
+    column(),
+    coefficient(),
+    diagonal(nAggregates, Type{})
 {
-    // Rows in the order of their aggregates
-    labelList first(nAggregates + 1, Zero);
-    for (label i = 0; i < fine.size(); ++i)
+    const label n = fine.size();
+    const interpolation rowsOf(transposed(weights, nAggregates));
+
+    // What a row has in the halo, and how the aggregates' rows go on from that
+    scalarField beyond(n, Zero);
+    labelListList rows(invertOneToMany(nAggregates, SubList<label>(aggregates, n)));
+
+    for (label i = 0; i < n; ++i)
     {
-        ++first[aggregates[i] + 1];
-    }
-    for (label i = 0; i < nAggregates; ++i)
-    {
-        first[i + 1] += first[i];
-    }
-    labelList rows(fine.size());
-    labelList next(first);
-    for (label i = 0; i < fine.size(); ++i)
-    {
-        rows[next[aggregates[i]]++] = i;
+        for (label k = fine.middle[i]; k < fine.start[i + 1]; ++k)
+        {
+            if (fine.column[k] >= n)
+            {
+                beyond[i] += fine.coefficient[k];
+            }
+        }
+        diagonal[aggregates[i]] +=
+            fine.diagonal[i] - (Type{} + fine.leastDiagonal(i));
     }
 
-    // Where the row at hand has a column already
-    labelList place(halo.size(), -1);
-    label n = 0;
+    DynamicList<label> columns(fine.column.size()/2);
+    DynamicList<float> coefficients(fine.column.size()/2);
+    sparseSum sum(halo.size());
 
     for (label coarse = 0; coarse < nAggregates; ++coarse)
     {
-        const label begin = n;
-
-        // Columns below the diagonal come first
-        for (const bool lower : {true, false})
+        const auto addRow = [&](const label row, const scalar a)
         {
-            for (label r = first[coarse]; r < first[coarse + 1]; ++r)
+            const label end = weights.start[row + 1];
+            for (label k = weights.start[row]; k < end; ++k)
             {
-                const label row = rows[r];
-                if (lower)
-                {
-                    diagonal[coarse] += fine.diagonal[row];
-                }
-                for (label k = fine.start[row]; k < fine.start[row + 1]; ++k)
-                {
-                    const label col = aggregates[fine.column[k]];
-                    if (col == coarse)
-                    {
-                        if (lower)
-                        {
-                            addToAll(diagonal[coarse], fine.coefficient[k]);
-                        }
-                    }
-                    else if ((col < coarse) == lower)
-                    {
-                        if (place[col] < begin)
-                        {
-                            place[col] = n;
-                            column[n] = col;
-                            coefficient[n++] = 0;
-                        }
-                        coefficient[place[col]] += fine.coefficient[k];
-                    }
-                }
+                sum.add(weights.column[k], a*weights.weight[k]);
             }
-            if (lower)
+        };
+
+        const label end = rowsOf.start[coarse + 1];
+        for (label r = rowsOf.start[coarse]; r < end; ++r)
+        {
+            const label i = rowsOf.column[r];
+            const scalar w = rowsOf.weight[r];
+
+            addRow(i, w*(fine.leastDiagonal(i) + beyond[i]));
+            for (label k = fine.start[i]; k < fine.start[i + 1]; ++k)
             {
-                middle[coarse] = n;
+                if (fine.column[k] < n)
+                {
+                    addRow(fine.column[k], w*fine.coefficient[k]);
+                }
             }
         }
-        start[coarse + 1] = n;
+        for (const label i : rows[coarse])
+        {
+            sum.add(coarse, -beyond[i]);
+            for (label k = fine.middle[i]; k < fine.start[i + 1]; ++k)
+            {
+                if (fine.column[k] >= n)
+                {
+                    sum.add(aggregates[fine.column[k]], fine.coefficient[k]);
+                }
+            }
+        }
+
+        diagonal[coarse] +=
+            float(sum.takeOut(coarse, middle[coarse], columns, coefficients));
+        start[coarse + 1] = columns.size();
     }
 
-    column = labelList(SubList<label>(column, n));
-    coefficient = List<float>(SubList<float>(coefficient, n));
+    column = columns;
+    coefficient = coefficients;
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 template<class Type>
-Foam::label Foam::sparseRows<Type>::pair(labelList& aggregates) const
+Foam::label Foam::sparseRows<Type>::aggregate
+(
+    const float threshold,
+    labelList& aggregates
+) const
 {
+    const boolList coupled(strong(threshold));
     aggregates.setSize(halo.size());
     aggregates = -1;
     label n = 0;
 
+    // Rows all of whose neighbours are free
     for (label i = 0; i < size(); ++i)
     {
-        if (aggregates[i] >= 0)
+        bool free = aggregates[i] < 0;
+        for (label k = start[i]; free && k < start[i + 1]; ++k)
         {
-            continue;
+            free = !(coupled[k] && aggregates[column[k]] >= 0);
         }
-
-        label alone = -1, paired = -1;
-        float largestAlone = 0, largestPaired = 0;
-
-        for (label k = start[i]; k < start[i + 1]; ++k)
+        if (free)
         {
-            const label j = column[k];
+            aggregates[i] = n;
+            for (label k = start[i]; k < start[i + 1]; ++k)
+            {
+                if (coupled[k])
+                {
+                    aggregates[column[k]] = n;
+                }
+            }
+            ++n;
+        }
+    }
+
+    // Others go with the neighbour that they are coupled with most
+    const labelList first(aggregates);
+    for (label i = 0; i < size(); ++i)
+    {
+        float largest = 0;
+        for (label k = start[i]; first[i] < 0 && k < start[i + 1]; ++k)
+        {
             const float strength = mag(coefficient[k]);
-
-            if (j >= size())
+            if (coupled[k] && first[column[k]] >= 0 && strength > largest)
             {
-                continue;
-            }
-            if (aggregates[j] < 0 && strength > largestAlone)
-            {
-                alone = j;
-                largestAlone = strength;
-            }
-            else if (aggregates[j] >= 0 && strength > largestPaired)
-            {
-                paired = j;
-                largestPaired = strength;
+                largest = strength;
+                aggregates[i] = first[column[k]];
             }
         }
+    }
 
-        if (alone >= 0)
+    // What is left
+    for (label i = 0; i < size(); ++i)
+    {
+        if (aggregates[i] < 0)
         {
-            aggregates[i] = aggregates[alone] = n++;
-        }
-        else
-        {
-            aggregates[i] = paired >= 0 ? aggregates[paired] : n++;
+            aggregates[i] = n;
+            for (label k = start[i]; k < start[i + 1]; ++k)
+            {
+                if (coupled[k] && aggregates[column[k]] < 0)
+                {
+                    aggregates[column[k]] = n;
+                }
+            }
+            ++n;
         }
     }
 
@@ -228,10 +392,75 @@ Foam::label Foam::sparseRows<Type>::pair(labelList& aggregates) const
 }
 
 
+template<class Type>
+Foam::interpolation Foam::sparseRows<Type>::smoothed
+(
+    const float threshold,
+    const labelUList& aggregates
+) const
+{
+    // By the largest eigenvalue of the matrix by its diagonal, as Vanek et al.
+    const scalar damping = 4.0/3;
+
+    const boolList coupled(strong(threshold));
+    interpolation result;
+    result.start.setSize(size() + 1, Zero);
+    DynamicList<label> columns(3*size());
+    DynamicList<float> weights(3*size());
+    labelList place(max(aggregates) + 1, -1);
+
+    for (label i = 0; i < size(); ++i)
+    {
+        // Weak coefficients go to the diagonal
+        scalar own = leastDiagonal(i), others = 0;
+        for (label k = start[i]; k < start[i + 1]; ++k)
+        {
+            if (coupled[k])
+            {
+                others += mag(coefficient[k]);
+            }
+            else
+            {
+                own += coefficient[k];
+            }
+        }
+        // At most a whole Jacobi step
+        const scalar step =
+            own > 0 ? min(damping/(own + others), 1/own) : scalar(0);
+
+        const label begin = columns.size();
+        place[aggregates[i]] = begin;
+        columns.append(aggregates[i]);
+        weights.append(1 - step*own);
+
+        for (label k = start[i]; k < start[i + 1]; ++k)
+        {
+            if (coupled[k])
+            {
+                const label col = aggregates[column[k]];
+                if (place[col] < begin)
+                {
+                    place[col] = columns.size();
+                    columns.append(col);
+                    weights.append(0);
+                }
+                weights[place[col]] -= step*coefficient[k];
+            }
+        }
+        result.start[i + 1] = columns.size();
+    }
+
+    result.column = columns;
+    result.weight = weights;
+
+    return result;
+}
+
+
 // * * * * * * * * * * * * * * * * Instantiation * * * * * * * * * * * * * * //
 
 template class Foam::sparseRows<float>;
-template class Foam::sparseRows<Foam::floatVector>;
+template class Foam::sparseRows<Foam::fourFloats>;
 
 
 // ************************************************************************* //

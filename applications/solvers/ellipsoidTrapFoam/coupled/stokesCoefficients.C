@@ -12,9 +12,9 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "stokesOperator.H"
+#include "DynamicList.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
-#include "singlePrecision.H"
 #include "snGradScheme.H"
 #include "surfaceInterpolate.H"
 #include "transformFvPatchFields.H"
@@ -57,7 +57,7 @@ void Foam::stokesOperator::setFaces()
     }
 
     weight_ = single(faceValues(mesh_.weights()));
-    Sf_ = single(faceValues(mesh_.Sf()));
+    Sf_ = fourOf(vectorField(faceValues(mesh_.Sf())/units_.flux()));
 }
 
 
@@ -96,22 +96,80 @@ void Foam::stokesOperator::setSkewFaces()
         }
     }
     skewFaces_.transfer(skew);
-    skewSf_ = single
+    skewSf_ = fourOf
     (
-        vectorField(correction*faceValues(mesh_.magSf()), skewFaces_)
+        vectorField
+        (
+            vectorField(correction*faceValues(mesh_.magSf())/units_.flux()),
+            skewFaces_
+        )
     );
     skew_ = returnReduce(skewFaces_.size() > 0, orOp<bool>());
     halo_.exchange(graded);
+    setGradients(graded);
+}
 
-    DynamicList<label> grad;
-    forAll(owner_, facei)
+
+void Foam::stokesOperator::setGradients(const boolList& graded)
+{
+    labelList row(halo_.size(), -1);
+    DynamicList<label> cells;
+    for (label celli = 0; celli < halo_.nCells(); ++celli)
     {
-        if (graded[owner_[facei]] || graded[neighbour_[facei]])
+        if (graded[celli])
         {
-            grad.append(facei);
+            row[celli] = cells.size();
+            cells.append(celli);
         }
     }
-    gradFaces_.transfer(grad);
+
+    gradCells_.transfer(cells);
+
+    gradStart_.setSize(gradCells_.size() + 1, Zero);
+    forAll(owner_, facei)
+    {
+        for (const label celli : {owner_[facei], neighbour_[facei]})
+        {
+            if (row[celli] >= 0)
+            {
+                ++gradStart_[row[celli] + 1];
+            }
+        }
+    }
+    forAll(gradCells_, i)
+    {
+        gradStart_[i + 1] += gradStart_[i];
+    }
+
+    gradOwn_.setSize(gradCells_.size(), fourFloats{});
+    gradCell_.setSize(gradStart_.last());
+    gradWeight_.setSize(gradStart_.last());
+    labelList next(SubList<label>(gradStart_, gradCells_.size()));
+
+    forAll(owner_, facei)
+    {
+        const label own = owner_[facei];
+        const label nei = neighbour_[facei];
+        const fourFloats ofOwn = weight_[facei]*Sf_[facei];
+        const fourFloats ofNei = (1 - weight_[facei])*Sf_[facei];
+
+        if (row[own] >= 0)
+        {
+            const label at = next[row[own]]++;
+            gradOwn_[row[own]] += ofOwn;
+            gradCell_[at] = nei;
+            gradWeight_[at] = ofNei;
+        }
+        if (row[nei] >= 0)
+        {
+            const label at = next[row[nei]]++;
+            gradOwn_[row[nei]] -= ofNei;
+            gradCell_[at] = own;
+            gradWeight_[at] = -ofOwn;
+        }
+    }
+
+    gradU_.setSize(halo_.size(), columns{});
 }
 
 
@@ -122,6 +180,13 @@ void Foam::stokesOperator::setBoundary
     const volScalarField& p
 )
 {
+    patchStart_.clear();
+    boundaryCell_.clear();
+    boundarySf_.clear();
+    boundaryP_.clear();
+    boundaryPCoeff_.clear();
+    boundaryOpen_.clear();
+
     for (const fvPatch& patch : mesh_.boundary())
     {
         patchStart_.append(boundaryCell_.size());
@@ -137,13 +202,18 @@ void Foam::stokesOperator::setBoundary
         }
 
         boundaryCell_.append(patch.faceCells());
-        boundarySf_.append(single(patch.Sf()));
+        boundarySf_.append(fourOf(vectorField(patch.Sf()/units_.flux())));
         boundaryP_.append(single(pp.valueInternalCoeffs(patch.weights())()));
 
+        // Of the ratio of a flux to a pressure
+        const scalar unit = units_.flux()/units_.pressure();
         const scalarField rAUp(rAU, patch.faceCells());
         boundaryPCoeff_.append
         (
-            single((rAUp*patch.magSf()*pp.gradientInternalCoeffs())())
+            single
+            (
+                (rAUp*patch.magSf()*pp.gradientInternalCoeffs()/unit)()
+            )
         );
 
         // As constrainHbyA
@@ -180,7 +250,7 @@ void Foam::stokesOperator::setTurned
 
             for (label i = start; i < patchStart_[patchi + 1]; ++i)
             {
-                boundaryU_[i][d] = single
+                boundaryU_[i].column[d] = fourOf
                 (
                     moved.boundaryField()[patchi][i - start]
                   - U.boundaryField()[patchi][i - start]
@@ -189,6 +259,27 @@ void Foam::stokesOperator::setTurned
         }
     }
 
+    boolList graded;
+    graded.setSize(halo_.size(), false);
+    UIndirectList<bool>(graded, gradCells_) = true;
+    DynamicList<label> faces;
+    forAll(boundaryCell_, facei)
+    {
+        const columns& moved = boundaryU_[facei];
+        fourFloats size{};
+        for (const fourFloats& column : moved.column)
+        {
+            size += column*column;
+        }
+        if (graded[boundaryCell_[facei]] && dot3(size, fourOf(1)) > 0)
+        {
+            faces.append(facei);
+        }
+    }
+    gradFaces_.transfer(faces);
+
+    turnedFaces_.clear();
+    turned_.clear();
     for (const fvPatchVectorField& Up : U.boundaryField())
     {
         if (!isA<transformFvPatchVectorField>(Up))
@@ -198,21 +289,23 @@ void Foam::stokesOperator::setTurned
 
         const fvPatch& patch = Up.patch();
         const vectorField& internal = UEqn.internalCoeffs()[patch.index()];
-        const scalarField viscous(nu_*patch.magSf()*patch.deltaCoeffs());
+        const scalarField viscous
+        (
+            units_.nu*patch.magSf()*patch.deltaCoeffs()
+        );
         const scalarField& phip = phi.boundaryField()[patch.index()];
 
         forAll(patch, i)
         {
             const label facei = patchStart_[patch.index()] + i;
             columns missing;
-            for (direction d = 0; d < 3; ++d)
+            for (int d = 0; d < 3; ++d)
             {
-                missing[d] = Zero;
-                addProduct
-                (
-                    phip[i] - viscous[i], boundaryU_[facei][d], missing[d]
-                );
-                missing[d][d] += viscous[i] - internal[i][d];
+                fourFloats& column = missing.column[d];
+                column =
+                    float((phip[i] - viscous[i])/units_.force())
+                   *boundaryU_[facei].column[d];
+                column[d] += (viscous[i] - internal[i][d])/units_.force();
             }
             turnedFaces_.append(facei);
             turned_.append(missing);
@@ -221,50 +314,23 @@ void Foam::stokesOperator::setTurned
 }
 
 
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
-
-Foam::stokesOperator::stokesOperator
-(
-    const fvVectorMatrix& UEqn,
-    const volScalarField& rAU,
-    const dimensionedScalar& nu,
-    const volVectorField& U,
-    const volScalarField& p,
-    const surfaceScalarField& phi
-)
-:
-    mesh_(U.mesh()),
-    nu_(nu.value()),
-    halo_(mesh_),
-    skew_(false),
-    diagonal_(halo_.nCells()),
-    V_(single(mesh_.V())),
-    rByV_(single((rAU.primitiveField()/mesh_.V())()))
+void Foam::stokesOperator::setVolumes()
 {
-    setFaces();
-    setSkewFaces();
-    setBoundary(rAU, U, p);
-    setTurned(UEqn, phi, U);
+    const scalarField V(mesh_.V()/pow3(units_.length));
+    V_ = single(V);
 
-    byV_ = single((1/mesh_.V().field())());
+    byV_ = single(scalarField(1/V));
     byV_.setSize(halo_.size());
     halo_.exchange(byV_);
+}
 
-    const surfaceScalarField rAUf(fvc::interpolate(rAU));
-    skewrAU_ = single(scalarField(faceValues(rAUf), skewFaces_));
-    pCoeff_ = single
-    (
-        faceValues
-        (
-            (rAUf*mesh_.magSf()*mesh_.nonOrthDeltaCoeffs())()
-        )
-    );
-    rByV_.setSize(halo_.size());
-    halo_.exchange(rByV_);
 
+void Foam::stokesOperator::setMomentum(const fvVectorMatrix& UEqn)
+{
     vectorField diagonal(UEqn.diag()*vector::one);
-    upper_ = single(UEqn.upper());
-    lower_ = single(UEqn.lower());
+    upper_ = single(scalarField(UEqn.upper()/units_.force()));
+    lower_ = single(scalarField(UEqn.lower()/units_.force()));
+
     for (const fvPatch& patch : mesh_.boundary())
     {
         const vectorField& internal = UEqn.internalCoeffs()[patch.index()];
@@ -280,26 +346,95 @@ Foam::stokesOperator::stokesOperator
             const scalarField beyond
             (
                 -UEqn.boundaryCoeffs()[patch.index()].component(0)
+               /units_.force()
             );
             const List<float> row(single(beyond));
             upper_.append(row);
             lower_.append(row);
         }
     }
-    diagonal_ = single(diagonal);
+
+    diagonal_.setSize(diagonal.size());
+    forAll(diagonal_, celli)
+    {
+        const vector d(diagonal[celli]/units_.force());
+        diagonal_[celli] = fourOf(d, d.x());
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::stokesOperator::stokesOperator(const fvMesh& mesh, const scalar nu)
+:
+    mesh_(mesh),
+    units_(mesh, nu),
+    halo_(mesh_),
+    skew_(false),
+    velocity_(halo_.size())
+{
+    setFaces();
+    setSkewFaces();
+    setVolumes();
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+void Foam::stokesOperator::set
+(
+    const fvVectorMatrix& UEqn,
+    const volScalarField& rAU,
+    const volVectorField& U,
+    const volScalarField& p,
+    const surfaceScalarField& phi
+)
+{
+    setBoundary(rAU, U, p);
+    setTurned(UEqn, phi, U);
+    setMomentum(UEqn);
+
+    rByV_ = single
+    (
+        scalarField(rAU.primitiveField()/units_.mobility())
+    );
+    rByV_.setSize(halo_.size());
+    halo_.exchange(rByV_);
+    forAll(rByV_, celli)
+    {
+        rByV_[celli] *= byV_[celli];
+    }
+
+    const surfaceScalarField rAUf(fvc::interpolate(rAU));
+    skewrAU_ = single
+    (
+        scalarField(faceValues(rAUf), skewFaces_)/units_.mobility()
+    );
+    pCoeff_ = single
+    (
+        scalarField
+        (
+            faceValues
+            (
+                (rAUf*mesh_.magSf()*mesh_.nonOrthDeltaCoeffs())()
+            )
+           *(units_.pressure()/units_.flux())
+        )
+    );
+}
+
+
 Foam::faceCoefficients Foam::stokesOperator::laplacian
 (
-    const List<floatVector>& mobility,
+    const List<fourFloats>& mobility,
     List<float>& upper,
     List<float>& diagonal
 ) const
 {
-    const scalarField distance(faceValues(mesh_.nonOrthDeltaCoeffs()));
+    const scalarField distance
+    (
+        faceValues(mesh_.nonOrthDeltaCoeffs())*units_.length
+    );
 
     upper.setSize(owner_.size());
     scalarField sums(halo_.size(), Zero);
@@ -308,12 +443,10 @@ Foam::faceCoefficients Foam::stokesOperator::laplacian
         const label own = owner_[facei];
         const label nei = neighbour_[facei];
         const float w = weight_[facei];
-        floatVector m(Zero);
-        addProduct(w, mobility[own], m);
-        addProduct(1 - w, mobility[nei], m);
-        const floatVector& Sf = Sf_[facei];
+        const fourFloats m = w*mobility[own] + (1 - w)*mobility[nei];
+        const fourFloats& Sf = Sf_[facei];
         const scalar coefficient =
-            dot(product(m, Sf), Sf)/mag(doubled(Sf))*distance[facei];
+            dot3(m*Sf, Sf)/sqrt(dot3(Sf, Sf))*distance[facei];
 
         upper[facei] = -coefficient;
         sums[own] += coefficient;
@@ -323,11 +456,11 @@ Foam::faceCoefficients Foam::stokesOperator::laplacian
     {
         // The gradient of a pressure that is fixed at the face
         const label celli = boundaryCell_[facei];
-        const floatVector& Sf = boundarySf_[facei];
+        const fourFloats& Sf = boundarySf_[facei];
 
         sums[celli] -=
             boundaryPCoeff_[facei]/(rByV_[celli]*V_[celli])
-           *(dot(product(mobility[celli], Sf), Sf)/dot(Sf, Sf));
+           *(dot3(mobility[celli]*Sf, Sf)/dot3(Sf, Sf));
     }
     sums.setSize(halo_.nCells());
     diagonal = single(sums);

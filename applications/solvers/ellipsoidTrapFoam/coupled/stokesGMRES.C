@@ -16,10 +16,38 @@ License
 namespace Foam
 {
 
-typedef List<List<float>> krylovBasis;
+typedef List<List<fourFloats>> krylovBasis;
 
-// Values that stay in a processor's cache while the whole basis passes
-static const label blockSize = 4096;
+// Mesh cells whose values stay in a processor's cache while the whole basis
+// passes
+static const label blockSize = 1024;
+
+
+static scalar product
+(
+    const fourFloats* const __restrict__ u,
+    const fourFloats* const __restrict__ v,
+    const label n
+)
+{
+    // Sums that do not wait for one another
+    fourFloats a{}, b{}, c{}, d{};
+    label i = 0;
+    for (; i + 3 < n; i += 4)
+    {
+        a += u[i]*v[i];
+        b += u[i + 1]*v[i + 1];
+        c += u[i + 2]*v[i + 2];
+        d += u[i + 3]*v[i + 3];
+    }
+    for (; i < n; ++i)
+    {
+        a += u[i]*v[i];
+    }
+    a += b + (c + d);
+
+    return scalar(a[0]) + a[1] + a[2] + a[3];
+}
 
 
 // Scalar products of a vector with the first vectors of the basis, and with
@@ -28,30 +56,19 @@ static scalarField products
 (
     const krylovBasis& basis,
     const label n,
-    const List<float>& w
+    const List<fourFloats>& w
 )
 {
     scalarField sums(n + 1, Zero);
 
     for (label begin = 0; begin < w.size(); begin += blockSize)
     {
-        const label end = min(begin + blockSize, w.size());
+        const label size = min(blockSize, w.size() - begin);
 
         for (label k = 0; k <= n; ++k)
         {
-            const float* const __restrict__ v =
-                (k < n ? basis[k] : w).begin();
-            const float* const __restrict__ u = w.begin();
-
-            float a = 0, b = 0, c = 0, d = 0;
-            for (label i = begin; i < end; i += 4)
-            {
-                a += v[i]*u[i];
-                b += v[i + 1]*u[i + 1];
-                c += v[i + 2]*u[i + 2];
-                d += v[i + 3]*u[i + 3];
-            }
-            sums[k] += scalar(a) + b + c + d;
+            const List<fourFloats>& v = k < n ? basis[k] : w;
+            sums[k] += product(v.begin() + begin, w.begin() + begin, size);
         }
     }
 
@@ -68,7 +85,7 @@ static void addMultiples
     const krylovBasis& basis,
     const label n,
     const scalarField& factors,
-    List<float>& w
+    List<fourFloats>& w
 )
 {
     for (label begin = 0; begin < w.size(); begin += blockSize)
@@ -77,8 +94,8 @@ static void addMultiples
 
         for (label k = 0; k < n; ++k)
         {
-            const float* const __restrict__ v = basis[k].begin();
-            float* const __restrict__ u = w.begin();
+            const fourFloats* const __restrict__ v = basis[k].begin();
+            fourFloats* const __restrict__ u = w.begin();
             const float factor = factors[k];
 
             for (label i = begin; i < end; ++i)
@@ -90,9 +107,13 @@ static void addMultiples
 }
 
 
-static List<float> normalised(const List<float>& w, const float length)
+static List<fourFloats> normalised
+(
+    const List<fourFloats>& w,
+    const float length
+)
 {
-    List<float> v(w.size());
+    List<fourFloats> v(w.size());
     forAll(v, i)
     {
         v[i] = w[i]/length;
@@ -106,30 +127,31 @@ static List<float> normalised(const List<float>& w, const float length)
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::stokesGMRES::scaled(List<float>& w) const
+void Foam::stokesGMRES::scaled
+(
+    const List<fourFloats>& residual,
+    List<fourFloats>& w
+) const
 {
-    forAll(scaleP_, i)
+    forAll(scale_, i)
     {
-        w[4*i] = scaleU_[i].x()*r_.U[i].x();
-        w[4*i + 1] = scaleU_[i].y()*r_.U[i].y();
-        w[4*i + 2] = scaleU_[i].z()*r_.U[i].z();
-        w[4*i + 3] = scaleP_[i]*r_.p[i];
+        w[i] = scale_[i]*residual[i];
     }
 }
 
 
-void Foam::stokesGMRES::precondition(const UList<float>& v)
+void Foam::stokesGMRES::precondition
+(
+    const stokesPreconditioner& preconditioner,
+    const UList<fourFloats>& v
+)
 {
-    forAll(scaleP_, i)
+    forAll(scale_, i)
     {
-        r_.U[i].x() = v[4*i]/scaleU_[i].x();
-        r_.U[i].y() = v[4*i + 1]/scaleU_[i].y();
-        r_.U[i].z() = v[4*i + 2]/scaleU_[i].z();
-        r_.p[i] = v[4*i + 3]/scaleP_[i];
+        r_[i] = v[i]/scale_[i];
     }
 
-    preconditioner_.precondition(r_, z_, pressureForce_);
-    stokes_.exchange(z_, pressureForce_);
+    preconditioner.precondition(r_, z_, pressureForce_);
 }
 
 
@@ -170,43 +192,50 @@ Foam::scalarField Foam::stokesGMRES::factors() const
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::stokesGMRES::stokesGMRES
-(
-    const stokesOperator& stokes,
-    const stokesPreconditioner& preconditioner,
-    const scalar nu
-)
+Foam::stokesGMRES::stokesGMRES(const stokesOperator& stokes)
 :
     stokes_(stokes),
-    preconditioner_(preconditioner),
-    scaleU_(stokes.halo().nCells()),
-    scaleP_(stokes.halo().nCells()),
-    r_(stokes.halo().size()),
-    z_(stokes.halo().size()),
-    pressureForce_(stokes.halo().size())
+    scale_(stokes.halo().nCells()),
+    r_(stokes.halo().size(), fourFloats{}),
+    z_(stokes.halo().size(), fourFloats{}),
+    pressureForce_(stokes.halo().size(), fourFloats{})
 {
-    forAll(scaleU_, celli)
+    forAll(scale_, celli)
     {
-        const floatVector& diagonal = stokes_.diagonal()[celli];
-        for (direction cmpt = 0; cmpt < vector::nComponents; ++cmpt)
-        {
-            scaleU_[celli][cmpt] = 1/sqrt(diagonal[cmpt]);
-        }
-        scaleP_[celli] = sqrt(nu/stokes_.V()[celli]);
+        const vector diagonal(vectorOf(stokes_.diagonal()[celli]));
+        scale_[celli] = fourOf
+        (
+            vector
+            (
+                1/sqrt(diagonal.x()), 1/sqrt(diagonal.y()), 1/sqrt(diagonal.z())
+            ),
+            1/sqrt(stokes_.V()[celli])
+        );
     }
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+Foam::scalar Foam::stokesGMRES::norm(const List<fourFloats>& residual) const
+{
+    List<fourFloats> w(scale_.size());
+    scaled(residual, w);
+
+    return sqrt(products(krylovBasis(), 0, w)[0]);
+}
+
+
 Foam::label Foam::stokesGMRES::solve
 (
+    const stokesPreconditioner& preconditioner,
+    const List<fourFloats>& residual,
     const scalar relTol,
     const label maxIterations
 )
 {
-    List<float> w(4*scaleP_.size());
-    scaled(w);
+    List<fourFloats> w(scale_.size());
+    scaled(residual, w);
 
     krylovBasis basis(maxIterations + 1);
     const scalar start = sqrt(products(basis, 0, w)[0]);
@@ -216,9 +245,9 @@ Foam::label Foam::stokesGMRES::solve
     label n = 0;
     while (n < maxIterations && mag(left_[n]) > relTol*start + VSMALL)
     {
-        precondition(basis[n]);
+        precondition(preconditioner, basis[n]);
         stokes_.apply(z_, pressureForce_, r_);
-        scaled(w);
+        scaled(r_, w);
 
         scalarField h(products(basis, n + 1, w));
         addMultiples(basis, n + 1, -h, w);
@@ -229,9 +258,9 @@ Foam::label Foam::stokesGMRES::solve
         ++n;
     }
 
-    w = Zero;
+    w = fourFloats{};
     addMultiples(basis, n, factors(), w);
-    precondition(w);
+    precondition(preconditioner, w);
 
     return n;
 }

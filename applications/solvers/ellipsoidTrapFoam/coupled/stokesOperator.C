@@ -10,80 +10,43 @@ License
 
 #include "stokesOperator.H"
 #include "fvMesh.H"
-#include "singlePrecision.H"
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-
-// A matrix given by its columns times a vector
-static inline floatVector product
-(
-    const FixedList<floatVector, 3>& columns,
-    const floatVector& x
-)
-{
-    floatVector sum(Zero);
-    addProduct(x.x(), columns[0], sum);
-    addProduct(x.y(), columns[1], sum);
-    addProduct(x.z(), columns[2], sum);
-
-    return sum;
-}
-
-} // End namespace Foam
-
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::List<Foam::floatVector> Foam::stokesOperator::interpolated
+void Foam::stokesOperator::interpolate
 (
-    const stokesVector& x,
-    const List<floatVector>& pressureForce
+    const List<fourFloats>& x,
+    const List<fourFloats>& pressureForce
 ) const
 {
-    List<floatVector> velocity(x.U);
-    forAll(velocity, celli)
+    // Of the force the fourth value is zero
+    forAll(velocity_, celli)
     {
-        addProduct(rByV_[celli], pressureForce[celli], velocity[celli]);
+        velocity_[celli] = x[celli] + rByV_[celli]*pressureForce[celli];
     }
-
-    return velocity;
 }
 
 
-float Foam::stokesOperator::flux
-(
-    const label facei,
-    const List<floatVector>& velocity,
-    const List<float>& p
-) const
+float Foam::stokesOperator::flux(const label facei) const
 {
-    const label own = owner_[facei];
-    const label nei = neighbour_[facei];
+    const fourFloats& own = velocity_[owner_[facei]];
+    const fourFloats& nei = velocity_[neighbour_[facei]];
     const float w = weight_[facei];
 
     return
-        w*dot(Sf_[facei], velocity[own])
-      + (1 - w)*dot(Sf_[facei], velocity[nei])
-      - pCoeff_[facei]*(p[nei] - p[own]);
+        dot3(Sf_[facei], w*own + (1 - w)*nei)
+      - pCoeff_[facei]*(nei[3] - own[3]);
 }
 
 
-float Foam::stokesOperator::boundaryFlux
-(
-    const label facei,
-    const List<floatVector>& velocity,
-    const List<float>& p
-) const
+float Foam::stokesOperator::boundaryFlux(const label facei) const
 {
-    const label celli = boundaryCell_[facei];
-    const float through = -boundaryPCoeff_[facei]*p[celli];
+    const fourFloats& own = velocity_[boundaryCell_[facei]];
+    const float through = -boundaryPCoeff_[facei]*own[3];
 
     return
         boundaryOpen_[facei]
-      ? through + dot(boundarySf_[facei], velocity[celli])
+      ? through + dot3(boundarySf_[facei], own)
       : through;
 }
 
@@ -91,7 +54,7 @@ float Foam::stokesOperator::boundaryFlux
 float Foam::stokesOperator::skewFlux
 (
     const label i,
-    const List<floatVector>& pressureForce
+    const List<fourFloats>& pressureForce
 ) const
 {
     const label facei = skewFaces_[i];
@@ -101,70 +64,70 @@ float Foam::stokesOperator::skewFlux
 
     return
        -skewrAU_[i]
-       *(
-            w*byV_[own]*dot(skewSf_[i], pressureForce[own])
-          + (1 - w)*byV_[nei]*dot(skewSf_[i], pressureForce[nei])
+       *dot3
+        (
+            skewSf_[i],
+            w*byV_[own]*pressureForce[own]
+          + (1 - w)*byV_[nei]*pressureForce[nei]
         );
 }
 
 
 void Foam::stokesOperator::addSkew
 (
-    const stokesVector& x,
-    const List<floatVector>& pressureForce,
-    stokesVector& y
+    const List<fourFloats>& x,
+    const List<fourFloats>& pressureForce,
+    List<fourFloats>& y
 ) const
 {
     // The derivatives in each direction, times the volume
-    List<columns> gradU(halo_.size(), columns(floatVector::zero));
-
+    forAll(gradCells_, i)
+    {
+        const label celli = gradCells_[i];
+        const fourFloats own = gradOwn_[i];
+        fourFloats dx = own[0]*x[celli];
+        fourFloats dy = own[1]*x[celli];
+        fourFloats dz = own[2]*x[celli];
+        for (label k = gradStart_[i]; k < gradStart_[i + 1]; ++k)
+        {
+            const fourFloats weight = gradWeight_[k];
+            const fourFloats other = x[gradCell_[k]];
+            dx += weight[0]*other;
+            dy += weight[1]*other;
+            dz += weight[2]*other;
+        }
+        gradU_[celli] = {{dx, dy, dz}};
+    }
     for (const label facei : gradFaces_)
     {
-        const float w = weight_[facei];
-        columns& own = gradU[owner_[facei]];
-        columns& nei = gradU[neighbour_[facei]];
-        floatVector velocity(Zero);
-        addProduct(w, x.U[owner_[facei]], velocity);
-        addProduct(1 - w, x.U[neighbour_[facei]], velocity);
-
-        for (direction d = 0; d < 3; ++d)
-        {
-            addProduct(Sf_[facei][d], velocity, own[d]);
-            addProduct(-Sf_[facei][d], velocity, nei[d]);
-        }
-    }
-    forAll(boundaryCell_, facei)
-    {
         const label celli = boundaryCell_[facei];
-        const floatVector velocity(product(boundaryU_[facei], x.U[celli]));
+        const fourFloats velocity = product(boundaryU_[facei], x[celli]);
 
-        for (direction d = 0; d < 3; ++d)
+        for (int d = 0; d < 3; ++d)
         {
-            addProduct(boundarySf_[facei][d], velocity, gradU[celli][d]);
+            gradU_[celli].column[d] += boundarySf_[facei][d]*velocity;
         }
     }
-    halo_.exchange(gradU);
+    halo_.exchange(gradU_);
 
     forAll(skewFaces_, i)
     {
         const label facei = skewFaces_[i];
         const label own = owner_[facei];
         const label nei = neighbour_[facei];
-        const float wOwn = nu_*weight_[facei]*byV_[own];
-        const float wNei = nu_*(1 - weight_[facei])*byV_[nei];
+        const float wOwn = weight_[facei]*byV_[own];
+        const float wNei = (1 - weight_[facei])*byV_[nei];
 
-        floatVector stress(Zero);
-        for (direction d = 0; d < 3; ++d)
+        fourFloats added{};
+        for (int d = 0; d < 3; ++d)
         {
-            addProduct(wOwn*skewSf_[i][d], gradU[own][d], stress);
-            addProduct(wNei*skewSf_[i][d], gradU[nei][d], stress);
+            added -=
+                skewSf_[i][d]
+               *(wOwn*gradU_[own].column[d] + wNei*gradU_[nei].column[d]);
         }
-        addProduct(-1, stress, y.U[own]);
-        addProduct(1, stress, y.U[nei]);
-
-        const float flux = skewFlux(i, pressureForce);
-        y.p[own] += flux;
-        y.p[nei] -= flux;
+        added[3] = skewFlux(i, pressureForce);
+        y[own] += added;
+        y[nei] -= added;
     }
 }
 
@@ -173,82 +136,70 @@ void Foam::stokesOperator::addSkew
 
 void Foam::stokesOperator::pressureForce
 (
-    List<float>& p,
-    List<floatVector>& force
+    const List<fourFloats>& x,
+    List<fourFloats>& force
 ) const
 {
-    halo_.exchange(p);
-    force = Zero;
+    force = fourFloats{};
 
     forAll(owner_, facei)
     {
         const label own = owner_[facei];
         const label nei = neighbour_[facei];
         const float w = weight_[facei];
-        const float pf = w*p[own] + (1 - w)*p[nei];
+        const fourFloats part = (w*x[own][3] + (1 - w)*x[nei][3])*Sf_[facei];
 
-        addProduct(pf, Sf_[facei], force[own]);
-        addProduct(-pf, Sf_[facei], force[nei]);
+        force[own] += part;
+        force[nei] -= part;
     }
     forAll(boundaryCell_, facei)
     {
         const label celli = boundaryCell_[facei];
-        addProduct
-        (
-            boundaryP_[facei]*p[celli], boundarySf_[facei], force[celli]
-        );
+        force[celli] += boundaryP_[facei]*x[celli][3]*boundarySf_[facei];
     }
-}
-
-
-void Foam::stokesOperator::exchange
-(
-    stokesVector& x,
-    List<floatVector>& pressureForce
-) const
-{
-    halo_.exchange(x.U);
-    halo_.exchange(x.p);
-    halo_.exchange(pressureForce);
 }
 
 
 void Foam::stokesOperator::apply
 (
-    const stokesVector& x,
-    const List<floatVector>& pressureForce,
-    stokesVector& y
+    const List<fourFloats>& x,
+    const List<fourFloats>& pressureForce,
+    List<fourFloats>& y
 ) const
 {
-    const List<floatVector> velocity(interpolated(x, pressureForce));
+    interpolate(x, pressureForce);
 
-    y.U = Zero;
-    y.p = 0;
     forAll(diagonal_, celli)
     {
-        y.U[celli] = product(diagonal_[celli], x.U[celli]);
-        addProduct(1, pressureForce[celli], y.U[celli]);
+        y[celli] = diagonal_[celli]*x[celli] + pressureForce[celli];
+        y[celli][3] = 0;
+    }
+    for (label celli = halo_.nCells(); celli < halo_.size(); ++celli)
+    {
+        y[celli] = fourFloats{};
     }
     forAll(owner_, facei)
     {
         const label own = owner_[facei];
         const label nei = neighbour_[facei];
-        const float through = flux(facei, velocity, x.p);
+        const float through = flux(facei);
+        fourFloats ofOwn = upper_[facei]*x[nei];
+        fourFloats ofNei = lower_[facei]*x[own];
+        ofOwn[3] = through;
+        ofNei[3] = -through;
 
-        y.p[own] += through;
-        y.p[nei] -= through;
-        addProduct(upper_[facei], x.U[nei], y.U[own]);
-        addProduct(lower_[facei], x.U[own], y.U[nei]);
+        y[own] += ofOwn;
+        y[nei] += ofNei;
     }
     forAll(boundaryCell_, facei)
     {
-        y.p[boundaryCell_[facei]] += boundaryFlux(facei, velocity, x.p);
+        y[boundaryCell_[facei]][3] += boundaryFlux(facei);
     }
 
     forAll(turnedFaces_, i)
     {
         const label celli = boundaryCell_[turnedFaces_[i]];
-        addProduct(1, product(turned_[i], x.U[celli]), y.U[celli]);
+        y[celli] += product(turned_[i], x[celli]);
     }
 
     if (skew_)
@@ -260,17 +211,17 @@ void Foam::stokesOperator::apply
 
 void Foam::stokesOperator::addFlux
 (
-    const stokesVector& x,
-    const List<floatVector>& pressureForce,
+    const List<fourFloats>& x,
+    const List<fourFloats>& pressureForce,
     surfaceScalarField& phi
 ) const
 {
-    const List<floatVector> velocity(interpolated(x, pressureForce));
+    interpolate(x, pressureForce);
 
     List<float> through(owner_.size());
     forAll(through, facei)
     {
-        through[facei] = flux(facei, velocity, x.p);
+        through[facei] = flux(facei);
     }
     forAll(skewFaces_, i)
     {
@@ -280,7 +231,7 @@ void Foam::stokesOperator::addFlux
     label facei = 0;
     for (scalar& phif : phi.primitiveFieldRef())
     {
-        phif += through[facei++];
+        phif += units_.flux()*through[facei++];
     }
     forAll(mesh_.boundary(), patchi)
     {
@@ -291,9 +242,12 @@ void Foam::stokesOperator::addFlux
         forAll(phip, i)
         {
             phip[i] +=
-                coupled
-              ? through[facei++]
-              : boundaryFlux(start + i, velocity, x.p);
+                units_.flux()
+               *(
+                    coupled
+                  ? through[facei++]
+                  : boundaryFlux(start + i)
+                );
         }
     }
 }

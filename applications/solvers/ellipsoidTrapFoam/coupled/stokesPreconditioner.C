@@ -9,12 +9,10 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "stokesPreconditioner.H"
-#include "PstreamReduceOps.H"
-#include "singlePrecision.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::List<Foam::floatVector> Foam::stokesPreconditioner::dominant
+Foam::List<Foam::fourFloats> Foam::stokesPreconditioner::dominant
 (
     const stokesOperator& stokes
 )
@@ -28,54 +26,50 @@ Foam::List<Foam::floatVector> Foam::stokesPreconditioner::dominant
         sums[faces.neighbour[facei]] += mag(faces.lower[facei]);
     }
 
-    List<floatVector> diagonal(stokes.diagonal());
+    List<fourFloats> diagonal(stokes.diagonal());
     forAll(diagonal, celli)
     {
-        diagonal[celli] =
-            max
-            (
-                diagonal[celli],
-                floatVector(sums[celli], sums[celli], sums[celli])
-            );
+        const fourFloats sum = fourOf(sums[celli]);
+        fourFloats& d = diagonal[celli];
+        d = d > sum ? d : sum;
     }
 
     return diagonal;
 }
 
 
-Foam::List<Foam::floatVector> Foam::stokesPreconditioner::mobility() const
+Foam::List<Foam::fourFloats> Foam::stokesPreconditioner::mobility() const
 {
     // Enough for a few per cent, which is all that counts
     const label nSolutions = 2;
 
     const label n = stokes_.halo().nCells();
     const faceCoefficients faces(stokes_.momentumFaces());
-    UList<floatVector>& residual = momentum_.source();
+    UList<fourFloats>& residual = momentum_.source();
 
-    List<floatVector> m(stokes_.halo().size(), Zero);
+    List<fourFloats> m(stokes_.halo().size(), fourFloats{});
     for (label i = 0; i < nSolutions; ++i)
     {
         forAll(residual, celli)
         {
-            const float V = stokes_.V()[celli];
-            residual[celli] = product(diagonal_[celli], -m[celli]);
-            addProduct(V, floatVector::one, residual[celli]);
+            residual[celli] =
+                fourOf(stokes_.V()[celli]) - diagonal_[celli]*m[celli];
         }
         forAll(faces.owner, facei)
         {
             const label own = faces.owner[facei];
             const label nei = faces.neighbour[facei];
 
-            addProduct(-faces.upper[facei], m[nei], residual[own]);
+            residual[own] -= faces.upper[facei]*m[nei];
             if (nei < n)
             {
-                addProduct(-faces.lower[facei], m[own], residual[nei]);
+                residual[nei] -= faces.lower[facei]*m[own];
             }
         }
-        const UList<floatVector>& correction = momentum_.solve();
+        const UList<fourFloats>& correction = momentum_.solve();
         forAll(residual, celli)
         {
-            addProduct(1, correction[celli], m[celli]);
+            m[celli] += correction[celli];
         }
         stokes_.halo().exchange(m);
     }
@@ -84,9 +78,8 @@ Foam::List<Foam::floatVector> Foam::stokesPreconditioner::mobility() const
     // are at rest
     for (label celli = 0; celli < n; ++celli)
     {
-        const float V = stokes_.V()[celli];
-        m[celli] =
-            max(m[celli], cmptDivide(floatVector(V, V, V), diagonal_[celli]));
+        const fourFloats least = stokes_.V()[celli]/diagonal_[celli];
+        m[celli] = m[celli] > least ? m[celli] : least;
     }
     stokes_.halo().exchange(m);
 
@@ -99,15 +92,12 @@ Foam::List<Foam::floatVector> Foam::stokesPreconditioner::mobility() const
 Foam::stokesPreconditioner::stokesPreconditioner
 (
     const stokesOperator& stokes,
-    const scalar nu,
     const bool fixedPressure
 )
 :
     stokes_(stokes),
-    // Of the values tried the one that takes the fewest iterations
-    viscous_(0.7*nu),
     diagonal_(dominant(stokes)),
-    momentum_(stokes.halo(), stokes.momentumFaces(), diagonal_, false),
+    momentum_(stokes.halo(), stokes.momentumFaces(), diagonal_, false, 2),
     pressure_()
 {
     List<float> upper, diagonal;
@@ -120,7 +110,7 @@ Foam::stokesPreconditioner::stokesPreconditioner
     (
         new aggregationMultigrid<float>
         (
-            stokes.halo(), faces, diagonal, !fixedPressure
+            stokes.halo(), faces, diagonal, !fixedPressure, 1
         )
     );
 }
@@ -130,34 +120,44 @@ Foam::stokesPreconditioner::stokesPreconditioner
 
 void Foam::stokesPreconditioner::precondition
 (
-    const stokesVector& r,
-    stokesVector& z,
-    List<floatVector>& pressureForce
+    const List<fourFloats>& r,
+    List<fourFloats>& z,
+    List<fourFloats>& pressureForce
 ) const
 {
+    // By the volume of a cell its part of the inverse: of the values tried the
+    // one that takes the fewest iterations
+    const float viscous = 0.7;
+
     UList<float>& continuity = pressure_->source();
     forAll(continuity, i)
     {
-        continuity[i] = r.p[i];
+        continuity[i] = r[i][3];
     }
     const UList<float>& p = pressure_->solve();
     forAll(continuity, i)
     {
-        z.p[i] = viscous_/stokes_.V()[i]*r.p[i] + p[i];
+        z[i][3] = viscous/stokes_.V()[i]*r[i][3] + p[i];
     }
+    stokes_.halo().exchange(z);
 
-    stokes_.pressureForce(z.p, pressureForce);
+    stokes_.pressureForce(z, pressureForce);
+    stokes_.halo().exchange(pressureForce);
 
-    UList<floatVector>& momentum = momentum_.source();
+    UList<fourFloats>& momentum = momentum_.source();
     forAll(momentum, i)
     {
-        momentum[i] = r.U[i] - pressureForce[i];
+        momentum[i] = r[i] - pressureForce[i];
+        momentum[i][3] = 0;
     }
-    const UList<floatVector>& U = momentum_.solve();
+    const UList<fourFloats>& U = momentum_.solve();
     forAll(momentum, i)
     {
-        z.U[i] = U[i];
+        const float pressure = z[i][3];
+        z[i] = U[i];
+        z[i][3] = pressure;
     }
+    stokes_.halo().exchange(z);
 }
 
 
