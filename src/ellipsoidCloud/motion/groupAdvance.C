@@ -10,7 +10,6 @@ License
 #include "groupAdvance.H"
 #include "cellSurroundings.H"
 #include "clockTime.H"
-#include "PtrList.H"
 
 #include <cfenv>
 
@@ -253,6 +252,68 @@ void Foam::groupAdvance::rest
 }
 
 
+void Foam::groupAdvance::enter
+(
+    List<cellSweep>& cells,
+    const labelUList& group,
+    DynamicList<segment>& path,
+    PtrList<member>& own,
+    List<ellipsoid_member>& members
+)
+{
+    const ellipsoidProperties& properties = population_.properties();
+
+    forAll(group, i)
+    {
+        cellSweep& cell = cells[group[i]];
+        const label id = cell.state.id;
+
+        if (cell.state.fate == cellState::waiting)
+        {
+            cell.state.fate = cellState::inFlight;
+        }
+
+        if (!caches_.found(id))
+        {
+            caches_.set(id, new ellipsoid_facet_cache);
+            ellipsoid_facet_cache_clear(caches_[id]);
+        }
+
+        own.set
+        (
+            i,
+            new member
+            {
+                group[i], cell,
+                isClamped(id) ? clamped(id) : population_.model(id), domain_,
+                properties.pushing(), pulled < 0, path,
+                {domain_, frozenFlow::probe{cell.state.tet, -1}},
+                frozenFlow::pInside, ellipsoid_step(), heldWrench()
+            }
+        );
+        if (isClamped(id) || (held_ && id == pulled))
+        {
+            own[i].here.setStill();
+        }
+        if (held_ && id == pulled)
+        {
+            own[i].pull = (*held_)[id];
+            own[i].here.setPull(own[i].pull);
+        }
+        own[i].here.seed = properties.seed();
+        own[i].here.id = id;
+
+        members[i].model = &own[i].model;
+        members[i].surroundings = &own[i].here;
+        members[i].state = &cell.state.body;
+        members[i].controller = &cell.state.controller;
+        members[i].cache = caches_[id];
+        members[i].observer_context = &own[i];
+        members[i].statistics = &done_.steps;
+    }
+}
+
+
 bool Foam::groupAdvance::integrate
 (
     List<ellipsoid_member>& members,
@@ -360,7 +421,6 @@ bool Foam::groupAdvance::advance
     }
 
     const clockTime timer;
-    const ellipsoidProperties& properties = population_.properties();
     const label n = group.size();
     const label size = ellipsoid_group_size(n)/sizeof(scalar) + 1;
     memory_.setSize(max(memory_.size(), size));
@@ -368,54 +428,7 @@ bool Foam::groupAdvance::advance
     PtrList<member> own(n);
     List<ellipsoid_member> members(n);
 
-    forAll(group, i)
-    {
-        cellSweep& cell = cells[group[i]];
-        const label id = cell.state.id;
-
-        if (cell.state.fate == cellState::waiting)
-        {
-            cell.state.fate = cellState::inFlight;
-        }
-
-        if (!caches_.found(id))
-        {
-            caches_.set(id, new ellipsoid_facet_cache);
-            ellipsoid_facet_cache_clear(caches_[id]);
-        }
-
-        own.set
-        (
-            i,
-            new member
-            {
-                group[i], cell,
-                isClamped(id) ? clamped(id) : population_.model(id), domain_,
-                properties.pushing(), pulled < 0, path,
-                {domain_, frozenFlow::probe{cell.state.tet, -1}},
-                frozenFlow::pInside, ellipsoid_step(), heldWrench()
-            }
-        );
-        if (isClamped(id) || (held_ && id == pulled))
-        {
-            own[i].here.setStill();
-        }
-        if (held_ && id == pulled)
-        {
-            own[i].pull = (*held_)[id];
-            own[i].here.setPull(own[i].pull);
-        }
-        own[i].here.seed = properties.seed();
-        own[i].here.id = id;
-
-        members[i].model = &own[i].model;
-        members[i].surroundings = &own[i].here;
-        members[i].state = &cell.state.body;
-        members[i].controller = &cell.state.controller;
-        members[i].cache = caches_[id];
-        members[i].observer_context = &own[i];
-        members[i].statistics = &done_.steps;
-    }
+    enter(cells, group, path, own, members);
 
     // The core answers what is not finite by a shorter step; OpenFOAM's traps
     // would end the run
