@@ -43,7 +43,10 @@ void Foam::occupiedFlow::makeOwn()
 
     const scalarField differences
     (
-        mag(flow_->U().primitiveField() - cells_.undecomposedU().primitiveField())
+        mag
+        (
+            flow_->U().primitiveField() - cells_.undecomposedU().primitiveField()
+        )
     );
     const scalar fastest = max(mag(cells_.undecomposedU().primitiveField()));
 
@@ -121,8 +124,8 @@ Foam::occupiedFlow::occupiedFlow(flowFields& empty, ellipsoidCloud& cells)
     if (!flow_)
     {
         FatalErrorInFunction
-            << "Cells that block the flow, occupancy, need a flow that is solved"
-            << " here, not one taken as it is: without -frozenFlow, and without"
+            << "Cells that block the flow, occupancy, need a flow that is"
+            << " solved here, not one taken as it is: without -frozenFlow, and without"
             << " solve no in the dictionary flow of system/fvSolution"
             << exit(FatalError);
     }
