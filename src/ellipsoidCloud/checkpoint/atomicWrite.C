@@ -117,7 +117,9 @@ void Foam::atomicWrite(regIOobject& object, const bool valid)
     }
     else if (valid)
     {
-        OStringStream os(time.writeFormat(), time.writeVersion());
+        OStringStream os;
+        os.format(time.writeFormat());
+        os.version(time.writeVersion());
         object.writeHeader(os);
         object.writeData(os);
         IOobject::writeEndDivider(os);

@@ -69,7 +69,7 @@ namespace Foam
                 args.rootPath()/args.globalCaseName()/"system"/"controlDict"
             );
         }
-        Pstream::scatter(text);
+        broadcast(text);
 
         return
             !text.empty()
@@ -375,7 +375,7 @@ void Foam::checkpoint::setAsideIncomplete(const argList& args)
         args.rootPath()/args.globalCaseName()
        /"postProcessing"/"ellipsoidCloud"
     );
-    Pstream::scatter(tracked);
+    broadcast(tracked);
 
     const std::set<namedTime> times(allTimes(args.path()));
 

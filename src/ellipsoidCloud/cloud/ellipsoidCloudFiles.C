@@ -13,6 +13,7 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "ellipsoidCloud.H"
+#include "cellPoses.H"
 #include "ellipsoidParcel.H"
 #include "masterGate.H"
 #include "fvMesh.H"
@@ -274,6 +275,7 @@ void Foam::ellipsoidCloud::write()
 
     tracks_->flush();
     writeParcels();
+    writePoses();
 
     dictionary tables;
     tables.add("events", statistics_->log.notes());
@@ -290,6 +292,17 @@ void Foam::ellipsoidCloud::write()
     notes.add("tables", tables);
 
     checkpoint::end(time, notes);
+}
+
+
+void Foam::ellipsoidCloud::writePoses() const
+{
+    const masterGate once;
+
+    if (Pstream::master())
+    {
+        Foam::writePoses(tracks_->set(), cells_, mesh_.time().timeName());
+    }
 }
 
 

@@ -110,6 +110,21 @@ namespace Foam
           : word(field.name);
     }
 
+    //- A file of the cloud, in its folder at the present time
+    static IOobject fileIn
+    (
+        const cloud& c,
+        const word& name,
+        const IOobject::readOption read
+    )
+    {
+        return
+            IOobject
+            (
+                name, c.time().timeName(), c, read, IOobject::NO_WRITE, false
+            );
+    }
+
     //- Where a state has a member
     static char* memberOf(cellState& state, const cellField& field)
     {
@@ -130,7 +145,7 @@ namespace Foam
         {
             const IOField<Type> values
             (
-                c.fieldIOobject(fileOf(field, d), IOobject::MUST_READ),
+                fileIn(c, fileOf(field, d), IOobject::MUST_READ),
                 c.size() > 0
             );
             c.checkFieldIOobject(c, values);
@@ -156,7 +171,7 @@ namespace Foam
         {
             IOField<Type> values
             (
-                c.fieldIOobject(fileOf(field, d), IOobject::NO_READ), c.size()
+                fileIn(c, fileOf(field, d), IOobject::NO_READ), c.size()
             );
 
             forAll(cells, i)
@@ -236,7 +251,7 @@ void Foam::ellipsoidParcel::writeFields(const Cloud<ellipsoidParcel>& c)
 
     IOField<label> zeros
     (
-        c.fieldIOobject("origProcId", IOobject::NO_READ),
+        fileIn(c, "origProcId", IOobject::NO_READ),
         labelField(c.size(), 0)
     );
     atomicWrite(zeros, c.size() > 0);

@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "frozenFlow.H"
+#include "foamVersions.H"
 #include "indexedOctree.H"
 #include "inletFlux.H"
 #include "treeDataPoint.H"
@@ -192,11 +193,11 @@ Foam::frozenFlow::frozenFlow
         }
     }
 
-    Pstream::scatter(vertices_);
-    Pstream::scatter(field_);
-    Pstream::scatter(tets_);
-    Pstream::scatter(cellTets_);
-    Pstream::scatter(patchLocation_);
+    broadcast(vertices_);
+    broadcast(field_);
+    broadcast(tets_);
+    broadcast(cellTets_);
+    broadcast(patchLocation_);
 
     centres_.setSize(cellTets_.size() - 1);
     forAll(centres_, celli)

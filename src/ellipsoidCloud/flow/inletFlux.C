@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "inletFlux.H"
+#include "foamVersions.H"
 #include "surfaceFields.H"
 #include "undecomposedFlow.H"
 #include "volFields.H"
@@ -70,7 +71,7 @@ Foam::inletFlux::inletFlux
     sums[3*n + 1] = sum(mesh.V().field());
 
     Pstream::listCombineGather(sums, plusEqOp<scalar>());
-    Pstream::listCombineScatter(sums);
+    broadcast(sums);
 
     flux = SubList<scalar>(sums, n);
     magFlux = SubList<scalar>(sums, n, n);
@@ -109,7 +110,7 @@ Foam::scalar Foam::inletFlux::speedOf(const undecomposedFlow& undecomposed)
         const undecomposedFlow::serialScope serial;
         speed = inletFlux(undecomposed.U(), undecomposed.phi()).speed;
     }
-    Pstream::scatter(speed);
+    broadcast(speed);
 
     return speed;
 }

@@ -276,7 +276,7 @@ Foam::undecomposedFlow::undecomposedFlow(const fvMesh& mesh)
 
         // Before anything is put where the addressing says
         label nWhole = (Pstream::master() ? mesh_->nCells() : 0);
-        Pstream::scatter(nWhole);
+        broadcast(nWhole);
         const label nParts = returnReduce(mesh.nCells(), sumOp<label>());
 
         const masterGate once;

@@ -59,9 +59,9 @@ Foam::patchInflow::patchInflow
         behind.transfer(centres);
         upTo.transfer(sums);
     }
-    Pstream::scatter(corners);
-    Pstream::scatter(behind);
-    Pstream::scatter(upTo);
+    broadcast(corners);
+    broadcast(behind);
+    broadcast(upTo);
 
     const masterGate once;
 

@@ -127,8 +127,10 @@ namespace Foam
         {
             if (ranks[k] == Pstream::myProcNo())
             {
-                const labelList& members = units[listed[k]].cells;
-                mine.append(UIndirectList<cellSweep>(cells, members));
+                for (const label i : units[listed[k]].cells)
+                {
+                    mine.append(cells[i]);
+                }
             }
         }
 

@@ -11,7 +11,7 @@ License
 #include "atomicWrite.H"
 #include "error.H"
 #include "OSspecific.H"
-#include "Pstream.H"
+#include "foamVersions.H"
 
 #include <unistd.h>
 
@@ -97,8 +97,8 @@ Foam::dictionary Foam::appendedFile::notes()
 {
     scalar size = size_;
     string digits(digest_.str());
-    Pstream::scatter(size);
-    Pstream::scatter(digits);
+    broadcast(size);
+    broadcast(digits);
 
     dictionary dict;
     dict.add("bytes", size);

@@ -87,7 +87,9 @@ bool Foam::cellEvent::read(std::string line, const tableSet& set)
     cell.fate =
         entered
       ? cellState::inFlight
-      : cellState::fateNames.get(type, cellState::nFates);
+      : cellState::fateNames.found(type)
+      ? cellState::fateNames[type]
+      : cellState::nFates;
     cell.patch = set.patchNames.find(patch);
 
     return

@@ -9,6 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 #include "wallFacets.H"
 #include "flatMerging.H"
+#include "foamVersions.H"
 #include "fvMesh.H"
 #include "treeBoundBox.H"
 #include "treeDataTriSurface.H"
@@ -272,9 +273,9 @@ Foam::wallFacets::wallFacets
         span_ = boundBox(undecomposed.mesh().points(), false);
     }
 
-    Pstream::scatter(span_);
-    Pstream::scatter(triangles);
-    Pstream::scatter(points);
+    broadcast(span_);
+    broadcast(triangles);
+    broadcast(points);
 
     surface_ = triSurface(triangles, points);
 
