@@ -37,6 +37,8 @@ Usage
 SourceFiles
     ellipsoidTrapFoam.C
     flowFields.C
+    occupiedFlow.C
+    solidBodies.C
     steadyFlow.C
     flowConvergence.C
 
@@ -46,7 +48,7 @@ SourceFiles
 #include "Time.H"
 #include "fvMesh.H"
 #include "ellipsoidCloud.H"
-#include "steadyFlow.H"
+#include "occupiedFlow.H"
 #include "checkpoint.H"
 #include "commit.H"
 #include "ellipsoidProperties.H"
@@ -55,14 +57,29 @@ using namespace Foam;
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
-//- Move the cells from the start of the run to its end
-static void track(Time& runTime, ellipsoidCloud& cells)
+//- Move the cells from the start of the run to its end, in the flow of the empty
+//- device or, where they block it, in that about those that are held
+static void track(Time& runTime, ellipsoidCloud& cells, flowFields& empty)
 {
+    autoPtr<occupiedFlow> occupied;
+    if (cells.occupied())
+    {
+        occupied.reset(new occupiedFlow(empty, cells));
+    }
+
     cells.begin();
+    if (occupied.valid())
+    {
+        occupied->begin();
+    }
 
     while (runTime.loop())
     {
         cells.evolve();
+        if (occupied.valid())
+        {
+            occupied->update();
+        }
 
         if (runTime.writeTime())
         {
@@ -123,7 +140,7 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
     }
     else if (!flowOnly)
     {
-        track(runTime, *cells);
+        track(runTime, *cells, *flow);
     }
 }
 

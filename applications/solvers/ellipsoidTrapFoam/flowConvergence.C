@@ -168,6 +168,17 @@ Foam::flowConvergence::flowConvergence
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+void Foam::flowConvergence::begin(const scalar tolerance)
+{
+    for (scalar& target : target_)
+    {
+        target *= tolerance/fluxTolerance_;
+    }
+    fluxTolerance_ = tolerance;
+    value_ = scalar(0);
+}
+
+
 void Foam::flowConvergence::restart
 (
     const volVectorField& U,

@@ -468,6 +468,14 @@ bool Foam::steadyFlow::converged()
 }
 
 
+void Foam::steadyFlow::solveFrom(const flow& kept, const scalar tolerance)
+{
+    restore(kept);
+    convergence_.begin(tolerance);
+    solve();
+}
+
+
 void Foam::steadyFlow::refuseForeign() const
 {
     if (foreign())

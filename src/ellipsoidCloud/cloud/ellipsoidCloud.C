@@ -243,16 +243,64 @@ void Foam::ellipsoidCloud::setFlow
     makeInjections();
     checkTimes();
     field_.clear();
-    undecomposed_.clear();
+
+    if (occupancy_.valid())
+    {
+        occupancy_->setDomain(*domain_);
+    }
+    else
+    {
+        undecomposed_.clear();
+    }
 
     interval_.reset
     (
-        new groupScheduler(population_, *domain_, tracks_.get())
+        new groupScheduler
+        (
+            population_,
+            *domain_,
+            tracks_.get(),
+            occupancy_.valid() ? &occupancy_->held() : nullptr
+        )
     );
 
     Info<< "ellipsoidCloud: " << domain_->flow.nTets() << " tetrahedra, "
         << domain_->walls.size() << " wall facets; slow is below "
         << criterion_.slowSpeed() << " m/s" << endl;
+}
+
+
+void Foam::ellipsoidCloud::takeFlow
+(
+    const volVectorField& U,
+    const volScalarField& p,
+    const surfaceScalarField& phi,
+    const bool listed
+)
+{
+    undecomposed_->take(U, p, phi);
+
+    if (listed)
+    {
+        occupancy_->write(time_, phi, inletFlux(U, phi).inflow, cells_);
+    }
+}
+
+
+void Foam::ellipsoidCloud::renewFlow
+(
+    const UList<heldWrench>& wrenches,
+    const bool judged
+)
+{
+    domain_->flow.renew(*undecomposed_, fluidDensity());
+
+    if (!occupancy_->take(wrenches, cells_) || judged)
+    {
+        DynamicList<cellEvent> events;
+        occupancy_->letGo(cells_, true, events);
+        statistics_->add(std::move(events));
+    }
 }
 
 
@@ -284,6 +332,10 @@ void Foam::ellipsoidCloud::begin()
 
     statistics_->log.open();
     tracks_->file.open();
+    if (occupancy_.valid())
+    {
+        occupancy_->begin();
+    }
 }
 
 
@@ -299,6 +351,10 @@ void Foam::ellipsoidCloud::evolve()
     (
         interval_->advanceInterval(cells_, criterion_, time_, end, events)
     );
+    if (occupancy_.valid())
+    {
+        occupancy_->update(cells_, events);
+    }
     statistics_->add(std::move(events));
 
     for (const cellSweep& cell : moves)
@@ -306,6 +362,10 @@ void Foam::ellipsoidCloud::evolve()
         if (cell.gone())
         {
             population_.forget(cell.state.id);
+            if (occupancy_.valid())
+            {
+                occupancy_->forget(cell.state.id);
+            }
         }
         if (cell.state.fate == cellState::lost)
         {

@@ -49,6 +49,18 @@ void Foam::ellipsoidCloud::makeTables()
 
     statistics_.reset(new captureStatistics(set, criterion_.sieves()));
     tracks_.reset(new cellTracks(set));
+
+    const occupancy::setting from
+    (
+        properties_.section("occupancy"), mesh_.boundaryMesh()
+    );
+    if (from.active)
+    {
+        occupancy_.reset
+        (
+            new occupancy(from, criterion_, set, earlier_.notes())
+        );
+    }
 }
 
 
@@ -282,6 +294,10 @@ void Foam::ellipsoidCloud::write()
     notes.add("time", time_);
     notes.add("folder", string(firstTime_));
     notes.add("mesh", meshNotes_);
+    if (occupancy_.valid())
+    {
+        occupancy_->note(notes, tables);
+    }
     notes.add("tables", tables);
 
     checkpoint::end(time, notes);

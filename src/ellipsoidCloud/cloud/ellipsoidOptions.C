@@ -61,7 +61,7 @@ namespace Foam
                 "",
                 {
                     "interpolation", "seed", "injection", "capture", "tracks",
-                    "unreached"
+                    "unreached", "occupancy"
                 }
             },
             {"cell", {"sizes"}},

@@ -10,6 +10,7 @@ License
 #include "ellipsoidProperties.H"
 #include "cellTracks.H"
 #include "masterGate.H"
+#include "occupancy.H"
 #include "readViscosity.H"
 #include "captureCriterion.H"
 #include "cellInjection.H"
@@ -96,6 +97,7 @@ void Foam::ellipsoidProperties::checkPatches
 
     captureCriterion(section("capture"), patches);
     cellTracks::setting(section("tracks"));
+    occupancy::setting(section("occupancy"), patches);
 }
 
 

@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "frozenFlow.H"
+#include "baffleSides.H"
 #include "foamVersions.H"
 #include "indexedOctree.H"
 #include "inletFlux.H"
@@ -268,6 +269,24 @@ Foam::frozenFlow::~frozenFlow() = default;
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::frozenFlow::renew
+(
+    const undecomposedFlow& undecomposed,
+    const scalar rho
+)
+{
+    if (Pstream::master())
+    {
+        const undecomposedFlow::serialScope serial;
+
+        setFlow(undecomposed, rho, baffleSides(undecomposed.mesh()));
+    }
+
+    broadcast(vertices_);
+    broadcast(excess_);
+}
+
 
 bool Foam::frozenFlow::find(const point& x, probe& at) const
 {

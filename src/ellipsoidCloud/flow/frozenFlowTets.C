@@ -281,19 +281,13 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::frozenFlow::make
+void Foam::frozenFlow::setFlow
 (
     const undecomposedFlow& undecomposed,
     const scalar rho,
-    const autoPtr<volVectorField>& E
+    const baffleSides& baffles
 )
 {
-    const baffleSides baffles(undecomposed.mesh());
-
-    tets_ = makeTets
-    (
-        undecomposed.mesh(), baffles, scheme_ == stDivergenceFree, cellTets_
-    );
     vertices_ = makeVertices(undecomposed, rho, baffles);
 
     if (scheme_ == stDivergenceFree)
@@ -308,6 +302,23 @@ void Foam::frozenFlow::make
         matchFluxes(undecomposed);
         makeExcess(undecomposed);
     }
+}
+
+
+void Foam::frozenFlow::make
+(
+    const undecomposedFlow& undecomposed,
+    const scalar rho,
+    const autoPtr<volVectorField>& E
+)
+{
+    const baffleSides baffles(undecomposed.mesh());
+
+    tets_ = makeTets
+    (
+        undecomposed.mesh(), baffles, scheme_ == stDivergenceFree, cellTets_
+    );
+    setFlow(undecomposed, rho, baffles);
 
     if (E.valid())
     {

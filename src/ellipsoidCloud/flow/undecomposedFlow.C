@@ -79,6 +79,17 @@ namespace Foam
         return result;
     }
 
+    //- Give a field the values of another, patches included
+    template<class GeoField>
+    static void copyValues(const GeoField& from, GeoField& to)
+    {
+        to.primitiveFieldRef() = from.primitiveField();
+        forAll(to.boundaryField(), patchi)
+        {
+            to.boundaryFieldRef()[patchi] == from.boundaryField()[patchi];
+        }
+    }
+
     //- Values of a field at the faces of this rank, 0 where it has none
     template<class Type, template<class> class PatchField, class GeoMesh>
     static Field<Type> valuesAtFaces
@@ -330,6 +341,19 @@ void Foam::undecomposedFlow::gather
     U_ = gather(U);
     p_ = gather(p);
     phi_ = gather(phi);
+}
+
+
+void Foam::undecomposedFlow::take
+(
+    const volVectorField& U,
+    const volScalarField& p,
+    const surfaceScalarField& phi
+)
+{
+    copyValues(U, *U_);
+    copyValues(p, *p_);
+    copyValues(phi, *phi_);
 }
 
 

@@ -10,7 +10,6 @@ License
 #include "groupAdvance.H"
 #include "cellSurroundings.H"
 #include "clockTime.H"
-#include "PtrList.H"
 
 #include <cfenv>
 
@@ -58,10 +57,12 @@ struct Foam::groupAdvance::member
         const ellipsoid_model& model;
         const cellDomain& domain;
         const bool sweeping;
+        const bool recording;
         DynamicList<segment>& path;
         cellSurroundings here;
         frozenFlow::locationType location;
         ellipsoid_step last;
+        heldWrench pull;
 
 
     // Member Functions
@@ -100,7 +101,10 @@ struct Foam::groupAdvance::member
                 return 1;
             }
 
-            m.path.append(segment{m.index, *step});
+            if (m.recording)
+            {
+                m.path.append(segment{m.index, *step});
+            }
             return 0;
         }
 
@@ -206,6 +210,110 @@ struct Foam::groupAdvance::member
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+const ellipsoid_model& Foam::groupAdvance::clamped(const label id)
+{
+    if (!clamped_.found(id))
+    {
+        ellipsoid_options options(population_.model(id).options);
+
+        // As heavy as the core allows
+        const scalar factor = 1e12/options.density;
+        options.density *= factor;
+        options.kinematic_viscosity *= factor;
+        options.buoyancy = 0;
+
+        autoPtr<ellipsoid_model> model(new ellipsoid_model);
+        ellipsoid_model_init(model.get(), &options);
+        clamped_.set(id, model.ptr());
+    }
+
+    return *clamped_[id];
+}
+
+
+void Foam::groupAdvance::rest
+(
+    List<cellSweep>& cells,
+    const labelUList& group,
+    const scalar end,
+    DynamicList<segment>& path
+) const
+{
+    for (const label i : group)
+    {
+        cellState& cell = cells[i].state;
+        path.append(segment{i, ellipsoid_step()});
+
+        ellipsoid_step& step = path.last().step;
+        step.start = cell.time;
+        step.end = cell.time = end;
+        step.before = step.after = cell.body;
+    }
+}
+
+
+void Foam::groupAdvance::enter
+(
+    List<cellSweep>& cells,
+    const labelUList& group,
+    DynamicList<segment>& path,
+    PtrList<member>& own,
+    List<ellipsoid_member>& members
+)
+{
+    const ellipsoidProperties& properties = population_.properties();
+
+    forAll(group, i)
+    {
+        cellSweep& cell = cells[group[i]];
+        const label id = cell.state.id;
+
+        if (cell.state.fate == cellState::waiting)
+        {
+            cell.state.fate = cellState::inFlight;
+        }
+
+        if (!caches_.found(id))
+        {
+            caches_.set(id, new ellipsoid_facet_cache);
+            ellipsoid_facet_cache_clear(caches_[id]);
+        }
+
+        own.set
+        (
+            i,
+            new member
+            {
+                group[i], cell,
+                isClamped(id) ? clamped(id) : population_.model(id), domain_,
+                properties.pushing(), pulled < 0, path,
+                {domain_, frozenFlow::probe{cell.state.tet, -1}},
+                frozenFlow::pInside, ellipsoid_step(), heldWrench()
+            }
+        );
+        if (isClamped(id) || (held_ && id == pulled))
+        {
+            own[i].here.setStill();
+        }
+        if (held_ && id == pulled)
+        {
+            own[i].pull = (*held_)[id];
+            own[i].here.setPull(own[i].pull);
+        }
+        own[i].here.seed = properties.seed();
+        own[i].here.id = id;
+
+        members[i].model = &own[i].model;
+        members[i].surroundings = &own[i].here;
+        members[i].state = &cell.state.body;
+        members[i].controller = &cell.state.controller;
+        members[i].cache = caches_[id];
+        members[i].observer_context = &own[i];
+        members[i].statistics = &done_.steps;
+    }
+}
+
+
 bool Foam::groupAdvance::integrate
 (
     List<ellipsoid_member>& members,
@@ -274,11 +382,13 @@ bool Foam::groupAdvance::integrate
 Foam::groupAdvance::groupAdvance
 (
     const cellPopulation& population,
-    const cellDomain& domain
+    const cellDomain& domain,
+    const heldCells* held
 )
 :
     population_(population),
     domain_(domain),
+    held_(held),
     done_()
 {}
 
@@ -299,8 +409,18 @@ bool Foam::groupAdvance::advance
         return false;
     }
 
+    label nClamped = 0;
+    for (const label i : group)
+    {
+        nClamped += isClamped(cells[i].state.id);
+    }
+    if (nClamped == group.size())
+    {
+        rest(cells, group, end, path);
+        return true;
+    }
+
     const clockTime timer;
-    const ellipsoidProperties& properties = population_.properties();
     const label n = group.size();
     const label size = ellipsoid_group_size(n)/sizeof(scalar) + 1;
     memory_.setSize(max(memory_.size(), size));
@@ -308,44 +428,7 @@ bool Foam::groupAdvance::advance
     PtrList<member> own(n);
     List<ellipsoid_member> members(n);
 
-    forAll(group, i)
-    {
-        cellSweep& cell = cells[group[i]];
-        const label id = cell.state.id;
-
-        if (cell.state.fate == cellState::waiting)
-        {
-            cell.state.fate = cellState::inFlight;
-        }
-
-        if (!caches_.found(id))
-        {
-            caches_.set(id, new ellipsoid_facet_cache);
-            ellipsoid_facet_cache_clear(caches_[id]);
-        }
-
-        own.set
-        (
-            i,
-            new member
-            {
-                group[i], cell, population_.model(id), domain_,
-                properties.pushing(), path,
-                {domain_, frozenFlow::probe{cell.state.tet, -1}},
-                frozenFlow::pInside, ellipsoid_step()
-            }
-        );
-        own[i].here.seed = properties.seed();
-        own[i].here.id = id;
-
-        members[i].model = &own[i].model;
-        members[i].surroundings = &own[i].here;
-        members[i].state = &cell.state.body;
-        members[i].controller = &cell.state.controller;
-        members[i].cache = caches_[id];
-        members[i].observer_context = &own[i];
-        members[i].statistics = &done_.steps;
-    }
+    enter(cells, group, path, own, members);
 
     // The core answers what is not finite by a shorter step; OpenFOAM's traps
     // would end the run
@@ -354,6 +437,14 @@ bool Foam::groupAdvance::advance
     const scalar start = cells[group[0]].state.time;
     const bool done = integrate(members, start, end, mayFail);
     std::fesetenv(&traps);
+
+    for (member& m : own)
+    {
+        if (isClamped(m.cell.state.id))
+        {
+            m.cell.state.body = m.cell.start;
+        }
+    }
 
     const scalar spent = timer.elapsedTime();
     done_.time += spent;

@@ -171,11 +171,16 @@ Foam::groupScheduler::nearPairs
 
     for (const labelPair& pair : overlapGroups::overlapping(boxes))
     {
-        if (unitOf[pair.first()] != unitOf[pair.second()])
+        const cellSweep& a = cells[indices[pair.first()]];
+        const cellSweep& b = cells[indices[pair.second()]];
+
+        if
+        (
+            unitOf[pair.first()] != unitOf[pair.second()]
+         && !(groups_.isClamped(a.state.id) && groups_.isClamped(b.state.id))
+        )
         {
             // Each point of a cell stays within its travel of where it began
-            const cellSweep& a = cells[indices[pair.first()]];
-            const cellSweep& b = cells[indices[pair.second()]];
             const scalar horizon = a.travel + b.travel + margin;
             const scalar gap = ellipsoid_cell_gap
             (
@@ -520,13 +525,14 @@ Foam::groupScheduler::groupScheduler
 (
     const cellPopulation& population,
     const cellDomain& domain,
-    cellTracks* tracks
+    cellTracks* tracks,
+    const heldCells* held
 )
 :
     population_(population),
     interacting_(population.properties().pushing()),
     beadRadius_(population.properties().options().bead_radius),
-    groups_(population, domain),
+    groups_(population, domain, held),
     tracks_(tracks)
 {}
 

@@ -10,7 +10,7 @@ License
 
 #include "aggregationMultigrid.H"
 #include "globalIndex.H"
-#include "Pstream.H"
+#include "plainLists.H"
 #include "PstreamReduceOps.H"
 #include "scalarMatrices.H"
 
@@ -82,7 +82,7 @@ void Foam::aggregationMultigrid<Type>::invertCoarsest(const bool singular)
     const UList<float> diagonal(flat(matrix.diagonal));
     const globalIndex rows(matrix.size());
     const label n = rows.size();
-    offset_ = rows.offset(Pstream::myProcNo());
+    offset_ = rows.toGlobal(0);
 
     labelList column(matrix.halo.size());
     for (label i = 0; i < matrix.size(); ++i)
@@ -99,26 +99,24 @@ void Foam::aggregationMultigrid<Type>::invertCoarsest(const bool singular)
 
     for (label cmpt = 0; cmpt < nValues; ++cmpt)
     {
-        List<scalarSquareMatrix> parts(Pstream::nProcs());
-        scalarSquareMatrix& mine = parts[Pstream::myProcNo()];
-        mine = scalarSquareMatrix(n, Zero);
+        // Row by row
+        List<scalar> mine(matrix.size()*n, Zero);
 
         for (label i = 0; i < matrix.size(); ++i)
         {
-            const label row = offset_ + i;
-            mine(row, row) = diagonal[nValues*i + cmpt];
+            scalar* const row = &mine[i*n];
+            row[offset_ + i] = diagonal[nValues*i + cmpt];
             for (label k = matrix.start[i]; k < matrix.start[i + 1]; ++k)
             {
-                mine(row, column[matrix.column[k]]) += matrix.coefficient[k];
+                row[column[matrix.column[k]]] += matrix.coefficient[k];
             }
         }
 
-        scalarSquareMatrix all(n, Zero);
-        Pstream::gatherList(parts);
-        Pstream::scatterList(parts);
-        for (const scalarSquareMatrix& part : parts)
+        scalarSquareMatrix all(n);
+        scalar* next = all.v();
+        for (const List<scalar>& part : fromAllRanks(mine))
         {
-            all += part;
+            next = std::copy(part.begin(), part.end(), next);
         }
         if (singular)
         {
@@ -150,10 +148,10 @@ void Foam::aggregationMultigrid<Type>::solveCoarsest() const
 {
     level& coarsest = levels_.last();
 
-    List<List<float>> sources(Pstream::nProcs());
-    sources[Pstream::myProcNo()] = flat(coarsest.source);
-    Pstream::gatherList(sources);
-    Pstream::scatterList(sources);
+    const List<List<float>> sources
+    (
+        fromAllRanks(List<float>(flat(coarsest.source)))
+    );
 
     forAll(inverse_, i)
     {

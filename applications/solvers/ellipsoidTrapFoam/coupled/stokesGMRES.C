@@ -9,7 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "stokesGMRES.H"
-#include "Pstream.H"
+#include "foamVersions.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -73,7 +73,7 @@ static scalarField products
     }
 
     Pstream::listCombineGather(sums, plusEqOp<scalar>());
-    Pstream::listCombineScatter(sums);
+    broadcast(sums);
 
     return sums;
 }

@@ -1,0 +1,182 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+
+#include "occupiedFlow.H"
+#include "ellipsoidCloud.H"
+#include "foamVersions.H"
+#include "masterGate.H"
+#include "readViscosity.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::occupiedFlow::makeOwn()
+{
+    const undecomposedFlow::serialScope serial;
+    const fvMesh& mesh = cells_.undecomposedMesh();
+
+    if (mesh.solverDict("p").get<word>("solver") == "GAMG")
+    {
+        FatalIOErrorInFunction(mesh.solverDict("p"))
+            << "On several ranks occupancy needs another solver of p than GAMG,"
+            << " whose levels depend on the number of ranks: PCG"
+            << exit(FatalIOError);
+    }
+
+    if
+    (
+        mesh.solutionDict().subDict("SIMPLE").getOrDefault("coupled", false)
+    )
+    {
+        FatalIOErrorInFunction(mesh.solutionDict())
+            << "On several ranks occupancy cannot yet correct U and p together:"
+            << " coupled no, in the dictionary SIMPLE" << exit(FatalIOError);
+    }
+
+    own_.reset(new steadyFlow(mesh, flowFields::YES));
+    flow_ = own_.get();
+
+    const scalarField differences
+    (
+        mag
+        (
+            flow_->U().primitiveField() - cells_.undecomposedU().primitiveField()
+        )
+    );
+    const scalar fastest = max(mag(cells_.undecomposedU().primitiveField()));
+
+    // decomposePar rounds to writePrecision
+    if (!(max(differences) <= 1e-4*fastest))
+    {
+        FatalErrorInFunction
+            << "The flow of the undecomposed case, " << flow_->U().objectPath()
+            << ", is not that of its parts, from which occupancy has to start."
+            << nl << "    Solve it with -flowOnly on one rank, then run"
+            << " decomposePar" << exit(FatalError);
+    }
+}
+
+
+Foam::List<Foam::heldWrench> Foam::occupiedFlow::solve
+(
+    const List<heldBody>& bodies
+)
+{
+    solids_->set(bodies);
+
+    Info<< "occupancy: " << bodies.size() << " cells held" << endl;
+    if (bodies.empty())
+    {
+        flow_->restore(*empty_);
+    }
+    else
+    {
+        flow_->solveFrom(*empty_, cells_.occupied()->tolerance());
+    }
+
+    const List<heldWrench> wrenches
+    (
+        solids_->wrenches(flow_->U(), cells_.fluidDensity())
+    );
+
+    forAll(bodies, i)
+    {
+        Info<< "occupancy: cell " << bodies[i].id << ": force "
+            << wrenches[i].force << " N, torque " << wrenches[i].torque
+            << " N m" << endl;
+    }
+
+    return wrenches;
+}
+
+
+void Foam::occupiedFlow::renew(const bool again)
+{
+    const List<heldBody> bodies(cells_.heldBodies());
+    List<heldWrench> wrenches(bodies.size());
+
+    if (flow_)
+    {
+        const undecomposedFlow::serialScope serial;
+        wrenches = solve(bodies);
+        cells_.takeFlow(flow_->U(), flow_->p(), flow_->phi(), !again);
+    }
+    broadcast(wrenches);
+
+    cells_.renewFlow(wrenches, !again);
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::occupiedFlow::occupiedFlow(flowFields& empty, ellipsoidCloud& cells)
+:
+    cells_(cells),
+    flow_(dynamic_cast<steadyFlow*>(&empty))
+{
+    const masterGate once;
+
+    if (!flow_)
+    {
+        FatalErrorInFunction
+            << "Cells that block the flow, occupancy, need a flow that is"
+            << " solved here, not one taken as it is: without -frozenFlow, and without"
+            << " solve no in the dictionary flow of system/fvSolution"
+            << exit(FatalError);
+    }
+    if (Pstream::parRun())
+    {
+        flow_ = nullptr;
+        if (Pstream::master())
+        {
+            makeOwn();
+        }
+    }
+
+    if (flow_)
+    {
+        const undecomposedFlow::serialScope serial;
+
+        empty_.reset(new steadyFlow::flow(*flow_));
+
+        const fvMesh& mesh = flow_->U().mesh();
+        solids_.reset(new solidBodies(mesh, readViscosity(mesh)));
+    }
+}
+
+
+Foam::occupiedFlow::~occupiedFlow()
+{
+    const undecomposedFlow::serialScope serial;
+
+    solids_.clear();
+    empty_.clear();
+    own_.clear();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::occupiedFlow::begin()
+{
+    renew(cells_.restarted());
+    update();
+}
+
+
+void Foam::occupiedFlow::update()
+{
+    while (cells_.occupied()->outdated())
+    {
+        renew(false);
+    }
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,386 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "occupancy.H"
+#include "surfaceFields.H"
+#include "volFields.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- In bead radii: cells farther apart do not meet within a hold time, for
+    //  one of them is held and the other in contact with it or slow
+    static const scalar nearGap = 0.5;
+
+    //- From the body to the lab
+    static tensor rotationOf(const scalar q[4])
+    {
+        scalar rotation[3][3];
+        ellipsoid_rotation(q, rotation);
+
+        tensor R;
+        std::copy_n(&rotation[0][0], 9, R.v_);
+        return R;
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::occupancy::setting::setting
+(
+    const dictionary& dict,
+    const polyBoundaryMesh& patches
+)
+:
+    active(dict.getOrDefault("active", false)),
+    fates({cellState::caught}),
+    every(ellipsoidProperties::number<label>(dict, "every", atLeast(1), 1)),
+    tolerance
+    (
+        ellipsoidProperties::number(dict, "tolerance", above(0), 1e-3)
+    )
+{
+    ellipsoidProperties::checkKeywords
+    (
+        dict, {"active", "fates", "every", "tolerance", "apertures"}
+    );
+
+    if (dict.found("fates"))
+    {
+        fates.clear();
+        for (const word& name : dict.get<wordList>("fates"))
+        {
+            if (name != "caught" && name != "stalled")
+            {
+                FatalIOErrorInFunction(dict)
+                    << "fates " << name << " cannot hold a cell" << nl
+                    << "    allowed: (caught), (stalled) or (caught stalled)"
+                    << exit(FatalIOError);
+            }
+            fates.append(cellState::fateNames[name]);
+        }
+    }
+
+    for (const entry& e : dict.subOrEmptyDict("apertures"))
+    {
+        const dictionary& of = e.dict();
+        ellipsoidProperties::checkKeywords(of, {"min", "max", "normal"});
+
+        const boundBox box(of.get<point>("min"), of.get<point>("max"));
+        const vector normal(of.get<vector>("normal"));
+        const label patchi = patches.findPatchID(e.keyword());
+
+        if (patchi < 0 || box.empty() || mag(normal) < SMALL)
+        {
+            FatalIOErrorInFunction(of)
+                << "aperture " << e.keyword() << " needs the name of a patch,"
+                << " min below max and a normal" << exit(FatalIOError);
+        }
+        apertures.append(aperture{e.keyword(), patchi, box, normal});
+    }
+}
+
+
+Foam::occupancy::occupancy
+(
+    const setting& from,
+    const captureCriterion& criterion,
+    const tableSet& set,
+    const dictionary& notes
+)
+:
+    setting_(from),
+    criterion_(criterion),
+    population_(set.population),
+    outdated_(false),
+    fluxes_(set, "fluxes", "t,sieve,flux,share,cells", 9)
+{
+    const labelList ids(notes.getOrDefault("held", labelList()));
+    const vectorField forces(notes.getOrDefault("heldForces", vectorField()));
+
+    forAll(ids, i)
+    {
+        held_.insert(ids[i], heldWrench{forces[i], Zero});
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+bool Foam::occupancy::isNear(const cellState& a, const cellState& b) const
+{
+    const scalar horizon =
+        nearGap*population_.properties().options().bead_radius;
+
+    return
+        population_.properties().pushing()
+     && b.fate != cellState::waiting
+     && ellipsoid_cell_gap
+        (
+            &population_.model(a.id), a.body.x, a.body.q,
+            &population_.model(b.id), b.body.x, b.body.q,
+            horizon
+        ) < horizon;
+}
+
+
+bool Foam::occupancy::pushed
+(
+    const cellState& cell,
+    const UList<cellState>& cells
+) const
+{
+    for (const cellState& other : cells)
+    {
+        if (!held_.found(other.id) && isNear(cell, other))
+        {
+            return true;
+        }
+    }
+
+    return false;
+}
+
+
+bool Foam::occupancy::pulledOff
+(
+    const cellState& cell,
+    const UList<cellState>& cells
+)
+{
+    DynamicList<cellSweep> group;
+    label own = 0;
+
+    for (const cellState& other : cells)
+    {
+        if (other.id == cell.id || isNear(cell, other))
+        {
+            own = other.id == cell.id ? group.size() : own;
+            group.append(cellSweep());
+            group.last().state = other;
+            group.last().begin();
+        }
+    }
+
+    const scalar time = criterion_.holdTime();
+    DynamicList<groupAdvance::segment> path;
+    trials_->pulled = cell.id;
+    trials_->advance
+    (
+        group, identity(group.size()), cell.time + time, false, path
+    );
+
+    return
+        group[own].gone()
+     || mag(group[own].state.centre() - cell.centre())
+     >= criterion_.slowSpeed()*time;
+}
+
+
+void Foam::occupancy::letGo
+(
+    List<cellState>& cells,
+    const bool all,
+    DynamicList<cellEvent>& events
+)
+{
+    DynamicList<label> loose;
+
+    forAll(cells, i)
+    {
+        if
+        (
+            held_.found(cells[i].id)
+         && (all || pushed(cells[i], cells))
+         && pulledOff(cells[i], cells)
+        )
+        {
+            loose.append(i);
+        }
+    }
+
+    for (const label i : loose)
+    {
+        cellState& cell = cells[i];
+        held_.erase(cell.id);
+        outdated_ = true;
+        cell.slowTime = 0;
+        cell.imbalance = 0;
+        cell.fate = cellState::inFlight;
+        events.append(cellEvent{"released", cell});
+        cell.patch = -1;
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::scalar Foam::occupancy::aperture::flux
+(
+    const surfaceScalarField& phi
+) const
+{
+    const fvMesh& mesh = phi.mesh();
+    const point middle(box.centre());
+    scalar sum = 0;
+
+    // Mesh faces between centres on either side of the plane in the middle
+    for (label facei = 0; facei < mesh.nInternalFaces(); ++facei)
+    {
+        const point& from = mesh.C()[mesh.owner()[facei]];
+        const point& to = mesh.C()[mesh.neighbour()[facei]];
+        const bool before = ((from - middle) & normal) < 0;
+        const bool after = ((to - middle) & normal) >= 0;
+
+        if (before == after && box.contains(mesh.Cf()[facei]))
+        {
+            sum += before ? phi[facei] : -phi[facei];
+        }
+    }
+
+    return sum;
+}
+
+
+void Foam::occupancy::update
+(
+    List<cellState>& cells,
+    DynamicList<cellEvent>& events
+)
+{
+    letGo(cells, false, events);
+
+    DynamicList<label> caught;
+    for (const cellState& cell : cells)
+    {
+        if (blocks(cell) && !held_.found(cell.id))
+        {
+            caught.append(cell.id);
+        }
+    }
+    outdated_ = outdated_ || caught.size() >= setting_.every;
+
+    if (outdated_)
+    {
+        for (const label id : caught)
+        {
+            held_.insert(id, heldWrench());
+        }
+    }
+}
+
+
+void Foam::occupancy::forget(const label id)
+{
+    trials_->forget(id);
+}
+
+
+Foam::List<Foam::heldBody> Foam::occupancy::bodies
+(
+    const UList<cellState>& cells
+) const
+{
+    DynamicList<heldBody> found;
+
+    for (const cellState& cell : cells)
+    {
+        if (held_.found(cell.id))
+        {
+            const double* a = population_.model(cell.id).options.semi_axes;
+
+            found.append
+            (
+                heldBody
+                {
+                    cell.id, cell.centre(), rotationOf(cell.body.q),
+                    vector(a[0], a[1], a[2])
+                }
+            );
+        }
+    }
+
+    return List<heldBody>(std::move(found));
+}
+
+
+bool Foam::occupancy::take
+(
+    const UList<heldWrench>& wrenches,
+    List<cellState>& cells
+)
+{
+    label n = 0;
+    bool same = true;
+
+    for (cellState& cell : cells)
+    {
+        if (held_.found(cell.id))
+        {
+            heldWrench& wrench = held_[cell.id];
+            const tensor R(rotationOf(cell.body.q));
+
+            same = same && wrench.force == wrenches[n].force;
+            wrench.force = wrenches[n].force;
+            wrench.torque = R.T() & wrenches[n].torque;
+            ++n;
+            std::fill_n(cell.body.u, 3, scalar(0));
+            std::fill_n(cell.body.omega, 3, scalar(0));
+        }
+    }
+
+    outdated_ = false;
+
+    return same;
+}
+
+
+void Foam::occupancy::write
+(
+    const scalar time,
+    const surfaceScalarField& phi,
+    const scalar inflow,
+    const UList<cellState>& cells
+)
+{
+    for (const aperture& a : setting_.apertures)
+    {
+        const scalar flux = a.flux(phi);
+        label n = 0;
+        for (const cellState& cell : cells)
+        {
+            n += held_.found(cell.id) && cell.patch == a.patch;
+        }
+
+        fluxes_.stream()
+            << time << ',' << a.name << ',' << flux << ','
+            << flux/max(inflow, VSMALL) << ',' << n << '\n';
+    }
+    fluxes_.flush();
+}
+
+
+void Foam::occupancy::note(dictionary& notes, dictionary& tables)
+{
+    const labelList ids(held_.sortedToc());
+    vectorField forces(ids.size());
+    forAll(ids, i)
+    {
+        forces[i] = held_[ids[i]].force;
+    }
+
+    notes.add("held", ids);
+    notes.add("heldForces", forces);
+    tables.add("fluxes", fluxes_.notes());
+}
+
+
+// ************************************************************************* //
