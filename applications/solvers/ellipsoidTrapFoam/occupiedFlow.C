@@ -29,16 +29,6 @@ void Foam::occupiedFlow::makeOwn()
             << exit(FatalIOError);
     }
 
-    if
-    (
-        mesh.solutionDict().subDict("SIMPLE").getOrDefault("coupled", false)
-    )
-    {
-        FatalIOErrorInFunction(mesh.solutionDict())
-            << "On several ranks occupancy cannot yet correct U and p together:"
-            << " coupled no, in the dictionary SIMPLE" << exit(FatalIOError);
-    }
-
     own_.reset(new steadyFlow(mesh, flowFields::YES));
     flow_ = own_.get();
 
