@@ -113,7 +113,7 @@ void Foam::aggregationMultigrid<Type>::invertCoarsest(const bool singular)
         }
 
         scalarSquareMatrix all(n);
-        scalar* next = all.v();
+        scalar* next = all.data();
         for (const List<scalar>& part : fromAllRanks(mine))
         {
             next = std::copy(part.begin(), part.end(), next);
