@@ -263,8 +263,9 @@ setup_build_tree()      # WORK VERSION: WORK/tree becomes a tree that wmake can 
     local -a apt=(env LC_ALL=C apt-get -q -o APT::Sandbox::User="$(id -un)"
         -o Dir::Etc::sourcelist=/dev/null -o Dir::Etc::sourceparts="$work/sources"
         -o Dir::State::lists="$work/lists" -o Dir::Cache="$work")
-    # On a full disk apt may wait for ever to write a list
-    timeout --foreground 300 "${apt[@]}" update
+    # Where the disk is full, apt's own retries may never end
+    local -a update=("${apt[@]}" -o Acquire::Retries=0 update)
+    "${update[@]}" || "${update[@]}"
     (cd "$work/download" && "${apt[@]}" source --download-only --only-source "openfoam=$version") \
         || return
 
