@@ -40,6 +40,7 @@ SourceFiles
     occupiedFlow.C
     solidBodies.C
     steadyFlow.C
+    steadyFlowEquations.C
     flowConvergence.C
 
 \*---------------------------------------------------------------------------*/

@@ -9,56 +9,21 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "steadyFlow.H"
-#include "adjustPhi.H"
 #include "clockTime.H"
-#include "constrainHbyA.H"
-#include "constrainPressure.H"
 #include "coupledFlow.H"
 #include "ellipsoidProperties.H"
 #include "findRefCell.H"
 #include "IOdictionary.H"
-#include "fvcDiv.H"
-#include "fvcFlux.H"
-#include "fvcGrad.H"
-#include "fvcSnGrad.H"
-#include "fvcSurfaceIntegrate.H"
-#include "fvmDiv.H"
-#include "fvmLaplacian.H"
-#include "fvmSup.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
 #include "masterGate.H"
 #include "readViscosity.H"
 #include "sigFpe.H"
-#include "surfaceInterpolate.H"
-
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
-
-const Foam::word Foam::steadyFlow::transposedScheme_
-(
-    "div((nuEff*dev2(T(grad(U)))))",
-    false
-);
-
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
-
-// The solver performance of every solve within one time step is kept, and
-// copied with each solve: a thousand iterations would come to seconds
-static void forgetSolverPerformance(const fvMesh& mesh)
-{
-    #if OPENFOAM >= 2312
-    const dictionary& dict = mesh.data().solverPerformanceDict();
-    #else
-    const dictionary& dict = mesh.solverPerformanceDict();
-    #endif
-
-    const_cast<dictionary&>(dict).clear();
-}
-
 
 //- A dictionary that may be absent; collective
 static dictionary readIfPresent
@@ -200,79 +165,6 @@ void Foam::steadyFlow::restore(const flow& kept)
 }
 
 
-Foam::dictionary Foam::steadyFlow::linearSolver
-(
-    const word& fieldName,
-    const bool judgeOnly
-) const
-{
-    dictionary dict(mesh_.solverDict(fieldName));
-
-    // A solver that is content with its start leaves the flow untouched, which
-    // would pass for steady
-    dict.set("minIter", max(dict.getOrDefault<label>("minIter", 1), label(1)));
-    if (judgeOnly)
-    {
-        dict.set("maxIter", 1);
-    }
-
-    return dict;
-}
-
-
-Foam::tmp<Foam::fvVectorMatrix> Foam::steadyFlow::momentum()
-{
-    tmp<fvVectorMatrix> UEqn(fvm::div(phi_, U_) - fvm::laplacian(nu_, U_));
-
-    if (hasTransposed_)
-    {
-        UEqn.ref() -= fvc::div(nu_*dev2(T(fvc::grad(U_))), transposedScheme_);
-    }
-    if (const auto* resistance = mesh_.cfindObject<volScalarField>("resistance"))
-    {
-        UEqn.ref() += fvm::Sp(*resistance, U_);
-    }
-
-    return UEqn;
-}
-
-
-Foam::flowConvergence::forceRatios Foam::steadyFlow::forces
-(
-    const fvVectorMatrix& UEqn
-) const
-{
-    const volVectorField gradP(fvc::grad(p_));
-
-    vectorField net
-    (
-        (UEqn & U_)().primitiveField() + gradP.primitiveField()
-    );
-    for (direction cmpt = 0; cmpt < vector::nComponents; ++cmpt)
-    {
-        if (mesh_.solutionD()[cmpt] == -1)
-        {
-            net.replace(cmpt, scalar(0));
-        }
-    }
-
-    scalar shear = 0;
-    for (const fvPatchVectorField& Up : U_.boundaryField())
-    {
-        if (!Up.coupled())
-        {
-            shear += nu_.value()*sum(mag(Up.snGrad())*Up.patch().magSf());
-        }
-    }
-    reduce(shear, sumOp<scalar>());
-
-    const scalar pressure = gSum(mag(gradP.primitiveField())*mesh_.V());
-    const scalar driving = pressure + shear + VSMALL;
-
-    return {gSum(mag(net)*mesh_.V())/driving, pressure/driving};
-}
-
-
 Foam::scalar Foam::steadyFlow::linearTolerance(const scalar before) const
 {
     // Nothing is known before the first correction. What it leaves of the forces
@@ -295,12 +187,13 @@ Foam::scalar Foam::steadyFlow::linearTolerance(const scalar before) const
 Foam::label Foam::steadyFlow::correct
 (
     coupledFlow& together,
+    const fvVectorMatrix& UEqn,
     const scalar relTol
 )
 {
     const sigFpe::ignore noTrap;
 
-    const label n = together.correct(momentum()(), relTol);
+    const label n = together.correct(UEqn, relTol);
     if (p_.needReference())
     {
         const scalar shift = pRefValue_ - getRefCellValue(p_, pRefCell_);
@@ -308,79 +201,6 @@ Foam::label Foam::steadyFlow::correct
     }
 
     return n;
-}
-
-
-void Foam::steadyFlow::iterate(const bool judgeOnly)
-{
-    // A flow that diverges is reported as such, not by a signal
-    const sigFpe::ignore noTrap;
-
-    autoPtr<flow> before;
-    if (judgeOnly)
-    {
-        before.reset(new flow(*this));
-    }
-
-    tmp<fvVectorMatrix> equation(momentum());
-    fvVectorMatrix& UEqn = equation.ref();
-    const flowConvergence::forceRatios forcesFound(forces(UEqn));
-
-    UEqn.relax();
-    const SolverPerformance<vector> UPerf
-    (
-        Foam::solve(UEqn == -fvc::grad(p_), linearSolver("U", judgeOnly))
-    );
-
-    // Velocity without pressure gradient, and what a pressure gradient adds
-    const volScalarField rAU(1/UEqn.A());
-    volVectorField HbyA(constrainHbyA(rAU*UEqn.H(), U_, p_));
-    surfaceScalarField phiHbyA("phiHbyA", fvc::flux(HbyA));
-    adjustPhi(phiHbyA, U_, p_);
-
-    volScalarField rAtU("rAtU", rAU);
-    if (consistent_)
-    {
-        // The neighbours' velocities change with the cell's own
-        rAtU = 1/(1/rAU - UEqn.H1());
-        phiHbyA +=
-            fvc::interpolate(rAtU - rAU)*fvc::snGrad(p_)*mesh_.magSf();
-        HbyA += (rAtU - rAU)*fvc::grad(p_);
-    }
-
-    constrainPressure(p_, U_, phiHbyA, rAtU);
-
-    p_.storePrevIter();
-    solverPerformance pPerf;
-    for (label corr = 0; corr <= nNonOrthogonalCorrectors_; ++corr)
-    {
-        fvScalarMatrix pEqn
-        (
-            fvm::laplacian(rAtU, p_) == fvc::div(phiHbyA)
-        );
-        pEqn.setReference(pRefCell_, pRefValue_);
-
-        const solverPerformance perf(pEqn.solve(linearSolver("p", judgeOnly)));
-        if (corr == 0)
-        {
-            pPerf = perf;
-        }
-        if (corr == nNonOrthogonalCorrectors_)
-        {
-            phi_ = phiHbyA - pEqn.flux();
-        }
-    }
-    p_.relax();
-
-    U_ = HbyA - rAtU*fvc::grad(p_);
-    U_.correctBoundaryConditions();
-
-    if (judgeOnly)
-    {
-        restore(*before);
-    }
-    convergence_.update(pPerf, UPerf, forcesFound, U_, phi_);
-    forgetSolverPerformance(mesh_);
 }
 
 
@@ -452,7 +272,7 @@ bool Foam::steadyFlow::converged()
     }
 
     const flow read(*this);
-    iterate(false);
+    iterate(momentum(), false);
     const bool arrived = convergence_.sound() && convergence_.reachedBefore();
 
     restore(read);
@@ -536,10 +356,12 @@ void Foam::steadyFlow::solve()
     // Of the coupled method: iterations of GMRES, and how far the flow had been
     // from the targets before the latest correction
     autoPtr<coupledFlow> together;
+    tmp<fvVectorMatrix> UEqn;
     if (coupled_)
     {
         together.reset(new coupledFlow(nu_, U_, p_, phi_));
         together->setDirections();
+        UEqn = momentum();
     }
     label nLinear = 0;
     scalar before = GREAT;
@@ -562,9 +384,14 @@ void Foam::steadyFlow::solve()
         {
             const scalar relTol = linearTolerance(before);
             before = iteration > 0 ? convergence_.excess() : GREAT;
-            nLinear += correct(*together, relTol);
+            nLinear += correct(*together, UEqn(), relTol);
+            UEqn = momentum();
+            iterate(tmp<fvVectorMatrix>(UEqn()), true);
         }
-        iterate(coupled_);
+        else
+        {
+            iterate(momentum(), false);
+        }
         ++iteration;
 
         if (!convergence_.sound())

@@ -295,14 +295,7 @@ const Foam::UList<Type>& Foam::aggregationMultigrid<Type>::solve() const
 
         for (label i = 0; i < matrix.size(); ++i)
         {
-            // The diagonal's inverse is stored
-            Type residual = finest.source[i] - before[i]/matrix.diagonal[i];
-            for (label k = matrix.start[i]; k < matrix.start[i + 1]; ++k)
-            {
-                residual -=
-                    matrix.coefficient[k]*finest.solution[matrix.column[k]];
-            }
-            finest.source[i] = residual;
+            finest.source[i] -= product(i, finest.solution);
         }
 
         cycle(0);

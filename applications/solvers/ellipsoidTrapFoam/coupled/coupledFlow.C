@@ -155,6 +155,9 @@ Foam::label Foam::coupledFlow::correct
     phi_ = setResidual(UEqn, rAU, residual);
     stokesGMRES gmres(stokes_);
 
+    // Of the net fluxes that GMRES leaves: cells follow the flux
+    const scalar toConserve = 0.01;
+
     // If what is left is this small a part, the equations are nearly the same
     const scalar negligible = 0.01;
 
@@ -173,6 +176,12 @@ Foam::label Foam::coupledFlow::correct
 
     const List<fourFloats>& found = gmres.correction();
     stokes_.addFlux(found, gmres.pressureForce(), phi_);
+    preconditioner_->conserve
+    (
+        fvc::surfaceIntegrate(phi_)().primitiveField()*U_.mesh().V(),
+        toConserve,
+        phi_
+    );
     forAll(U_, celli)
     {
         U_[celli] += vectorOf(found[celli]);

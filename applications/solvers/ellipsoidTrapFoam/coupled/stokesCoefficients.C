@@ -428,7 +428,8 @@ Foam::faceCoefficients Foam::stokesOperator::laplacian
 (
     const List<fourFloats>& mobility,
     List<float>& upper,
-    List<float>& diagonal
+    List<float>& diagonal,
+    List<float>& boundary
 ) const
 {
     const scalarField distance
@@ -452,15 +453,17 @@ Foam::faceCoefficients Foam::stokesOperator::laplacian
         sums[own] += coefficient;
         sums[nei] += coefficient;
     }
+    boundary.setSize(boundaryCell_.size());
     forAll(boundaryCell_, facei)
     {
         // The gradient of a pressure that is fixed at the face
         const label celli = boundaryCell_[facei];
         const fourFloats& Sf = boundarySf_[facei];
 
-        sums[celli] -=
-            boundaryPCoeff_[facei]/(rByV_[celli]*V_[celli])
+        boundary[facei] =
+           -boundaryPCoeff_[facei]/(rByV_[celli]*V_[celli])
            *(dot3(mobility[celli]*Sf, Sf)/dot3(Sf, Sf));
+        sums[celli] += boundary[facei];
     }
     sums.setSize(halo_.nCells());
     diagonal = single(sums);

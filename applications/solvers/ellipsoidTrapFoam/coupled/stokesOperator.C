@@ -227,7 +227,23 @@ void Foam::stokesOperator::addFlux
     {
         through[skewFaces_[i]] += skewFlux(i, pressureForce);
     }
+    List<float> boundaryThrough(boundaryCell_.size());
+    forAll(boundaryThrough, facei)
+    {
+        boundaryThrough[facei] = boundaryFlux(facei);
+    }
 
+    addFlux(through, boundaryThrough, phi);
+}
+
+
+void Foam::stokesOperator::addFlux
+(
+    const UList<float>& through,
+    const UList<float>& boundaryThrough,
+    surfaceScalarField& phi
+) const
+{
     label facei = 0;
     for (scalar& phif : phi.primitiveFieldRef())
     {
@@ -246,7 +262,7 @@ void Foam::stokesOperator::addFlux
                *(
                     coupled
                   ? through[facei++]
-                  : boundaryFlux(start + i)
+                  : boundaryThrough[start + i]
                 );
         }
     }

@@ -9,6 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "stokesPreconditioner.H"
+#include "PstreamReduceOps.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -98,12 +99,14 @@ Foam::stokesPreconditioner::stokesPreconditioner
     stokes_(stokes),
     diagonal_(dominant(stokes)),
     momentum_(stokes.halo(), stokes.momentumFaces(), diagonal_, false, 2),
-    pressure_()
+    pressure_(),
+    upper_(),
+    boundary_()
 {
-    List<float> upper, diagonal;
+    List<float> diagonal;
     const faceCoefficients faces
     (
-        stokes.laplacian(mobility(), upper, diagonal)
+        stokes.laplacian(mobility(), upper_, diagonal, boundary_)
     );
 
     pressure_.reset
@@ -158,6 +161,83 @@ void Foam::stokesPreconditioner::precondition
         z[i][3] = pressure;
     }
     stokes_.halo().exchange(z);
+}
+
+
+void Foam::stokesPreconditioner::conserve
+(
+    const scalarField& net,
+    const scalar relTol,
+    surfaceScalarField& phi
+) const
+{
+    // Enough for any factor that single precision can have
+    const label maxIterations = 40;
+
+    const cellHalo& halo = stokes_.halo();
+    const label n = halo.nCells();
+    const auto product = [n](const UList<float>& a, const UList<float>& b)
+    {
+        scalar sum = 0;
+        for (label i = 0; i < n; ++i)
+        {
+            sum += scalar(a[i])*b[i];
+        }
+        return returnReduce(sum, sumOp<scalar>());
+    };
+
+    // Conjugate gradients; the sweeps of several ranks are not quite symmetric,
+    // which the formula of Polak and Ribiere allows
+    List<float> r(single(scalarField(-net/stokes_.units().flux())));
+    List<float> p(halo.size(), 0.0f), d(p), Ld(n), change(n);
+    const scalar start = product(r, r);
+    scalar before = 1;
+
+    for
+    (
+        label i = 0;
+        i < maxIterations && product(r, r) > sqr(relTol)*start;
+        ++i
+    )
+    {
+        pressure_->source().deepCopy(r);
+        const UList<float>& z = pressure_->solve();
+        const scalar now = product(r, z);
+        const float beta = i > 0 ? product(change, z)/before : 0;
+        for (label celli = 0; celli < n; ++celli)
+        {
+            d[celli] = z[celli] + beta*d[celli];
+        }
+        halo.exchange(d);
+        for (label celli = 0; celli < n; ++celli)
+        {
+            Ld[celli] = pressure_->product(celli, d);
+        }
+        const float alpha = now/product(d, Ld);
+        for (label celli = 0; celli < n; ++celli)
+        {
+            p[celli] += alpha*d[celli];
+            change[celli] = -alpha*Ld[celli];
+            r[celli] += change[celli];
+        }
+        before = now;
+    }
+    halo.exchange(p);
+
+    const faceCoefficients faces(stokes_.momentumFaces());
+    List<float> through(upper_.size());
+    forAll(through, facei)
+    {
+        through[facei] =
+            upper_[facei]*(p[faces.neighbour[facei]] - p[faces.owner[facei]]);
+    }
+    List<float> boundaryThrough(boundary_.size());
+    forAll(boundaryThrough, facei)
+    {
+        boundaryThrough[facei] =
+            boundary_[facei]*p[stokes_.boundaryCells()[facei]];
+    }
+    stokes_.addFlux(through, boundaryThrough, phi);
 }
 
 
