@@ -229,7 +229,7 @@ Foam::steadyFlow::steadyFlow(const fvMesh& mesh, const solveType solve)
     flowFields(mesh),
     solve_(solve),
     controls_(mesh.solutionDict().subDict("SIMPLE")),
-    coupled_(controls_.getOrDefault("coupled", false)),
+    coupled_(controls_.getOrDefault("coupled", coupledFlow::handles(U_, p_))),
     consistent_(controls_.getOrDefault("consistent", true)),
     nNonOrthogonalCorrectors_
     (
@@ -248,7 +248,7 @@ Foam::steadyFlow::steadyFlow(const fvMesh& mesh, const solveType solve)
     checkControls();
     if (coupled_)
     {
-        coupledFlow::check(mesh_, controls_);
+        coupledFlow::check(U_, p_, controls_);
     }
 
     setRefCell(p_, controls_, pRefCell_, pRefValue_);
@@ -292,7 +292,7 @@ void Foam::steadyFlow::solveFrom(const flow& kept, const scalar tolerance)
 {
     restore(kept);
     convergence_.begin(tolerance);
-    solve();
+    solve(false);
 }
 
 
@@ -344,6 +344,12 @@ bool Foam::steadyFlow::accept()
 
 void Foam::steadyFlow::solve()
 {
+    solve(true);
+}
+
+
+void Foam::steadyFlow::solve(const bool scale)
+{
     Info<< "flow: solved from that in " << instance_ << " by "
         << (coupled_ ? "corrections of U and p together, checked by " : "")
         << (consistent_ ? "SIMPLEC" : "SIMPLE") << endl;
@@ -360,8 +366,19 @@ void Foam::steadyFlow::solve()
     if (coupled_)
     {
         together.reset(new coupledFlow(nu_, U_, p_, phi_));
+        // As in an iteration
+        const sigFpe::ignore noTrap;
+        const bool moves = gMax(mag(U_.primitiveField())()) > 0;
         together->setDirections();
+        if (scale && moves)
+        {
+            together->scale([this] { return momentum(); });
+        }
         UEqn = momentum();
+        if (scale && moves)
+        {
+            iterate(tmp<fvVectorMatrix>(UEqn()), true);
+        }
     }
     label nLinear = 0;
     scalar before = GREAT;
@@ -384,7 +401,8 @@ void Foam::steadyFlow::solve()
         {
             const scalar relTol = linearTolerance(before);
             before = iteration > 0 ? convergence_.excess() : GREAT;
-            nLinear += correct(*together, UEqn(), relTol);
+            const label n = correct(*together, UEqn(), relTol);
+            nLinear = n < 0 ? n : nLinear + n;
             UEqn = momentum();
             iterate(tmp<fvVectorMatrix>(UEqn()), true);
         }
@@ -394,7 +412,7 @@ void Foam::steadyFlow::solve()
         }
         ++iteration;
 
-        if (!convergence_.sound())
+        if (nLinear < 0 || !convergence_.sound())
         {
             const masterGate once;
             FatalIOErrorInFunction(controls_)

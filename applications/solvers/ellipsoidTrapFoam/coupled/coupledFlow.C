@@ -19,6 +19,25 @@ License
 #include "stokesGMRES.H"
 #include "surfaceInterpolate.H"
 
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// Does the velocity of the cells say what flows through?
+static bool isOpen(const fvPatchVectorField& Up)
+{
+    return
+        Up.assignable()
+     && !Up.coupled()
+     && !polyPatch::constraintType(Up.patch().type());
+}
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::tmp<Foam::surfaceScalarField> Foam::coupledFlow::setResidual
@@ -107,15 +126,33 @@ Foam::coupledFlow::coupledFlow
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::coupledFlow::check(const fvMesh& mesh, const dictionary& dict)
+bool Foam::coupledFlow::handles(const volVectorField& U, const volScalarField& p)
 {
-    if (!cellHalo::handles(mesh))
+    bool adjusted = false;
+    for (const fvPatchVectorField& Up : U.boundaryField())
+    {
+        adjusted = adjusted || (p.needReference() && isOpen(Up));
+    }
+
+    return cellHalo::handles(U.mesh()) && !adjusted;
+}
+
+
+void Foam::coupledFlow::check
+(
+    const volVectorField& U,
+    const volScalarField& p,
+    const dictionary& dict
+)
+{
+    if (!handles(U, p))
     {
         const masterGate once;
         FatalIOErrorInFunction(dict)
             << "coupled yes does not deal with coupled patches other than"
-            << " processor, and cyclic ones that do not turn vectors: set"
-            << " coupled no" << exit(FatalIOError);
+            << " processor, and cyclic ones that do not turn vectors, nor with"
+            << " an outflow that is adjusted to the inflow because no patch"
+            << " fixes the pressure: set coupled no" << exit(FatalIOError);
     }
 }
 
@@ -134,6 +171,58 @@ void Foam::coupledFlow::setDirections()
     );
     phi_ = -duration*fvc::snGrad(p_)*U_.mesh().magSf();
     U_.correctBoundaryConditions();
+}
+
+
+void Foam::coupledFlow::scale
+(
+    const std::function<tmp<fvVectorMatrix>()>& momentum
+)
+{
+    const vectorField U(U_.primitiveField());
+    const scalarField p(p_.primitiveField());
+    const auto set = [&](const scalar ofU, const scalar ofP)
+    {
+        U_.primitiveFieldRef() = ofU*U;
+        p_.primitiveFieldRef() = ofP*p;
+        U_.correctBoundaryConditions();
+        p_.correctBoundaryConditions();
+    };
+
+    // Of fluid at rest, of the velocity alone and of the pressure alone
+    List<fourFloats> rest(U.size()), ofU(rest), ofP(rest);
+    for (List<fourFloats>* r : {&rest, &ofU, &ofP})
+    {
+        set(r == &ofU, r == &ofP);
+        const tmp<fvVectorMatrix> UEqn(momentum());
+        fvVectorMatrix relaxed(UEqn());
+        relaxed.relax();
+        const volScalarField rAU(1/relaxed.A());
+        stokes_.set(UEqn(), rAU, U_, p_, phi_);
+        setResidual(UEqn(), rAU, *r);
+    }
+    forAll(rest, celli)
+    {
+        ofU[celli] -= rest[celli];
+        ofP[celli] -= rest[celli];
+    }
+
+    const stokesGMRES gmres(stokes_);
+    const scalar UU = gmres.inner(ofU, ofU), PP = gmres.inner(ofP, ofP);
+    const scalar UP = gmres.inner(ofU, ofP);
+    const scalar U0 = gmres.inner(ofU, rest), P0 = gmres.inner(ofP, rest);
+    const scalar determinant = UU*PP - sqr(UP);
+
+    if (determinant > 1e-6*UU*PP)
+    {
+        const scalar factor = (UP*P0 - PP*U0)/determinant;
+        set(factor, (UP*U0 - UU*P0)/determinant);
+        phi_ *= factor;
+    }
+    else
+    {
+        set(1, 1);
+    }
 }
 
 
@@ -162,6 +251,10 @@ Foam::label Foam::coupledFlow::correct
     const scalar negligible = 0.01;
 
     const scalar norm = gmres.norm(residual);
+    if (!std::isfinite(norm))
+    {
+        return -1;
+    }
     if (!preconditioner_.valid() || norm > negligible*firstNorm_)
     {
         preconditioner_.clear();

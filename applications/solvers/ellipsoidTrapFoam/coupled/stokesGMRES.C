@@ -219,10 +219,22 @@ Foam::stokesGMRES::stokesGMRES(const stokesOperator& stokes)
 
 Foam::scalar Foam::stokesGMRES::norm(const List<fourFloats>& residual) const
 {
-    List<fourFloats> w(scale_.size());
-    scaled(residual, w);
+    return sqrt(inner(residual, residual));
+}
 
-    return sqrt(products(krylovBasis(), 0, w)[0]);
+
+Foam::scalar Foam::stokesGMRES::inner
+(
+    const List<fourFloats>& r,
+    const List<fourFloats>& s
+) const
+{
+    krylovBasis u(1, List<fourFloats>(scale_.size()));
+    List<fourFloats> w(scale_.size());
+    scaled(r, u[0]);
+    scaled(s, w);
+
+    return products(u, 1, w)[0];
 }
 
 
