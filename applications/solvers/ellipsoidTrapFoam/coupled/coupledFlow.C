@@ -128,11 +128,14 @@ Foam::coupledFlow::coupledFlow
 
 bool Foam::coupledFlow::handles(const volVectorField& U, const volScalarField& p)
 {
-    bool adjusted = false;
+    bool open = false;
     for (const fvPatchVectorField& Up : U.boundaryField())
     {
-        adjusted = adjusted || (p.needReference() && isOpen(Up));
+        open = open || isOpen(Up);
     }
+
+    // Both collective
+    const bool adjusted = p.needReference() && open;
 
     return cellHalo::handles(U.mesh()) && !adjusted;
 }
