@@ -204,6 +204,22 @@ Foam::label Foam::steadyFlow::correct
 }
 
 
+Foam::autoPtr<Foam::coupledFlow> Foam::steadyFlow::begin(const bool scale)
+{
+    autoPtr<coupledFlow> together(new coupledFlow(nu_, U_, p_, phi_));
+
+    const bool moves = gMax(mag(U_.primitiveField())()) > 0;
+    together->setDirections();
+    if (scale && moves)
+    {
+        together->scale([this] { return momentum(); });
+        iterate(momentum(), true);
+    }
+
+    return together;
+}
+
+
 void Foam::steadyFlow::reportProgress(const label iteration) const
 {
     Info<< "flow: iteration " << iteration << ": "
@@ -365,20 +381,10 @@ void Foam::steadyFlow::solve(const bool scale)
     tmp<fvVectorMatrix> UEqn;
     if (coupled_)
     {
-        together.reset(new coupledFlow(nu_, U_, p_, phi_));
         // As in an iteration
         const sigFpe::ignore noTrap;
-        const bool moves = gMax(mag(U_.primitiveField())()) > 0;
-        together->setDirections();
-        if (scale && moves)
-        {
-            together->scale([this] { return momentum(); });
-        }
+        together = begin(scale);
         UEqn = momentum();
-        if (scale && moves)
-        {
-            iterate(tmp<fvVectorMatrix>(UEqn()), true);
-        }
     }
     label nLinear = 0;
     scalar before = GREAT;
