@@ -320,14 +320,15 @@ void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
         flowTetExcess& e = excess_[teti];
         e = flowTetExcess{{0, 0, 0, 0}, straightEdges(tet, edges)};
 
-        const tetCoordinates c(coordinates(tet, vertices_[tet.vertices[0]].x));
-        const tetFlow flow(flowIn(teti, c));
+        tetCoordinates c;
+        setCoordinates(teti, vertices_[tet.vertices[0]].x, c);
+        const tetFlow& flow = flowIn(c);
         volumes[teti] = flow.volume();
 
         for (label i = 0; i < 4; ++i)
         {
             areas[teti][i] = 3*mag(flow.volume()*c.gradient[i]);
-            fluxes[teti][i] = flow.quadraticFlux(i);
+            fluxes[teti][i] = flow.quadraticFlux(c.gradient, i);
         }
     }
 
