@@ -79,8 +79,52 @@ namespace Foam
         return straight;
     }
 
+    //- What velocity and gradient at the first vertex add to the net flux of
+    //  the quadratic velocity out of a tetrahedron, in units of these
+    static FixedList<scalar, 12> fluxByCentre
+    (
+        const flowTet& tet,
+        const UList<flowVertex>& vertices,
+        const scalar unit,
+        const scalar gradientUnit
+    )
+    {
+        vector edges[4];
+        for (label a = 0; a < 4; ++a)
+        {
+            edges[a] =
+                vertices[tet.vertices[a]].x - vertices[tet.vertices[0]].x;
+        }
+
+        // A third of the areas of the faces, inwards
+        const vector S[4] =
+        {
+            ((edges[2] - edges[1]) ^ (edges[1] - edges[3]))/6,
+            (edges[2] ^ edges[3])/6,
+            (edges[3] ^ edges[1])/6,
+            (edges[1] ^ edges[2])/6
+        };
+        tensor byGradient(Zero);
+        for (label a = 1; a < 4; ++a)
+        {
+            byGradient += (gradientUnit/8)*(S[0] + S[a])*edges[a];
+        }
+
+        FixedList<scalar, 12> flux;
+        for (direction k = 0; k < 3; ++k)
+        {
+            flux[k] = unit*S[0][k];
+        }
+        for (direction k = 0; k < 9; ++k)
+        {
+            flux[3 + k] = byGradient[k];
+        }
+        return flux;
+    }
+
     //- Spread the flux that is missing in the tetrahedra of a cell by the least
-    //  fluxes through the faces between them
+    //  fluxes through the faces between them and the least change of velocity
+    //  and gradient at its centre, which makes smaller kinks
     static void spread
     (
         const UList<flowTet>& tets,
@@ -88,11 +132,33 @@ namespace Foam
         const scalarField& volumes,
         const scalarField& missing,
         const label first,
-        UList<flowTetExcess>& excess
+        UList<flowTetExcess>& excess,
+        UList<flowVertex>& vertices
     )
     {
         const label n = volumes.size();
+        const scalar volume = sum(volumes);
+        const scalar unit = Foam::sqrt(100/volume);
+        const scalar gradientUnit = Foam::sqrt(1000/volume)/cbrt(volume);
+        List<FixedList<scalar, 12>> byCentre(n);
         scalarSquareMatrix conductances(n, Zero);
+
+        for (label i = 0; i < n; ++i)
+        {
+            byCentre[i] =
+                fluxByCentre(tets[first + i], vertices, unit, gradientUnit);
+
+            for (label j = 0; j <= i; ++j)
+            {
+                scalar product = 0;
+                for (label k = 0; k < 12; ++k)
+                {
+                    product += byCentre[i][k]*byCentre[j][k];
+                }
+                conductances(i, j) = product;
+                conductances(j, i) = product;
+            }
+        }
 
         const auto conductance =
             [&](const label i, const label k)
@@ -117,6 +183,20 @@ namespace Foam
 
         scalarField potential(n);
         LLTMatrix<scalar>(conductances).solve(potential, missing);
+
+        flowVertex& centre = vertices[tets[first].vertices[0]];
+        for (label i = 0; i < n; ++i)
+        {
+            for (direction k = 0; k < 3; ++k)
+            {
+                centre.u[k] += unit*potential[i]*byCentre[i][k];
+            }
+            for (direction k = 0; k < 9; ++k)
+            {
+                centre.gradient[k] +=
+                    gradientUnit*potential[i]*byCentre[i][3 + k];
+            }
+        }
 
         for (label i = 0; i < n; ++i)
         {
@@ -382,7 +462,8 @@ void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
             cellVolumes,
             missing,
             first,
-            excess_
+            excess_,
+            vertices_
         );
     }
 }
