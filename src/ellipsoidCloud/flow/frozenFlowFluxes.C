@@ -55,21 +55,25 @@ namespace Foam
         return edges;
     }
 
-    //- Those of the edges of a tetrahedron, a bit for each in lexical order
+    //- Those of the edges of a tetrahedron, a bit for each in lexical order;
+    //  fixed are the vertices among which they are
     static label straightEdges
     (
         const flowTet& tet,
-        const HashSet<edge, Hash<edge>>& edges
+        const HashSet<edge, Hash<edge>>& edges,
+        const bitSet& fixed
     )
     {
         label straight = 0;
-        label edgei = 0;
+        label edgei = 3;
 
-        for (label a = 0; a < 3; ++a)
+        for (label a = 1; a < 3; ++a)
         {
             for (label b = a + 1; b < 4; ++b, ++edgei)
             {
-                if (edges.found(edge(tet.vertices[a], tet.vertices[b])))
+                const edge e(tet.vertices[a], tet.vertices[b]);
+
+                if (fixed[e.first()] && fixed[e.second()] && edges.found(e))
                 {
                     straight |= 1 << edgei;
                 }
@@ -324,7 +328,7 @@ void Foam::frozenFlow::matchFluxes(const undecomposedFlow& undecomposed)
     // faces about it
     symmTensorField normals(vertices_.size(), Zero);
     vectorField missing(vertices_.size(), Zero);
-    labelHashSet corners;
+    DynamicList<label> corners(16);
 
     const auto compare =
         [&](const label facei, const label first, const label end)
@@ -334,10 +338,10 @@ void Foam::frozenFlow::matchFluxes(const undecomposedFlow& undecomposed)
             vector area(Zero);
 
             corners.clear();
-            corners.insert(mesh.faceOwner()[facei]);
+            corners.append(mesh.faceOwner()[facei]);
             if (patchi < 0)
             {
-                corners.insert(mesh.faceNeighbour()[facei]);
+                corners.append(mesh.faceNeighbour()[facei]);
             }
 
             for (label teti = first; teti < end; ++teti)
@@ -350,7 +354,10 @@ void Foam::frozenFlow::matchFluxes(const undecomposedFlow& undecomposed)
 
                 flux -= meanVelocity(a, b, c) & S;
                 area += S;
-                corners.insert({v[1], v[2], v[3]});
+                for (label a = teti == first ? 1 : 3; a < 4; ++a)
+                {
+                    corners.append(v[a]);
+                }
             }
 
             if (patchi >= 0 && isConstrained(mesh, patchi))
@@ -387,6 +394,7 @@ void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
     const polyMesh& mesh = undecomposed.mesh();
     const surfaceScalarField& phi = undecomposed.phi();
     const auto edges = wallEdges(mesh, tets_);
+    const bitSet fixed(fixedVertices(mesh, tets_, vertices_.size()));
 
     List<FixedList<scalar, 4>> areas(tets_.size());
     List<FixedList<scalar, 4>> fluxes(tets_.size());
@@ -398,7 +406,7 @@ void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
     {
         const flowTet& tet = tets_[teti];
         flowTetExcess& e = excess_[teti];
-        e = flowTetExcess{{0, 0, 0, 0}, straightEdges(tet, edges)};
+        e = flowTetExcess{{0, 0, 0, 0}, straightEdges(tet, edges, fixed)};
 
         tetCoordinates c;
         setCoordinates(teti, vertices_[tet.vertices[0]].x, c);
