@@ -392,21 +392,19 @@ void Foam::frozenFlow::matchFluxes(const undecomposedFlow& undecomposed)
 void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
 {
     const polyMesh& mesh = undecomposed.mesh();
-    const surfaceScalarField& phi = undecomposed.phi();
     const auto edges = wallEdges(mesh, tets_);
     const bitSet fixed(fixedVertices(mesh, tets_, vertices_.size()));
 
     List<FixedList<scalar, 4>> areas(tets_.size());
     List<FixedList<scalar, 4>> fluxes(tets_.size());
     scalarField volumes(tets_.size());
-
     excess_.setSize(tets_.size());
 
     forAll(tets_, teti)
     {
         const flowTet& tet = tets_[teti];
-        flowTetExcess& e = excess_[teti];
-        e = flowTetExcess{{0, 0, 0, 0}, straightEdges(tet, edges, fixed)};
+        excess_[teti] =
+            flowTetExcess{{0, 0, 0, 0}, straightEdges(tet, edges, fixed)};
 
         tetCoordinates c;
         setCoordinates(teti, vertices_[tet.vertices[0]].x, c);
@@ -424,7 +422,7 @@ void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
     const auto share =
         [&](const label facei, const label first, const label end)
         {
-            scalar missing = fluxThrough(phi, facei);
+            scalar missing = fluxThrough(undecomposed.phi(), facei);
             scalar area = 0;
 
             for (label i = first; i < end; ++i)
@@ -454,11 +452,10 @@ void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
 
         forAll(missing, i)
         {
-            missing[i] = -excess_[first + i].flux[0];
-            for (const scalar flux : fluxes[first + i])
-            {
-                missing[i] -= flux;
-            }
+            const FixedList<scalar, 4>& flux = fluxes[first + i];
+            missing[i] =
+                -excess_[first + i].flux[0]
+              - flux[0] - flux[1] - flux[2] - flux[3];
         }
         // A flow that is not free of divergence has it everywhere in the cell
         missing -= sum(missing)/sum(cellVolumes)*cellVolumes;
