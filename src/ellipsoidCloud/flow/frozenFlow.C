@@ -64,39 +64,45 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::frozenFlow::tetCoordinates Foam::frozenFlow::coordinates
+void Foam::frozenFlow::setCoordinates
 (
-    const flowTet& tet,
-    const point& x
+    const label teti,
+    const point& x,
+    tetCoordinates& c
 ) const
 {
-    tetCoordinates c;
-    c.vertices = tet.vertices;
-
-    const point& origin = vertices_[tet.vertices[0]].x;
-    const vector edges[3] =
+    if (c.tet != teti)
     {
-        vertices_[tet.vertices[1]].x - origin,
-        vertices_[tet.vertices[2]].x - origin,
-        vertices_[tet.vertices[3]].x - origin
-    };
+        c.tet = teti;
+        c.hasFlow = false;
+        c.vertices = tets_[teti].vertices;
+        c.origin = vertices_[c.vertices[0]].x;
 
-    // A flat tetrahedron holds nothing, but the walk has to get through it
-    const scalar volume = edges[0] & (edges[1] ^ edges[2]);
-    const scalar inverseVolume = 1/(volume != 0 ? volume : 1e-40);
+        const vector edges[3] =
+        {
+            vertices_[c.vertices[1]].x - c.origin,
+            vertices_[c.vertices[2]].x - c.origin,
+            vertices_[c.vertices[3]].x - c.origin
+        };
 
-    c.weight[0] = 1;
-    c.gradient[0] = Zero;
+        // A flat tetrahedron holds nothing, but the walk has to get through it
+        const scalar volume = edges[0] & (edges[1] ^ edges[2]);
+        const scalar inverseVolume = 1/(volume != 0 ? volume : 1e-40);
 
-    for (int a = 1; a < 4; ++a)
-    {
-        c.gradient[a] = inverseVolume*(edges[a % 3] ^ edges[(a + 1) % 3]);
-        c.weight[a] = c.gradient[a] & (x - origin);
-        c.gradient[0] -= c.gradient[a];
-        c.weight[0] -= c.weight[a];
+        c.gradient[0] = Zero;
+        for (int a = 1; a < 4; ++a)
+        {
+            c.gradient[a] = inverseVolume*(edges[a % 3] ^ edges[(a + 1) % 3]);
+            c.gradient[0] -= c.gradient[a];
+        }
     }
 
-    return c;
+    c.weight[0] = 1;
+    for (int a = 1; a < 4; ++a)
+    {
+        c.weight[a] = c.gradient[a] & (x - c.origin);
+        c.weight[0] -= c.weight[a];
+    }
 }
 
 
@@ -116,8 +122,7 @@ Foam::frozenFlow::locationType Foam::frozenFlow::walk
     for (label n = 0; n < maxTets; ++n)
     {
         const flowTet& tet = tets_[at.tet];
-        c = coordinates(tet, x);
-        c.tet = at.tet;
+        setCoordinates(at.tet, x, c);
 
         // Leave by the face most exceeded that leads on; a patch only where
         // no face does, since the way round a corner may graze it. Nor go
@@ -161,22 +166,24 @@ Foam::frozenFlow::locationType Foam::frozenFlow::walk
 }
 
 
-Foam::tetFlow Foam::frozenFlow::flowIn
-(
-    const label teti,
-    const tetCoordinates& c
-) const
+const Foam::tetFlow& Foam::frozenFlow::flowIn(tetCoordinates& c) const
 {
-    const auto vertex =
-        [&](const int a) -> const flowVertex&
-        {
-            return vertices_[c.vertices[a]];
-        };
+    if (!c.hasFlow)
+    {
+        const auto vertex =
+            [&](const int a) -> const flowVertex&
+            {
+                return vertices_[c.vertices[a]];
+            };
 
-    return tetFlow
-    (
-        c.gradient, vertex, excess_[teti].flux, excess_[teti].straight
-    );
+        c.hasFlow = true;
+        c.flow.set
+        (
+            c.gradient, vertex, excess_[c.tet].flux, excess_[c.tet].straight
+        );
+    }
+
+    return c.flow;
 }
 
 
@@ -310,7 +317,7 @@ bool Foam::frozenFlow::reach
 
 void Foam::frozenFlow::sample
 (
-    const tetCoordinates& c,
+    tetCoordinates& c,
     const bool derivatives,
     ellipsoid_flow_sample& sample
 ) const
@@ -354,7 +361,7 @@ void Foam::frozenFlow::sample
 
 void Foam::frozenFlow::velocity
 (
-    const tetCoordinates& c,
+    tetCoordinates& c,
     scalar velocity[3],
     scalar (*jacobian)[3]
 ) const
@@ -362,23 +369,24 @@ void Foam::frozenFlow::velocity
     if (scheme_ == stDivergenceFree)
     {
         // Beyond an open patch, what is not linear stays as it is there
-        tetCoordinates inside(c);
-        if (*std::min_element(c.weight, c.weight + 4) < -1e-9)
+        scalar inside[4];
+        std::copy_n(c.weight, 4, inside);
+        if (*std::min_element(inside, inside + 4) < -1e-9)
         {
-            toFace(inside.weight);
+            toFace(inside);
         }
 
         vector value;
         tensor derivatives;
 
-        flowIn(c.tet, c).evaluate
+        flowIn(c).evaluate
         (
-            inside.weight, value, jacobian ? &derivatives : nullptr
+            c.gradient, inside, value, jacobian ? &derivatives : nullptr
         );
         for (int a = 0; a < 4; ++a)
         {
             value +=
-                (c.weight[a] - inside.weight[a])*vertices_[c.vertices[a]].u;
+                (c.weight[a] - inside[a])*vertices_[c.vertices[a]].u;
         }
         copy(value, velocity);
         if (jacobian)

@@ -55,21 +55,25 @@ namespace Foam
         return edges;
     }
 
-    //- Those of the edges of a tetrahedron, a bit for each in lexical order
+    //- Those of the edges of a tetrahedron, a bit for each in lexical order;
+    //  fixed are the vertices among which they are
     static label straightEdges
     (
         const flowTet& tet,
-        const HashSet<edge, Hash<edge>>& edges
+        const HashSet<edge, Hash<edge>>& edges,
+        const bitSet& fixed
     )
     {
         label straight = 0;
-        label edgei = 0;
+        label edgei = 3;
 
-        for (label a = 0; a < 3; ++a)
+        for (label a = 1; a < 3; ++a)
         {
             for (label b = a + 1; b < 4; ++b, ++edgei)
             {
-                if (edges.found(edge(tet.vertices[a], tet.vertices[b])))
+                const edge e(tet.vertices[a], tet.vertices[b]);
+
+                if (fixed[e.first()] && fixed[e.second()] && edges.found(e))
                 {
                     straight |= 1 << edgei;
                 }
@@ -79,8 +83,52 @@ namespace Foam
         return straight;
     }
 
+    //- What velocity and gradient at the first vertex add to the net flux of
+    //  the quadratic velocity out of a tetrahedron, in units of these
+    static FixedList<scalar, 12> fluxByCentre
+    (
+        const flowTet& tet,
+        const UList<flowVertex>& vertices,
+        const scalar unit,
+        const scalar gradientUnit
+    )
+    {
+        vector edges[4];
+        for (label a = 0; a < 4; ++a)
+        {
+            edges[a] =
+                vertices[tet.vertices[a]].x - vertices[tet.vertices[0]].x;
+        }
+
+        // A third of the areas of the faces, inwards
+        const vector S[4] =
+        {
+            ((edges[2] - edges[1]) ^ (edges[1] - edges[3]))/6,
+            (edges[2] ^ edges[3])/6,
+            (edges[3] ^ edges[1])/6,
+            (edges[1] ^ edges[2])/6
+        };
+        tensor byGradient(Zero);
+        for (label a = 1; a < 4; ++a)
+        {
+            byGradient += (gradientUnit/8)*(S[0] + S[a])*edges[a];
+        }
+
+        FixedList<scalar, 12> flux;
+        for (direction k = 0; k < 3; ++k)
+        {
+            flux[k] = unit*S[0][k];
+        }
+        for (direction k = 0; k < 9; ++k)
+        {
+            flux[3 + k] = byGradient[k];
+        }
+        return flux;
+    }
+
     //- Spread the flux that is missing in the tetrahedra of a cell by the least
-    //  fluxes through the faces between them
+    //  fluxes through the faces between them and the least change of velocity
+    //  and gradient at its centre, which makes smaller kinks
     static void spread
     (
         const UList<flowTet>& tets,
@@ -88,11 +136,33 @@ namespace Foam
         const scalarField& volumes,
         const scalarField& missing,
         const label first,
-        UList<flowTetExcess>& excess
+        UList<flowTetExcess>& excess,
+        UList<flowVertex>& vertices
     )
     {
         const label n = volumes.size();
+        const scalar volume = sum(volumes);
+        const scalar unit = Foam::sqrt(100/volume);
+        const scalar gradientUnit = Foam::sqrt(1000/volume)/cbrt(volume);
+        List<FixedList<scalar, 12>> byCentre(n);
         scalarSquareMatrix conductances(n, Zero);
+
+        for (label i = 0; i < n; ++i)
+        {
+            byCentre[i] =
+                fluxByCentre(tets[first + i], vertices, unit, gradientUnit);
+
+            for (label j = 0; j <= i; ++j)
+            {
+                scalar product = 0;
+                for (label k = 0; k < 12; ++k)
+                {
+                    product += byCentre[i][k]*byCentre[j][k];
+                }
+                conductances(i, j) = product;
+                conductances(j, i) = product;
+            }
+        }
 
         const auto conductance =
             [&](const label i, const label k)
@@ -117,6 +187,20 @@ namespace Foam
 
         scalarField potential(n);
         LLTMatrix<scalar>(conductances).solve(potential, missing);
+
+        flowVertex& centre = vertices[tets[first].vertices[0]];
+        for (label i = 0; i < n; ++i)
+        {
+            for (direction k = 0; k < 3; ++k)
+            {
+                centre.u[k] += unit*potential[i]*byCentre[i][k];
+            }
+            for (direction k = 0; k < 9; ++k)
+            {
+                centre.gradient[k] +=
+                    gradientUnit*potential[i]*byCentre[i][3 + k];
+            }
+        }
 
         for (label i = 0; i < n; ++i)
         {
@@ -244,7 +328,7 @@ void Foam::frozenFlow::matchFluxes(const undecomposedFlow& undecomposed)
     // faces about it
     symmTensorField normals(vertices_.size(), Zero);
     vectorField missing(vertices_.size(), Zero);
-    labelHashSet corners;
+    DynamicList<label> corners(16);
 
     const auto compare =
         [&](const label facei, const label first, const label end)
@@ -254,10 +338,10 @@ void Foam::frozenFlow::matchFluxes(const undecomposedFlow& undecomposed)
             vector area(Zero);
 
             corners.clear();
-            corners.insert(mesh.faceOwner()[facei]);
+            corners.append(mesh.faceOwner()[facei]);
             if (patchi < 0)
             {
-                corners.insert(mesh.faceNeighbour()[facei]);
+                corners.append(mesh.faceNeighbour()[facei]);
             }
 
             for (label teti = first; teti < end; ++teti)
@@ -270,7 +354,10 @@ void Foam::frozenFlow::matchFluxes(const undecomposedFlow& undecomposed)
 
                 flux -= meanVelocity(a, b, c) & S;
                 area += S;
-                corners.insert({v[1], v[2], v[3]});
+                for (label a = teti == first ? 1 : 3; a < 4; ++a)
+                {
+                    corners.append(v[a]);
+                }
             }
 
             if (patchi >= 0 && isConstrained(mesh, patchi))
@@ -305,29 +392,29 @@ void Foam::frozenFlow::matchFluxes(const undecomposedFlow& undecomposed)
 void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
 {
     const polyMesh& mesh = undecomposed.mesh();
-    const surfaceScalarField& phi = undecomposed.phi();
     const auto edges = wallEdges(mesh, tets_);
+    const bitSet fixed(fixedVertices(mesh, tets_, vertices_.size()));
 
     List<FixedList<scalar, 4>> areas(tets_.size());
     List<FixedList<scalar, 4>> fluxes(tets_.size());
     scalarField volumes(tets_.size());
-
     excess_.setSize(tets_.size());
 
     forAll(tets_, teti)
     {
         const flowTet& tet = tets_[teti];
-        flowTetExcess& e = excess_[teti];
-        e = flowTetExcess{{0, 0, 0, 0}, straightEdges(tet, edges)};
+        excess_[teti] =
+            flowTetExcess{{0, 0, 0, 0}, straightEdges(tet, edges, fixed)};
 
-        const tetCoordinates c(coordinates(tet, vertices_[tet.vertices[0]].x));
-        const tetFlow flow(flowIn(teti, c));
+        tetCoordinates c;
+        setCoordinates(teti, vertices_[tet.vertices[0]].x, c);
+        const tetFlow& flow = flowIn(c);
         volumes[teti] = flow.volume();
 
         for (label i = 0; i < 4; ++i)
         {
             areas[teti][i] = 3*mag(flow.volume()*c.gradient[i]);
-            fluxes[teti][i] = flow.quadraticFlux(i);
+            fluxes[teti][i] = flow.quadraticFlux(c.gradient, i);
         }
     }
 
@@ -335,7 +422,7 @@ void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
     const auto share =
         [&](const label facei, const label first, const label end)
         {
-            scalar missing = fluxThrough(phi, facei);
+            scalar missing = fluxThrough(undecomposed.phi(), facei);
             scalar area = 0;
 
             for (label i = first; i < end; ++i)
@@ -365,11 +452,10 @@ void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
 
         forAll(missing, i)
         {
-            missing[i] = -excess_[first + i].flux[0];
-            for (const scalar flux : fluxes[first + i])
-            {
-                missing[i] -= flux;
-            }
+            const FixedList<scalar, 4>& flux = fluxes[first + i];
+            missing[i] =
+                -excess_[first + i].flux[0]
+              - flux[0] - flux[1] - flux[2] - flux[3];
         }
         // A flow that is not free of divergence has it everywhere in the cell
         missing -= sum(missing)/sum(cellVolumes)*cellVolumes;
@@ -381,7 +467,8 @@ void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
             cellVolumes,
             missing,
             first,
-            excess_
+            excess_,
+            vertices_
         );
     }
 }

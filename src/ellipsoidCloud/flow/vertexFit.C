@@ -15,6 +15,8 @@ License
 #include "volFields.H"
 #include "wallPolyPatch.H"
 
+#include <algorithm>
+
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -198,45 +200,32 @@ namespace Foam
             scalar R[nUnknowns][nColumns];
             bool kept[nUnknowns];
 
+            FixedList<scalar, nColumns> before(0.0);
+            for (const auto& row : rows_)
+            {
+                for (direction j = 0; j < nUnknowns; ++j)
+                {
+                    before[j] += sqr(row[j]);
+                }
+            }
+
             for (direction j = 0; j < nUnknowns; ++j)
             {
-                scalar before = 0;
-                for (const auto& row : rows_)
-                {
-                    before += sqr(row[j]);
-                }
-
-                for (direction i = 0; i < j; ++i)
-                {
-                    if (kept[i])
-                    {
-                        project(i, j, R[i][j]);
-                    }
-                }
-
                 scalar norm = 0;
                 for (const auto& row : rows_)
                 {
                     norm += sqr(row[j]);
                 }
 
-                kept[j] = norm > 1e-4*before && norm > VSMALL;
-                const scalar inverse = kept[j] ? 1/Foam::sqrt(norm) : 0;
-                R[j][j] = inverse;
-                for (auto& row : rows_)
+                kept[j] = norm > 1e-4*before[j] && norm > VSMALL;
+                std::fill_n(R[j], nColumns, scalar(0));
+                if (kept[j])
                 {
-                    row[j] *= inverse;
+                    takeAlong(j, 1/Foam::sqrt(norm), R[j]);
                 }
             }
 
             vector x[nUnknowns];
-            for (direction j = 0; j < nUnknowns; ++j)
-            {
-                for (direction k = nUnknowns; kept[j] && k < nColumns; ++k)
-                {
-                    project(j, k, R[j][k]);
-                }
-            }
             for (direction j = nUnknowns; j-- > 0;)
             {
                 x[j] = Zero;
@@ -266,18 +255,31 @@ namespace Foam
 
     private:
 
-        //- Take a column's part along a normalised one away
-        void project(const direction along, const direction of, scalar& part)
+        //- Normalise a column and take the later ones' parts along it away.
+        //  In the place of a part along itself is the inverse norm.
+        void takeAlong
+        (
+            const direction along,
+            const scalar inverseNorm,
+            scalar parts[nColumns]
+        )
         {
-            part = 0;
-            for (const auto& row : rows_)
+            for (auto& row : rows_)
             {
-                part += row[along]*row[of];
+                row[along] *= inverseNorm;
+                for (direction k = along + 1; k < nColumns; ++k)
+                {
+                    parts[k] += row[along]*row[k];
+                }
             }
             for (auto& row : rows_)
             {
-                row[of] -= part*row[along];
+                for (direction k = along + 1; k < nColumns; ++k)
+                {
+                    row[k] -= parts[k]*row[along];
+                }
             }
+            parts[along] = inverseNorm;
         }
     };
 
