@@ -89,6 +89,26 @@ void Foam::ellipsoidCloud::makeInjections()
 }
 
 
+void Foam::ellipsoidCloud::checkFlowType() const
+{
+    const masterGate once;
+
+    if (occupancy_.valid() && flowType_ != OWN)
+    {
+        FatalIOErrorInFunction(properties_.subDict("occupancy"))
+            << "Cells that block the flow, occupancy, need the flow of"
+            << " ellipsoidTrapFoam" << exit(FatalIOError);
+    }
+    if (flowType_ == UNSTEADY && !properties_.section("capture").found("speed"))
+    {
+        FatalIOErrorInFunction(properties_)
+            << "capture/speed is missing: in an unsteady flow there is no one"
+            << " inlet speed that speedFraction could be of"
+            << exit(FatalIOError);
+    }
+}
+
+
 void Foam::ellipsoidCloud::checkClock() const
 {
     const Time& time = mesh_.time();
@@ -170,9 +190,10 @@ void Foam::ellipsoidCloud::addNew(const scalar start, const scalar end)
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
+Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
 :
     mesh_(mesh),
+    flowType_(type),
     properties_(mesh),
     earlier_(mesh.time()),
     undecomposed_(new undecomposedFlow(mesh)),
@@ -198,6 +219,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
 
     checkClock();
     makeTables();
+    checkFlowType();
 
     {
         const masterGate once;
@@ -226,7 +248,13 @@ void Foam::ellipsoidCloud::setFlow
 {
     undecomposed_->gather(U, p, phi);
 
-    domain_.reset(new cellDomain(properties_, *undecomposed_, field_));
+    domain_.reset
+    (
+        new cellDomain
+        (
+            properties_, *undecomposed_, field_, flowType_ == UNSTEADY
+        )
+    );
     criterion_.setInletSpeed(inletFlux::speedOf(*undecomposed_));
 
     const inletFlux through(U, phi);
@@ -248,7 +276,7 @@ void Foam::ellipsoidCloud::setFlow
     {
         occupancy_->setDomain(*domain_);
     }
-    else
+    else if (flowType_ != UNSTEADY)
     {
         undecomposed_.clear();
     }
@@ -267,6 +295,11 @@ void Foam::ellipsoidCloud::setFlow
     Info<< "ellipsoidCloud: " << domain_->flow.nTets() << " tetrahedra, "
         << domain_->walls.size() << " wall facets; slow is below "
         << criterion_.slowSpeed() << " m/s" << endl;
+
+    if (flowType_ == UNSTEADY)
+    {
+        begin();
+    }
 }
 
 
@@ -304,38 +337,29 @@ void Foam::ellipsoidCloud::renewFlow
 }
 
 
-void Foam::ellipsoidCloud::begin()
+void Foam::ellipsoidCloud::advance
+(
+    const volVectorField& U,
+    const volScalarField& p,
+    const surfaceScalarField& phi
+)
 {
-    const fileName folder(statistics_->log.name().path());
+    const scalar end = presentTime(mesh_.time());
 
-    // Tables that reach beyond the start are cut there
-    const bool goesOn = earlier_.found();
-    const bool cut =
-        mesh_.time().times().last().value() > mesh_.time().value();
-
-    if (Pstream::master() && isDir(folder) && (cut || !goesOn))
+    // -postProcess executes at the start, too
+    if (!(end > time_))
     {
-        const fileName copy(folder + ".part");
-
-        if
-        (
-            (goesOn && !cp(folder, copy))
-         || !mvBak(folder, "bak")
-         || (goesOn && !mv(copy, folder))
-        )
-        {
-            cannotWrite(folder);
-        }
-        Info<< "ellipsoidCloud: the tables that were in " << folder.c_str()
-            << " are kept beside it, as .bak" << endl;
+        return;
     }
 
-    statistics_->log.open();
-    tracks_->file.open();
-    if (occupancy_.valid())
+    undecomposed_->gather(U, p, phi);
+    domain_->flow.advance(*undecomposed_, fluidDensity(), time_, end);
+    for (cellInjection& injection : injections_)
     {
-        occupancy_->begin();
+        injection.renew();
     }
+
+    evolve();
 }
 
 

@@ -265,9 +265,16 @@ void Foam::ellipsoidCloud::write()
 {
     const Time& time = mesh_.time();
 
+    // The time of a steady flow of another solver is of our clock alone
+    if (flowType_ == STEADY || !time.writeTime())
+    {
+        writePoses();
+        return;
+    }
+
     checkpoint::begin(time);
 
-    if (!time.write())
+    if (flowType_ == OWN && !time.write())
     {
         cannotWrite(time.path()/time.timeName()/"uniform"/"time");
     }
@@ -377,34 +384,6 @@ void Foam::ellipsoidCloud::writePoses() const
     if (Pstream::master())
     {
         Foam::writePoses(tracks_->set(), cells_, mesh_.time().timeName());
-    }
-}
-
-
-void Foam::ellipsoidCloud::finish()
-{
-    if (Pstream::master())
-    {
-        DynamicList<cellTracks::row> rows;
-        for (cellState& cell : cells_)
-        {
-            if (cell.fate != cellState::waiting)
-            {
-                tracks_->finish(cell, rows);
-            }
-        }
-        tracks_->take(rows);
-    }
-    tracks_->flush();
-
-    reportWork();
-
-    if (Pstream::master())
-    {
-        statistics_->update(cells_);
-        statistics_->reportContact(Info);
-        statistics_->write(Info);
-        tracks_->writeVTP();
     }
 }
 

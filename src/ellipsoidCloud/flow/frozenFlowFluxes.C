@@ -321,7 +321,7 @@ void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
         e = flowTetExcess{{0, 0, 0, 0}, straightEdges(tet, edges)};
 
         const tetCoordinates c(coordinates(tet, vertices_[tet.vertices[0]].x));
-        const tetFlow flow(flowIn(teti, c));
+        const tetFlow flow(flowIn(vertices_, excess_, teti, c));
         volumes[teti] = flow.volume();
 
         for (label i = 0; i < 4; ++i)

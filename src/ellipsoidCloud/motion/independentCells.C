@@ -107,7 +107,8 @@ Foam::independentCells::independentCells
     (
         properties,
         undecomposed,
-        electricField::read(properties.section("forces"), mesh, undecomposed)
+        electricField::read(properties.section("forces"), mesh, undecomposed),
+        false
     )
 {
     criterion_.setInletSpeed(inletFlux::speedOf(undecomposed));
