@@ -292,6 +292,11 @@ void Foam::ellipsoidCloud::setFlow
         )
     );
 
+    particles_.reset
+    (
+        new cellParticles(mesh_, population_, [this]() { return localCells(); })
+    );
+
     Info<< "ellipsoidCloud: " << domain_->flow.nTets() << " tetrahedra, "
         << domain_->walls.size() << " wall facets; slow is below "
         << criterion_.slowSpeed() << " m/s" << endl;

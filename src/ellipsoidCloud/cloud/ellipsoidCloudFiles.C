@@ -174,12 +174,10 @@ void Foam::ellipsoidCloud::checkCells() const
 }
 
 
-void Foam::ellipsoidCloud::writeParcels() const
+Foam::DynamicList<Foam::cellParticles::particle>
+Foam::ellipsoidCloud::localCells() const
 {
-    Cloud<ellipsoidParcel> parcels
-    (
-        mesh_, ellipsoidParcel::cloudName, IDLList<ellipsoidParcel>()
-    );
+    DynamicList<cellParticles::particle> particles;
 
     for (const cellState& cell : cells_)
     {
@@ -188,13 +186,33 @@ void Foam::ellipsoidCloud::writeParcels() const
 
         if (celli >= 0)
         {
-            parcels.addParticle(new ellipsoidParcel(mesh_, celli, cell));
+            particles.append({cell, celli});
         }
+    }
+
+    return particles;
+}
+
+
+void Foam::ellipsoidCloud::writeParcels() const
+{
+    Cloud<ellipsoidParcel> parcels
+    (
+        mesh_, ellipsoidParcel::cloudName, IDLList<ellipsoidParcel>()
+    );
+
+    for (const cellParticles::particle& cell : localCells())
+    {
+        parcels.addParticle
+        (
+            new ellipsoidParcel(mesh_, cell.second, cell.first)
+        );
     }
 
     // OpenFOAM's number of particles so far
     ellipsoidParcel::particleCount_ = statistics_->size();
     parcels.write();
+    particles_->writeFiles();
 }
 
 

@@ -110,7 +110,10 @@ void Foam::ellipsoidCloud::finish()
         statistics_->update(cells_);
         statistics_->reportContact(Info);
         statistics_->write(Info);
-        tracks_->writeVTP();
+        tracks_->writeVTP
+        (
+            [&](const label id) { return statistics_->sizeOf(id); }
+        );
     }
 }
 
