@@ -74,6 +74,10 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
     autoPtr<flowFields> flow(steadyFlow::New(mesh, solve));
     const bool accepted = flow->accept();
 
+    if (!accepted && cells.valid())
+    {
+        cells->checkInjections(flow->U(), flow->p(), flow->phi());
+    }
     if (!accepted && dryRun)
     {
         Info<< "flow: to be solved; when that is done, -dry-run says more"

@@ -111,6 +111,7 @@ Foam::independentCells::independentCells
         false
     )
 {
+    domain_.flow.renew(undecomposed, properties.options().fluid_density);
     criterion_.setInletSpeed(inletFlux::speedOf(undecomposed));
 }
 

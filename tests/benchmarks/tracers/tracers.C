@@ -157,7 +157,7 @@ class tracer
         {
             return false;
         }
-        flow_.velocity(c, u.v_, nullptr);
+        flow_.velocity(0, c, u.v_, nullptr);
         return true;
     }
 
@@ -500,16 +500,17 @@ int main(int argc, char *argv[])
     undecomposed.gather(U, p, phi);
 
     scalar clock = seconds();
-    const frozenFlow flow
+    frozenFlow flow
     (
         undecomposed,
-        997.5,
         frozenFlow::schemeNames
         [
             args.getOrDefault<word>("interpolation", "divergenceFree")
         ],
-        nullptr
+        nullptr,
+        false
     );
+    flow.renew(undecomposed, 997.5);
     Info<< "made in " << seconds() - clock << " s" << endl;
     checkVelocity(flow, phi);
     if (known != "none")
