@@ -131,7 +131,10 @@ namespace Foam
         {
             const IOField<Type> values
             (
-                ellipsoidParcel::fileIn(c, fileOf(field, d), IOobject::MUST_READ),
+                ellipsoidParcel::fileIn
+                (
+                    c, fileOf(field, d), IOobject::MUST_READ
+                ),
                 c.size() > 0
             );
             c.checkFieldIOobject(c, values);
@@ -157,7 +160,11 @@ namespace Foam
         {
             IOField<Type> values
             (
-                ellipsoidParcel::fileIn(c, fileOf(field, d), IOobject::NO_READ), c.size()
+                ellipsoidParcel::fileIn
+                (
+                    c, fileOf(field, d), IOobject::NO_READ
+                ),
+                c.size()
             );
 
             forAll(cells, i)

@@ -532,7 +532,11 @@ void Foam::frozenFlow::velocity
     scalar laterJacobian[3][3];
     velocityOf
     (
-        laterVertices_, laterExcess_, c, later, jacobian ? laterJacobian : nullptr
+        laterVertices_,
+        laterExcess_,
+        c,
+        later,
+        jacobian ? laterJacobian : nullptr
     );
 
     for (int i = 0; i < 3; ++i)
