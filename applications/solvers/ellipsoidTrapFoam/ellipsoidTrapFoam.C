@@ -58,95 +58,58 @@ using namespace Foam;
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
-//- Move the cells from the start of the run to its end, in the flow of the empty
-//- device or, where they block it, in that about those that are held
-static void track(Time& runTime, ellipsoidCloud& cells, flowFields& empty)
-{
-    autoPtr<occupiedFlow> occupied;
-    if (cells.occupied())
-    {
-        occupied.reset(new occupiedFlow(empty, cells));
-    }
-
-    cells.begin();
-    if (occupied.valid())
-    {
-        occupied->begin();
-    }
-
-    while (runTime.loop())
-    {
-        cells.evolve();
-        if (occupied.valid())
-        {
-            occupied->update();
-        }
-
-        if (runTime.writeTime())
-        {
-            cells.write();
-        }
-    }
-
-    cells.finish();
-}
-
-
 //- The flow, then the cells
 static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
 {
-    const bool flowOnly = args.found("flowOnly");
     const bool dryRun = args.found("dry-run");
     const flowFields::solveType solve =
         args.found("frozenFlow") ? flowFields::NO : flowFields::solveOf(mesh);
 
     // Read before the flow takes its time: bad input ends the run here
     autoPtr<ellipsoidCloud> cells;
-    if (!flowOnly)
+    if (!args.found("flowOnly"))
     {
-        cells.reset(new ellipsoidCloud(mesh));
+        cells.reset(new ellipsoidCloud(mesh, ellipsoidCloud::OWN));
     }
 
     autoPtr<flowFields> flow(steadyFlow::New(mesh, solve));
     const bool accepted = flow->accept();
 
-    if (!accepted && !flowOnly)
+    if (!accepted && cells.valid())
     {
         cells->checkInjections(flow->U(), flow->p(), flow->phi());
     }
-    if (!accepted && !dryRun)
+    if (!accepted && dryRun)
+    {
+        Info<< "flow: to be solved; when that is done, -dry-run says more"
+            << endl;
+        return;
+    }
+    if (!accepted)
     {
         flow->solve();
         flow->write();
     }
+    flow->report(cells.valid() ? cells->fluidDensity() : 0);
 
-    if (accepted || !dryRun)
+    if (!cells.valid())
     {
-        flow->report(flowOnly ? 0 : cells->fluidDensity());
-
-        if (!flowOnly)
-        {
-            cells->setFlow(flow->U(), flow->p(), flow->phi());
-        }
-    }
-    else
-    {
-        Info<< "flow: to be solved; when that is done, -dry-run says more"
-            << endl;
+        return;
     }
 
+    cells->setFlow(flow->U(), flow->p(), flow->phi());
     if (dryRun)
     {
-        if (accepted && !flowOnly)
-        {
-            cells->forecast();
-        }
-        Info<< "Nothing was solved or written" << endl;
+        cells->forecast();
+        return;
     }
-    else if (!flowOnly)
+
+    autoPtr<occupiedFlow> occupied;
+    if (cells->occupied())
     {
-        track(runTime, *cells, *flow);
+        occupied.reset(new occupiedFlow(*flow, *cells));
     }
+    cells->track(runTime, 0, occupied.get());
 }
 
 
@@ -220,6 +183,10 @@ int main(int argc, char *argv[])
 
     runCase(args, mesh, runTime);
 
+    if (dryRun)
+    {
+        Info<< "Nothing was solved or written" << endl;
+    }
     Info<< "End\n" << endl;
 
     return 0;

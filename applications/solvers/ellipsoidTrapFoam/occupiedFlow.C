@@ -9,7 +9,6 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "occupiedFlow.H"
-#include "ellipsoidCloud.H"
 #include "foamVersions.H"
 #include "masterGate.H"
 #include "readViscosity.H"

@@ -118,7 +118,7 @@ Foam::inletPlane::inletPlane
     const undecomposedFlow& undecomposed
 )
 {
-    const patchInflow patch(dict, undecomposed);
+    const patchInflow patch(dict, undecomposed, false);
     const pointField& corners = patch.corners;
 
     setDirections(patch);

@@ -146,6 +146,12 @@ namespace Foam
 
     static fileName cellFolder(const fileName& path)
     {
+        return path/cloud::prefix/"ellipsoidCloudRestart";
+    }
+
+    //- And that of the same cells for other programs
+    static fileName outputFolder(const fileName& path)
+    {
         return path/cloud::prefix/"ellipsoidCloud";
     }
 
@@ -441,6 +447,7 @@ void Foam::checkpoint::begin(const Time& time)
     meet();
     rm(markFile(path));
     rmDir(cellFolder(path), true);
+    rmDir(outputFolder(path), true);
 }
 
 

@@ -67,7 +67,13 @@ void Foam::ellipsoidCloud::makeDomain()
 {
     if (!domain_.valid())
     {
-        domain_.reset(new cellDomain(properties_, *undecomposed_, field_));
+        domain_.reset
+        (
+            new cellDomain
+            (
+                properties_, *undecomposed_, field_, flowType_ == UNSTEADY
+            )
+        );
         field_.clear();
     }
 }
@@ -96,6 +102,26 @@ Foam::label Foam::ellipsoidCloud::makeInjections(const bool hasFlow)
     }
 
     return nCells;
+}
+
+
+void Foam::ellipsoidCloud::checkFlowType() const
+{
+    const masterGate once;
+
+    if (occupancy_.valid() && flowType_ != OWN)
+    {
+        FatalIOErrorInFunction(properties_.subDict("occupancy"))
+            << "Cells that block the flow, occupancy, need the flow of"
+            << " ellipsoidTrapFoam" << exit(FatalIOError);
+    }
+    if (flowType_ == UNSTEADY && !properties_.section("capture").found("speed"))
+    {
+        FatalIOErrorInFunction(properties_)
+            << "capture/speed is missing: in an unsteady flow there is no one"
+            << " inlet speed that speedFraction could be of"
+            << exit(FatalIOError);
+    }
 }
 
 
@@ -191,9 +217,10 @@ void Foam::ellipsoidCloud::addNew(const scalar start, const scalar end)
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
+Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
 :
     mesh_(mesh),
+    flowType_(type),
     properties_(mesh),
     earlier_(mesh.time()),
     undecomposed_(new undecomposedFlow(mesh)),
@@ -219,6 +246,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
 
     checkClock();
     makeTables();
+    checkFlowType();
 
     {
         const masterGate once;
@@ -274,7 +302,10 @@ void Foam::ellipsoidCloud::setFlow
     undecomposed_->gather(U, p, phi);
 
     const inletFlux through(U, phi);
-    through.checkOpen(mesh_);
+    if (flowType_ != UNSTEADY)
+    {
+        through.checkOpen(mesh_);
+    }
 
     makeDomain();
     domain_->flow.renew(*undecomposed_, fluidDensity());
@@ -301,7 +332,7 @@ void Foam::ellipsoidCloud::setFlow
     {
         occupancy_->setDomain(*domain_);
     }
-    else
+    else if (flowType_ != UNSTEADY)
     {
         undecomposed_.clear();
     }
@@ -317,9 +348,19 @@ void Foam::ellipsoidCloud::setFlow
         )
     );
 
+    particles_.reset
+    (
+        new cellParticles(mesh_, population_, [this]() { return localCells(); })
+    );
+
     Info<< "ellipsoidCloud: " << domain_->flow.nTets() << " tetrahedra, "
         << domain_->walls.size() << " wall facets; slow is below "
         << criterion_.slowSpeed() << " m/s" << endl;
+
+    if (flowType_ == UNSTEADY)
+    {
+        begin();
+    }
 }
 
 
@@ -357,38 +398,29 @@ void Foam::ellipsoidCloud::renewFlow
 }
 
 
-void Foam::ellipsoidCloud::begin()
+void Foam::ellipsoidCloud::advance
+(
+    const volVectorField& U,
+    const volScalarField& p,
+    const surfaceScalarField& phi
+)
 {
-    const fileName folder(statistics_->log.name().path());
+    const scalar end = presentTime(mesh_.time());
 
-    // Tables that reach beyond the start are cut there
-    const bool goesOn = earlier_.found();
-    const bool cut =
-        mesh_.time().times().last().value() > mesh_.time().value();
-
-    if (Pstream::master() && isDir(folder) && (cut || !goesOn))
+    // -postProcess executes at the start, too
+    if (!(end > time_))
     {
-        const fileName copy(folder + ".part");
-
-        if
-        (
-            (goesOn && !cp(folder, copy))
-         || !mvBak(folder, "bak")
-         || (goesOn && !mv(copy, folder))
-        )
-        {
-            cannotWrite(folder);
-        }
-        Info<< "ellipsoidCloud: the tables that were in " << folder.c_str()
-            << " are kept beside it, as .bak" << endl;
+        return;
     }
 
-    statistics_->log.open();
-    tracks_->file.open();
-    if (occupancy_.valid())
+    undecomposed_->gather(U, p, phi);
+    domain_->flow.advance(*undecomposed_, fluidDensity(), time_, end);
+    for (cellInjection& injection : injections_)
     {
-        occupancy_->begin();
+        injection.renew();
     }
+
+    evolve();
 }
 
 

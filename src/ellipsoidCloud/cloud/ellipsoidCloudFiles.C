@@ -174,12 +174,10 @@ void Foam::ellipsoidCloud::checkCells() const
 }
 
 
-void Foam::ellipsoidCloud::writeParcels() const
+Foam::DynamicList<Foam::cellParticles::particle>
+Foam::ellipsoidCloud::localCells() const
 {
-    Cloud<ellipsoidParcel> parcels
-    (
-        mesh_, ellipsoidParcel::cloudName, IDLList<ellipsoidParcel>()
-    );
+    DynamicList<cellParticles::particle> particles;
 
     for (const cellState& cell : cells_)
     {
@@ -188,13 +186,33 @@ void Foam::ellipsoidCloud::writeParcels() const
 
         if (celli >= 0)
         {
-            parcels.addParticle(new ellipsoidParcel(mesh_, celli, cell));
+            particles.append({cell, celli});
         }
+    }
+
+    return particles;
+}
+
+
+void Foam::ellipsoidCloud::writeParcels() const
+{
+    Cloud<ellipsoidParcel> parcels
+    (
+        mesh_, ellipsoidParcel::cloudName, IDLList<ellipsoidParcel>()
+    );
+
+    for (const cellParticles::particle& cell : localCells())
+    {
+        parcels.addParticle
+        (
+            new ellipsoidParcel(mesh_, cell.second, cell.first)
+        );
     }
 
     // OpenFOAM's number of particles so far
     ellipsoidParcel::particleCount_ = statistics_->size();
     parcels.write();
+    particles_->writeFiles();
 }
 
 
@@ -265,9 +283,16 @@ void Foam::ellipsoidCloud::write()
 {
     const Time& time = mesh_.time();
 
+    // The time of a steady flow of another solver is of our clock alone
+    if (flowType_ == STEADY || !time.writeTime())
+    {
+        writePoses();
+        return;
+    }
+
     checkpoint::begin(time);
 
-    if (!time.write())
+    if (flowType_ == OWN && !time.write())
     {
         cannotWrite(time.path()/time.timeName()/"uniform"/"time");
     }
@@ -377,34 +402,6 @@ void Foam::ellipsoidCloud::writePoses() const
     if (Pstream::master())
     {
         Foam::writePoses(tracks_->set(), cells_, mesh_.time().timeName());
-    }
-}
-
-
-void Foam::ellipsoidCloud::finish()
-{
-    if (Pstream::master())
-    {
-        DynamicList<cellTracks::row> rows;
-        for (cellState& cell : cells_)
-        {
-            if (cell.fate != cellState::waiting)
-            {
-                tracks_->finish(cell, rows);
-            }
-        }
-        tracks_->take(rows);
-    }
-    tracks_->flush();
-
-    reportWork();
-
-    if (Pstream::master())
-    {
-        statistics_->update(cells_);
-        statistics_->reportContact(Info);
-        statistics_->write(Info);
-        tracks_->writeVTP();
     }
 }
 

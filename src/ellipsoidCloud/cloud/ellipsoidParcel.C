@@ -22,7 +22,7 @@ namespace Foam
     defineTemplateTypeNameAndDebug(Cloud<ellipsoidParcel>, 0);
 }
 
-const Foam::word Foam::ellipsoidParcel::cloudName("ellipsoidCloud");
+const Foam::word Foam::ellipsoidParcel::cloudName("ellipsoidCloudRestart");
 
 const Foam::Enum<Foam::cellState::fateType> Foam::cellState::fateNames
 ({
@@ -111,21 +111,6 @@ namespace Foam
           : word(field.name);
     }
 
-    //- A file of the cloud, in its folder at the present time
-    static IOobject fileIn
-    (
-        const cloud& c,
-        const word& name,
-        const IOobject::readOption read
-    )
-    {
-        return
-            IOobject
-            (
-                name, c.time().timeName(), c, read, IOobject::NO_WRITE, false
-            );
-    }
-
     //- Where a state has a member
     static char* memberOf(cellState& state, const cellField& field)
     {
@@ -146,7 +131,10 @@ namespace Foam
         {
             const IOField<Type> values
             (
-                fileIn(c, fileOf(field, d), IOobject::MUST_READ),
+                ellipsoidParcel::fileIn
+                (
+                    c, fileOf(field, d), IOobject::MUST_READ
+                ),
                 c.size() > 0
             );
             c.checkFieldIOobject(c, values);
@@ -172,7 +160,11 @@ namespace Foam
         {
             IOField<Type> values
             (
-                fileIn(c, fileOf(field, d), IOobject::NO_READ), c.size()
+                ellipsoidParcel::fileIn
+                (
+                    c, fileOf(field, d), IOobject::NO_READ
+                ),
+                c.size()
             );
 
             forAll(cells, i)
@@ -229,6 +221,21 @@ Foam::List<Foam::cellState> Foam::ellipsoidParcel::read(const polyMesh& mesh)
 }
 
 
+Foam::IOobject Foam::ellipsoidParcel::fileIn
+(
+    const cloud& c,
+    const word& name,
+    const IOobject::readOption read
+)
+{
+    return
+        IOobject
+        (
+            name, c.time().timeName(), c, read, IOobject::NO_WRITE, false
+        );
+}
+
+
 void Foam::ellipsoidParcel::writeFields(const Cloud<ellipsoidParcel>& c)
 {
     List<cellState> cells(c.size());
@@ -238,24 +245,12 @@ void Foam::ellipsoidParcel::writeFields(const Cloud<ellipsoidParcel>& c)
         cells[i++] = parcel.state();
     }
 
-    // What OpenFOAM's own particles have
-    typedef cloud::geometryType geometry;
-
-    for (const geometry type : {geometry::COORDINATES, geometry::POSITIONS})
+    labelList ids(cells.size());
+    forAll(ids, k)
     {
-        IOPosition<Cloud<ellipsoidParcel>> places(c, type);
-        atomicWrite(places, c.size() > 0);
+        ids[k] = cells[k].id;
     }
-
-    const std::size_t id = offsetof(cellState, id);
-    writeMember<label>(c, {"origId", id, labels, 1}, cells);
-
-    IOField<label> zeros
-    (
-        fileIn(c, "origProcId", IOobject::NO_READ),
-        labelField(c.size(), 0)
-    );
-    atomicWrite(zeros, c.size() > 0);
+    writePlaces(c, ids);
 
     for (const cellField& field : cellFields)
     {

@@ -74,7 +74,7 @@ void Foam::frozenFlow::setCoordinates
     if (c.tet != teti)
     {
         c.tet = teti;
-        c.hasFlow = false;
+        c.flowOf = nullptr;
         c.vertices = tets_[teti].vertices;
         c.origin = vertices_[c.vertices[0]].x;
 
@@ -166,24 +166,147 @@ Foam::frozenFlow::locationType Foam::frozenFlow::walk
 }
 
 
-const Foam::tetFlow& Foam::frozenFlow::flowIn(tetCoordinates& c) const
+const Foam::tetFlow& Foam::frozenFlow::flowIn
+(
+    const UList<flowVertex>& vertices,
+    const UList<flowTetExcess>& excess,
+    tetCoordinates& c
+) const
 {
-    if (!c.hasFlow)
+    if (c.flowOf != vertices.cdata())
     {
         const auto vertex =
             [&](const int a) -> const flowVertex&
             {
-                return vertices_[c.vertices[a]];
+                return vertices[c.vertices[a]];
             };
 
-        c.hasFlow = true;
+        c.flowOf = vertices.cdata();
         c.flow.set
         (
-            c.gradient, vertex, excess_[c.tet].flux, excess_[c.tet].straight
+            c.gradient, vertex, excess[c.tet].flux, excess[c.tet].straight
         );
     }
 
     return c.flow;
+}
+
+
+void Foam::frozenFlow::sampleOf
+(
+    const UList<flowVertex>& vertices,
+    const UList<flowTetExcess>& excess,
+    tetCoordinates& c,
+    const bool derivatives,
+    ellipsoid_flow_sample& sample
+) const
+{
+    const auto gradient =
+        [&](const label i) -> const tensor& { return vertices[i].gradient; };
+    const auto gradp =
+        [&](const label i) -> const vector&
+        {
+            return vertices[i].pressureGradient;
+        };
+
+    velocityOf
+    (
+        vertices,
+        excess,
+        c,
+        sample.velocity,
+        derivatives ? sample.velocity_jacobian : nullptr
+    );
+    copy(c.value<tensor>(gradient), sample.gradient);
+    copy(c.value<vector>(gradp), sample.pressure_gradient);
+
+    if (derivatives)
+    {
+        copy(c.derivatives(gradp), sample.pressure_jacobian);
+        std::fill_n(&sample.gradient_jacobian[0][0][0], 27, scalar(0));
+
+        for (int a = 0; a < 4; ++a)
+        {
+            const tensor& G = gradient(c.vertices[a]);
+
+            for (int ij = 0; ij < 9; ++ij)
+            {
+                for (int k = 0; k < 3; ++k)
+                {
+                    sample.gradient_jacobian[ij/3][ij % 3][k] +=
+                        c.gradient[a][k]*G[ij];
+                }
+            }
+        }
+    }
+}
+
+
+void Foam::frozenFlow::velocityOf
+(
+    const UList<flowVertex>& vertices,
+    const UList<flowTetExcess>& excess,
+    tetCoordinates& c,
+    scalar velocity[3],
+    scalar (*jacobian)[3]
+) const
+{
+    if (scheme_ == stDivergenceFree)
+    {
+        // Beyond an open patch, what is not linear stays as it is there
+        scalar inside[4];
+        std::copy_n(c.weight, 4, inside);
+        if (*std::min_element(inside, inside + 4) < -1e-9)
+        {
+            toFace(inside);
+        }
+
+        vector value;
+        tensor derivatives;
+
+        flowIn(vertices, excess, c).evaluate
+        (
+            c.gradient, inside, value, jacobian ? &derivatives : nullptr
+        );
+        for (int a = 0; a < 4; ++a)
+        {
+            value += (c.weight[a] - inside[a])*vertices[c.vertices[a]].u;
+        }
+        copy(value, velocity);
+        if (jacobian)
+        {
+            copy(derivatives, jacobian);
+        }
+        return;
+    }
+
+    const auto u =
+        [&](const label i) -> const vector& { return vertices[i].u; };
+
+    vector value(c.value<vector>(u));
+    tensor derivatives(jacobian ? c.derivatives(u) : tensor::zero);
+
+    for (int a = 0; scheme_ == stCellPointQuadratic && a < 3; ++a)
+    {
+        for (int b = a + 1; b < 4; ++b)
+        {
+            // Change of the slope along the edge from a to b
+            const flowVertex& va = vertices[c.vertices[a]];
+            const flowVertex& vb = vertices[c.vertices[b]];
+            const vector bend((va.gradient - vb.gradient) & (vb.x - va.x));
+
+            value += 0.5*c.weight[a]*c.weight[b]*bend;
+            derivatives +=
+                (0.5*bend)
+               *(c.weight[b]*c.gradient[a] + c.weight[a]*c.gradient[b]);
+        }
+    }
+
+    copy(value, velocity);
+    if (jacobian)
+    {
+        copy(derivatives, jacobian);
+    }
 }
 
 
@@ -193,10 +316,14 @@ Foam::frozenFlow::frozenFlow
 (
     const undecomposedFlow& undecomposed,
     const schemeType scheme,
-    const autoPtr<volVectorField>& E
+    const autoPtr<volVectorField>& E,
+    const bool unsteady
 )
 :
-    scheme_(scheme)
+    scheme_(scheme),
+    unsteady_(unsteady),
+    start_(0),
+    end_(0)
 {
     if (Pstream::master())
     {
@@ -270,6 +397,31 @@ void Foam::frozenFlow::renew
 }
 
 
+void Foam::frozenFlow::advance
+(
+    const undecomposedFlow& undecomposed,
+    const scalar rho,
+    const scalar start,
+    const scalar end
+)
+{
+    if (laterVertices_.size())
+    {
+        vertices_.transfer(laterVertices_);
+        excess_.transfer(laterExcess_);
+    }
+
+    laterVertices_ = vertices_;
+    laterExcess_ = excess_;
+    renew(undecomposed, rho);
+    laterVertices_.swap(vertices_);
+    laterExcess_.swap(excess_);
+
+    start_ = start;
+    end_ = end;
+}
+
+
 bool Foam::frozenFlow::find(const point& x, probe& at) const
 {
     const label celli = centreTree_->findNearest(x, sqr(GREAT)).index();
@@ -317,111 +469,93 @@ bool Foam::frozenFlow::reach
 
 void Foam::frozenFlow::sample
 (
+    const scalar t,
     tetCoordinates& c,
     const bool derivatives,
     ellipsoid_flow_sample& sample
 ) const
 {
-    const auto gradient =
-        [&](const label i) -> const tensor& { return vertices_[i].gradient; };
-    const auto gradp =
-        [&](const label i) -> const vector&
-        {
-            return vertices_[i].pressureGradient;
-        };
+    sampleOf(vertices_, excess_, c, derivatives, sample);
 
-    velocity
-    (
-        c, sample.velocity, derivatives ? sample.velocity_jacobian : nullptr
-    );
-    copy(c.value<tensor>(gradient), sample.gradient);
-    copy(c.value<vector>(gradp), sample.pressure_gradient);
-
-    if (derivatives)
+    if (laterVertices_.empty())
     {
-        copy(c.derivatives(gradp), sample.pressure_jacobian);
-        std::fill_n(&sample.gradient_jacobian[0][0][0], 27, scalar(0));
+        return;
+    }
 
-        for (int a = 0; a < 4; ++a)
+    ellipsoid_flow_sample later = {};
+    sampleOf(laterVertices_, laterExcess_, c, derivatives, later);
+
+    const auto mix =
+        [&](double* value, const double* at, const int n, double* rate)
         {
-            const tensor& G = gradient(c.vertices[a]);
-
-            for (int ij = 0; ij < 9; ++ij)
+            for (int i = 0; i < n; ++i)
             {
-                for (int k = 0; k < 3; ++k)
+                const double change = at[i] - value[i];
+
+                value[i] += passed(t)*change;
+                if (rate)
                 {
-                    sample.gradient_jacobian[ij/3][ij % 3][k] +=
-                        c.gradient[a][k]*G[ij];
+                    rate[i] = change/(end_ - start_);
                 }
             }
-        }
+        };
+
+    mix(sample.velocity, later.velocity, 3, sample.local_acceleration);
+    mix(sample.gradient[0], later.gradient[0], 9, nullptr);
+    mix(sample.pressure_gradient, later.pressure_gradient, 3, nullptr);
+    if (derivatives)
+    {
+        mix
+        (
+            sample.velocity_jacobian[0], later.velocity_jacobian[0], 9,
+            sample.acceleration_jacobian[0]
+        );
+        mix
+        (
+            sample.gradient_jacobian[0][0], later.gradient_jacobian[0][0], 27,
+            nullptr
+        );
+        mix
+        (
+            sample.pressure_jacobian[0], later.pressure_jacobian[0], 9, nullptr
+        );
     }
 }
 
 
 void Foam::frozenFlow::velocity
 (
+    const scalar t,
     tetCoordinates& c,
     scalar velocity[3],
     scalar (*jacobian)[3]
 ) const
 {
-    if (scheme_ == stDivergenceFree)
+    velocityOf(vertices_, excess_, c, velocity, jacobian);
+
+    if (laterVertices_.empty())
     {
-        // Beyond an open patch, what is not linear stays as it is there
-        scalar inside[4];
-        std::copy_n(c.weight, 4, inside);
-        if (*std::min_element(inside, inside + 4) < -1e-9)
-        {
-            toFace(inside);
-        }
-
-        vector value;
-        tensor derivatives;
-
-        flowIn(c).evaluate
-        (
-            c.gradient, inside, value, jacobian ? &derivatives : nullptr
-        );
-        for (int a = 0; a < 4; ++a)
-        {
-            value +=
-                (c.weight[a] - inside[a])*vertices_[c.vertices[a]].u;
-        }
-        copy(value, velocity);
-        if (jacobian)
-        {
-            copy(derivatives, jacobian);
-        }
         return;
     }
 
-    const auto u =
-        [&](const label i) -> const vector& { return vertices_[i].u; };
+    scalar later[3];
+    scalar laterJacobian[3][3];
+    velocityOf
+    (
+        laterVertices_,
+        laterExcess_,
+        c,
+        later,
+        jacobian ? laterJacobian : nullptr
+    );
 
-    vector value(c.value<vector>(u));
-    tensor derivatives(jacobian ? c.derivatives(u) : tensor::zero);
-
-    for (int a = 0; scheme_ == stCellPointQuadratic && a < 3; ++a)
+    for (int i = 0; i < 3; ++i)
     {
-        for (int b = a + 1; b < 4; ++b)
+        velocity[i] += passed(t)*(later[i] - velocity[i]);
+        for (int j = 0; jacobian && j < 3; ++j)
         {
-            // Change of the slope along the edge from a to b
-            const flowVertex& va = vertices_[c.vertices[a]];
-            const flowVertex& vb = vertices_[c.vertices[b]];
-            const vector bend((va.gradient - vb.gradient) & (vb.x - va.x));
-
-            value += 0.5*c.weight[a]*c.weight[b]*bend;
-            derivatives +=
-                (0.5*bend)
-               *(c.weight[b]*c.gradient[a] + c.weight[a]*c.gradient[b]);
+            jacobian[i][j] += passed(t)*(laterJacobian[i][j] - jacobian[i][j]);
         }
-    }
-
-    copy(value, velocity);
-    if (jacobian)
-    {
-        copy(derivatives, jacobian);
     }
 }
 
@@ -445,6 +579,7 @@ void Foam::frozenFlow::field
 
 void Foam::frozenFlow::velocity
 (
+    const scalar t,
     const scalar x[3],
     const probe& from,
     scalar velocity[3],
@@ -457,7 +592,7 @@ void Foam::frozenFlow::velocity
     if (walk(pointOf(x), at, c) == pBeyondWall)
     {
         toFace(c.weight);
-        this->velocity(c, velocity, nullptr);
+        this->velocity(t, c, velocity, nullptr);
         if (jacobian)
         {
             copy(tensor::zero, jacobian);
@@ -465,7 +600,7 @@ void Foam::frozenFlow::velocity
         return;
     }
 
-    this->velocity(c, velocity, jacobian);
+    this->velocity(t, c, velocity, jacobian);
 }
 
 

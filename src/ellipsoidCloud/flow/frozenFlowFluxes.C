@@ -408,7 +408,7 @@ void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
 
         tetCoordinates c;
         setCoordinates(teti, vertices_[tet.vertices[0]].x, c);
-        const tetFlow& flow = flowIn(c);
+        const tetFlow& flow = flowIn(vertices_, excess_, c);
         volumes[teti] = flow.volume();
 
         for (label i = 0; i < 4; ++i)

@@ -9,7 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 #include "possibleInflow.H"
 #include "fixedValueFvPatchFields.H"
-#include "uniformFixedValueFvPatchFields.H"
+#include "uniformFixedValueFvPatchField.H"
 #include "inletFlux.H"
 #include "volFields.H"
 
@@ -67,7 +67,7 @@ Foam::tmp<Foam::volVectorField> Foam::possibleInflow
                 plain
              && (
                     pp.type() == fixedValueFvPatchScalarField::typeName
-                 || pp.type() == uniformFixedValueFvPatchScalarField::typeName
+                 || pp.type() == uniformFixedValueFvPatchField<scalar>::typeName
                 );
             inflow[patchi] == -Up.patch().nf();
         }

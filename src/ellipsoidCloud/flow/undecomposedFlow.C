@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "undecomposedFlow.H"
+#include "copyValues.H"
 #include "masterGate.H"
 #include "plainLists.H"
 #include "labelIOList.H"
@@ -77,17 +78,6 @@ namespace Foam
         }
 
         return result;
-    }
-
-    //- Give a field the values of another, patches included
-    template<class GeoField>
-    static void copyValues(const GeoField& from, GeoField& to)
-    {
-        to.primitiveFieldRef() = from.primitiveField();
-        forAll(to.boundaryField(), patchi)
-        {
-            to.boundaryFieldRef()[patchi] == from.boundaryField()[patchi];
-        }
     }
 
     //- Values of a field at the faces of this rank, 0 where it has none

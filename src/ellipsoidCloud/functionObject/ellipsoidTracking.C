@@ -12,10 +12,9 @@ License
 #include "addToRunTimeSelectionTable.H"
 #include "calculatedFvPatchFields.H"
 #include "calculatedFvsPatchFields.H"
+#include "copyValues.H"
 #include "ellipsoidCloud.H"
-#include "surfaceFields.H"
 #include "Time.H"
-#include "volFields.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -54,11 +53,7 @@ namespace Foam
             )
         );
 
-        copy.ref().primitiveFieldRef() = host.primitiveField();
-        forAll(host.boundaryField(), patchi)
-        {
-            copy.ref().boundaryFieldRef()[patchi] == host.boundaryField()[patchi];
-        }
+        copyValues(host, copy.ref());
 
         return copy;
     }
@@ -87,42 +82,21 @@ Foam::dictionary Foam::functionObjects::ellipsoidTracking::clockEntries() const
 }
 
 
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
-
-Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
-(
-    const word& name,
-    const Time& runTime,
-    const dictionary& dict
-)
-:
-    fvMeshFunctionObject(name, runTime, dict)
+bool Foam::functionObjects::ellipsoidTracking::begin()
 {
-    read(dict);
-}
+    if (cells_.valid() || !mesh_.foundObject<surfaceScalarField>(phi_))
+    {
+        return false;
+    }
 
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-bool Foam::functionObjects::ellipsoidTracking::read(const dictionary& dict)
-{
-    fvMeshFunctionObject::read(dict);
-
-    endTime_ = dict.getCheck<scalar>("endTime", scalarMinMax::ge(VSMALL));
-    deltaT_ = dict.getCheck<scalar>("deltaT", scalarMinMax::ge(VSMALL));
-    writeInterval_ = dict.getCheckOrDefault<scalar>
-    (
-        "writeInterval", endTime_, scalarMinMax::ge(VSMALL)
-    );
-    U_ = dict.getOrDefault<word>("U", "U");
-    p_ = dict.getOrDefault<word>("p", "p");
-    phi_ = dict.getOrDefault<word>("phi", "phi");
+    cells_.reset(new ellipsoidCloud(mesh_, ellipsoidCloud::UNSTEADY));
+    cells_->setFlow(U(), p(), phi());
 
     return true;
 }
 
 
-bool Foam::functionObjects::ellipsoidTracking::end()
+void Foam::functionObjects::ellipsoidTracking::trackThroughEnd() const
 {
     Time clock
     (
@@ -137,27 +111,112 @@ bool Foam::functionObjects::ellipsoidTracking::end()
         )
     );
 
-    ellipsoidCloud cells(mesh);
+    ellipsoidCloud cells(mesh, ellipsoidCloud::STEADY);
     cells.setFlow
     (
-        copyOf(mesh_.lookupObject<volVectorField>(U_), mesh)(),
-        copyOf(mesh_.lookupObject<volScalarField>(p_), mesh)(),
-        copyOf(mesh_.lookupObject<surfaceScalarField>(phi_), mesh)()
+        copyOf(U(), mesh)(), copyOf(p(), mesh)(), copyOf(phi(), mesh)()
+    );
+    cells.track(clock, max(label(1), label(writeInterval_/deltaT_ + 0.5)));
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
+(
+    const word& name,
+    const Time& runTime,
+    const dictionary& dict
+)
+:
+    fvMeshFunctionObject(name, runTime, dict)
+{
+    read(dict);
+
+    // The flow of the start, which a solver replaces in its first time step
+    if (!steady_)
+    {
+        begin();
+    }
+}
+
+
+Foam::functionObjects::ellipsoidTracking::~ellipsoidTracking()
+{}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::functionObjects::ellipsoidTracking::read(const dictionary& dict)
+{
+    fvMeshFunctionObject::read(dict);
+
+    const word scheme
+    (
+        mesh_.schemesDict().subOrEmptyDict("ddtSchemes")
+       .getOrDefault<word>("default", "steadyState")
     );
 
-    const label steps = max(label(1), label(writeInterval_/deltaT_ + 0.5));
+    steady_ = dict.getOrDefault("steady", scheme == "steadyState");
+    U_ = dict.getOrDefault<word>("U", "U");
+    p_ = dict.getOrDefault<word>("p", "p");
+    phi_ = dict.getOrDefault<word>("phi", "phi");
 
-    cells.begin();
-    while (clock.loop())
+    if (steady_)
     {
-        cells.evolve();
-
-        if (clock.timeIndex() % steps == 0)
-        {
-            cells.writePoses();
-        }
+        endTime_ = dict.getCheck<scalar>("endTime", scalarMinMax::ge(VSMALL));
+        deltaT_ = dict.getCheck<scalar>("deltaT", scalarMinMax::ge(VSMALL));
+        writeInterval_ = dict.getCheckOrDefault<scalar>
+        (
+            "writeInterval", endTime_, scalarMinMax::ge(VSMALL)
+        );
     }
-    cells.finish();
+
+    return true;
+}
+
+
+bool Foam::functionObjects::ellipsoidTracking::execute()
+{
+    if (steady_ || begin())
+    {
+        return true;
+    }
+    if (mesh_.changing())
+    {
+        FatalErrorInFunction
+            << "The mesh moves or changes, and cells do not go with it: "
+            << name() << " of type " << type()
+            << " needs a mesh that stays as it is" << exit(FatalError);
+    }
+
+    cells_->advance(U(), p(), phi());
+
+    return true;
+}
+
+
+bool Foam::functionObjects::ellipsoidTracking::write()
+{
+    if (!steady_)
+    {
+        cells_->write();
+    }
+
+    return true;
+}
+
+
+bool Foam::functionObjects::ellipsoidTracking::end()
+{
+    if (steady_)
+    {
+        trackThroughEnd();
+    }
+    else
+    {
+        cells_->finish();
+    }
 
     return true;
 }

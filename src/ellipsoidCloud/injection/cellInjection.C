@@ -202,7 +202,7 @@ Foam::label Foam::cellInjection::readNumber(const scalar flux) const
     {
         FatalIOErrorInFunction(dict)
             << "injection " << dict.dictName() << " needs exactly one of "
-            << "number, rate and, at a patch with inflow, concentration"
+            << "number, rate and, at a patch with steady inflow, concentration"
             << exit(FatalIOError);
     }
 
@@ -334,7 +334,7 @@ void Foam::cellInjection::wait
     frozenFlow::tetCoordinates c;
     const bool there = flow.reach(cell.body.x, at, c);
     Foam::check(cell, there ? ELLIPSOID_OK : ELLIPSOID_FLOW_FAILED);
-    flow.velocity(c, cell.body.u, nullptr);
+    flow.velocity(time, c, cell.body.u, nullptr);
 }
 
 

@@ -18,7 +18,8 @@ License
 Foam::patchInflow::patchInflow
 (
     const dictionary& dict,
-    const undecomposedFlow& undecomposed
+    const undecomposedFlow& undecomposed,
+    const bool unsteady
 )
 {
     const word name(dict.get<word>("patch"));
@@ -31,7 +32,9 @@ Foam::patchInflow::patchInflow
         DynamicList<point> vertices;
         DynamicList<point> centres;
         DynamicList<scalar> sums;
+        DynamicList<scalar> areas;
         scalar sum = 0;
+        scalar area = 0;
 
         forAll(pp, i)
         {
@@ -52,12 +55,14 @@ Foam::patchInflow::patchInflow
                 vertices.append({triangle.a(), triangle.b(), triangle.c()});
                 centres.append(mesh.cellCentres()[pp.faceCells()[i]]);
                 sums.append(sum);
+                area += triangle.mag();
+                areas.append(area);
             }
         }
 
         corners.transfer(vertices);
         behind.transfer(centres);
-        upTo.transfer(sums);
+        upTo.transfer(unsteady && sum <= 0 ? areas : sums);
     }
     broadcast(corners);
     broadcast(behind);

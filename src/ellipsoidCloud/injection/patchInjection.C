@@ -11,7 +11,8 @@ Class
 
 Description
     Cells that enter with the flow through a patch: the more flows in through a
-    part of it, the more cells start there.
+    part of it, the more cells start there. In an unsteady flow that is the inflow
+    at the end of the time step, and where there is none all parts are alike.
 
 Usage
     \verbatim
@@ -40,7 +41,7 @@ class patchInjection
 {
     // Private Data
 
-        const patchInflow inflow_;
+        patchInflow inflow_;
 
 
     // Private Member Functions
@@ -80,9 +81,19 @@ public:
         explicit patchInjection(const setting& from)
         :
             cellInjection(from),
-            inflow_(from_.dict, from.undecomposed)
+            inflow_(from_.dict, from.undecomposed, from.domain.flow.unsteady())
         {
-            setTimes(readNumber(inflow_.upTo.last()));
+            const bool steady = !from.domain.flow.unsteady();
+
+            setTimes(readNumber(steady ? inflow_.upTo.last() : 0));
+        }
+
+
+    // Member Functions
+
+        virtual void renew()
+        {
+            inflow_ = patchInflow(from_.dict, from_.undecomposed, true);
         }
 };
 

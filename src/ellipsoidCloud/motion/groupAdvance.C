@@ -146,7 +146,7 @@ struct Foam::groupAdvance::member
 
             vector U;
             vector drag;
-            domain.flow.velocity(c, U.v_, nullptr);
+            domain.flow.velocity(cell.state.time, c, U.v_, nullptr);
             ellipsoid_drag_at_rest(&model, body.q, U.v_, drag.v_);
 
             const vector sum

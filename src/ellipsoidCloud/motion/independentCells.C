@@ -107,9 +107,11 @@ Foam::independentCells::independentCells
     (
         properties,
         undecomposed,
-        electricField::read(properties.section("forces"), mesh, undecomposed)
+        electricField::read(properties.section("forces"), mesh, undecomposed),
+        false
     )
 {
+    domain_.flow.renew(undecomposed, properties.options().fluid_density);
     criterion_.setInletSpeed(inletFlux::speedOf(undecomposed));
 }
 

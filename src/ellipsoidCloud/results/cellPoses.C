@@ -11,8 +11,8 @@ License
 #include "cellPoses.H"
 #include "atomicWrite.H"
 #include "OSspecific.H"
+#include "vtkPolyData.H"
 
-#include <functional>
 #include <map>
 #include <sstream>
 
@@ -20,53 +20,6 @@ License
 
 namespace Foam
 {
-    //- An array with a line for each cell
-    static void writeArray
-    (
-        std::ostream& os,
-        const char* type,
-        const char* name,
-        const label nComponents,
-        const UList<cellState>& cells,
-        const std::function<void(const cellState&)>& line
-    )
-    {
-        os  << "<DataArray type=\"" << type << "\" Name=\"" << name
-            << "\" NumberOfComponents=\"" << nComponents << "\" format=\"ascii\">\n";
-        for (const cellState& cell : cells)
-        {
-            line(cell);
-            os << '\n';
-        }
-        os << "</DataArray>\n";
-    }
-
-    //- The ellipsoid's full axes as a symmetric tensor in the lab's frame [m]
-    static void writeAxes
-    (
-        std::ostream& os,
-        const cellState& cell,
-        const cellPopulation& population
-    )
-    {
-        const double* a = population.model(cell.id).options.semi_axes;
-        double r[3][3];
-        ellipsoid_rotation(cell.body.q, r);
-
-        for (int i = 0; i < 3; ++i)
-        {
-            for (int j = 0; j < 3; ++j)
-            {
-                double sum = 0;
-                for (int k = 0; k < 3; ++k)
-                {
-                    sum += 2*a[k]*r[i][k]*r[j][k];
-                }
-                os << sum << ' ';
-            }
-        }
-    }
-
     //- Text of the file of one time
     static std::string textOf
     (
@@ -77,65 +30,55 @@ namespace Foam
         std::ostringstream os;
         os.precision(9);
 
-        const auto triple = [&os](const double v[3])
+        const auto numbers = [&os](const scalar* v, const int n)
         {
-            os << v[0] << ' ' << v[1] << ' ' << v[2];
+            for (int i = 0; i < n; ++i)
+            {
+                os << (i ? " " : "") << v[i];
+            }
         };
 
-        os  << "<?xml version=\"1.0\"?>\n"
-            << "<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
-            << "<Piece NumberOfPoints=\"" << cells.size()
-            << "\" NumberOfVerts=\"" << cells.size() << "\">\n<Points>\n";
-        writeArray
+        labelList ends(cells.size());
+        forAll(ends, i)
+        {
+            ends[i] = i + 1;
+        }
+
+        vtkPolyData file(os, "Verts", ends);
+        file.array
         (
-            os, "Float64", "x", 3, cells,
-            [&](const cellState& cell) { triple(cell.body.x); }
+            "Float64", "x", 3,
+            [&](const label i) { numbers(cells[i].body.x, 3); }
         );
-        os  << "</Points>\n<PointData>\n";
-        writeArray
+        file.pointData();
+        file.array("Int32", "id", 1, [&](const label i) { os << cells[i].id; });
+        file.array
         (
-            os, "Int32", "id", 1, cells,
-            [&](const cellState& cell) { os << cell.id; }
+            "Int32", "fate", 1, [&](const label i) { os << cells[i].fate; }
         );
-        writeArray
+        file.array
         (
-            os, "Int32", "fate", 1, cells,
-            [&](const cellState& cell) { os << cell.fate; }
+            "Int32", "patch", 1, [&](const label i) { os << cells[i].patch; }
         );
-        writeArray
+        file.array
         (
-            os, "Int32", "patch", 1, cells,
-            [&](const cellState& cell) { os << cell.patch; }
+            "Float64", "U", 3,
+            [&](const label i) { numbers(cells[i].body.u, 3); }
         );
-        writeArray
+        file.array
         (
-            os, "Float64", "U", 3, cells,
-            [&](const cellState& cell) { triple(cell.body.u); }
+            "Float64", "omega", 3,
+            [&](const label i) { numbers(cells[i].body.omega, 3); }
         );
-        writeArray
+        file.array
         (
-            os, "Float64", "omega", 3, cells,
-            [&](const cellState& cell) { triple(cell.body.omega); }
+            "Float64", "axes", 9,
+            [&](const label i)
+            {
+                numbers(fullAxes(cells[i], set.population).v_, 9);
+            }
         );
-        writeArray
-        (
-            os, "Float64", "axes", 9, cells,
-            [&](const cellState& cell) { writeAxes(os, cell, set.population); }
-        );
-        os  << "</PointData>\n<Verts>\n";
-        label n = 0;
-        writeArray
-        (
-            os, "Int64", "connectivity", 1, cells,
-            [&](const cellState&) { os << n++; }
-        );
-        n = 0;
-        writeArray
-        (
-            os, "Int64", "offsets", 1, cells,
-            [&](const cellState&) { os << ++n; }
-        );
-        os  << "</Verts>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+        file.cells();
 
         return os.str();
     }
@@ -175,6 +118,31 @@ namespace Foam
 
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+Foam::tensor Foam::fullAxes
+(
+    const cellState& cell,
+    const cellPopulation& population
+)
+{
+    const double* a = population.model(cell.id).options.semi_axes;
+    double r[3][3];
+    ellipsoid_rotation(cell.body.q, r);
+
+    tensor axes(Zero);
+    for (int i = 0; i < 3; ++i)
+    {
+        for (int j = 0; j < 3; ++j)
+        {
+            for (int k = 0; k < 3; ++k)
+            {
+                axes(i, j) += 2*a[k]*r[i][k]*r[j][k];
+            }
+        }
+    }
+    return axes;
+}
+
 
 void Foam::writePoses
 (

@@ -11,6 +11,7 @@ License
 #include "atomicWrite.H"
 #include "PstreamReduceOps.H"
 #include "stringOps.H"
+#include "vtkPolyData.H"
 
 #include <cmath>
 #include <map>
@@ -64,50 +65,37 @@ namespace Foam
         { "Float64", "t", 1, 0 },
         { "Int32", "id", 1, 1 },
         { "Float64", "U", 3, 5 },
+        { "Float64", "quaternion", 4, 8 },
         { "Float64", "omega", 3, 12 },
         { "Float64", "O", 3, 15 },
         { "Int32", "fate", 1, fateColumn }
     };
 
-    //- The rows of each cell
-    typedef std::map<label, std::vector<std::string>> trackRows;
-
-    static void writeArray
+    //- What an array has of a row of tracks.csv
+    static void writeColumns
     (
         std::ostream& os,
-        const trackArray& array,
-        const trackRows& cells
+        const std::string& row,
+        const trackArray& array
     )
     {
-        os  << "<DataArray type=\"" << array.type << "\" Name=\"" << array.name
-            << "\" NumberOfComponents=\"" << array.nComponents
-            << "\" format=\"ascii\">\n";
+        const auto fields = stringOps::split(row, ',');
 
-        for (const auto& cell : cells)
+        for (label d = 0; d < array.nComponents; ++d)
         {
-            for (const std::string& row : cell.second)
+            const label column = array.firstColumn + d;
+            const std::string text(fields[column].str());
+
+            os << (d ? " " : "");
+            if (column == fateColumn)
             {
-                const auto fields = stringOps::split(row, ',');
-
-                for (label d = 0; d < array.nComponents; ++d)
-                {
-                    const label column = array.firstColumn + d;
-                    const std::string text(fields[column].str());
-
-                    os << (d ? " " : "");
-                    if (column == fateColumn)
-                    {
-                        os << label(cellState::fateNames[text]);
-                    }
-                    else
-                    {
-                        os << text;
-                    }
-                }
-                os << '\n';
+                os << label(cellState::fateNames[text]);
+            }
+            else
+            {
+                os << text;
             }
         }
-        os << "</DataArray>\n";
     }
 }
 
@@ -259,10 +247,13 @@ void Foam::cellTracks::flush()
 }
 
 
-void Foam::cellTracks::writeVTP() const
+void Foam::cellTracks::writeVTP
+(
+    const std::function<cellSize(const label)>& sizeOf
+) const
 {
-    trackRows cells;
-    label nPoints = 0;
+    // The rows of each cell
+    std::map<label, std::vector<std::string>> cells;
 
     const fileName vtp(set_.folder/"tracks.vtp");
     std::ifstream is(file.name());
@@ -272,36 +263,64 @@ void Foam::cellTracks::writeVTP() const
     while (std::getline(is, line))
     {
         cells[std::stol(line.substr(line.find(',') + 1))].push_back(line);
-        ++nPoints;
+    }
+
+    DynamicList<label> ends;
+    DynamicList<string> rows;
+    DynamicList<string> axes;
+
+    for (const auto& cell : cells)
+    {
+        const ellipsoid_options options
+        (
+            cellPopulation::optionsOf
+            (
+                set_.population.properties().options(), sizeOf(cell.first)
+            )
+        );
+        std::ostringstream text;
+        text.precision(9);
+        text<< options.semi_axes[0] << ' ' << options.semi_axes[1] << ' '
+            << options.semi_axes[2];
+
+        for (const std::string& row : cell.second)
+        {
+            rows.append(row);
+            axes.append(text.str());
+        }
+        ends.append(rows.size());
     }
 
     std::ofstream os(vtp);
-    os  << "<?xml version=\"1.0\"?>\n"
-        << "<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
-        << "<Piece NumberOfPoints=\"" << nPoints << "\" NumberOfLines=\""
-        << cells.size() << "\">\n<Points>\n";
-    writeArray(os, positions, cells);
-    os  << "</Points>\n<PointData>\n";
+    vtkPolyData polyData(os, "Lines", ends);
+
+    const auto write =
+        [&](const trackArray& array)
+        {
+            polyData.array
+            (
+                array.type,
+                array.name,
+                array.nComponents,
+                [&](const label i)
+                {
+                    writeColumns(os, rows[i], array);
+                }
+            );
+        };
+
+    write(positions);
+    polyData.pointData();
     for (const trackArray& array : pointData)
     {
-        writeArray(os, array, cells);
+        write(array);
     }
-    os  << "</PointData>\n<Lines>\n"
-        << "<DataArray type=\"Int64\" Name=\"connectivity\""
-        << " format=\"ascii\">\n";
-    for (label i = 0; i < nPoints; ++i)
-    {
-        os << i << '\n';
-    }
-    os  << "</DataArray>\n"
-        << "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
-    label offset = 0;
-    for (const auto& cell : cells)
-    {
-        offset += cell.second.size();
-        os << offset << '\n';
-    }
-    os  << "</DataArray>\n</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+    polyData.array
+    (
+        "Float64", "semiAxes", 3,
+        [&](const label i) { os << axes[i].c_str(); }
+    );
+    polyData.cells();
 
     if (!os.flush())
     {

@@ -157,7 +157,7 @@ class tracer
         {
             return false;
         }
-        flow_.velocity(c, u.v_, nullptr);
+        flow_.velocity(0, c, u.v_, nullptr);
         return true;
     }
 
@@ -507,7 +507,8 @@ int main(int argc, char *argv[])
         [
             args.getOrDefault<word>("interpolation", "divergenceFree")
         ],
-        nullptr
+        nullptr,
+        false
     );
     flow.renew(undecomposed, 997.5);
     Info<< "made in " << seconds() - clock << " s" << endl;

@@ -36,7 +36,7 @@ static bool sampleAt
     }
     flow.velocity
     (
-        c, u.v_, gradient ? reinterpret_cast<scalar(*)[3]>(gradient->v_) : nullptr
+        0, c, u.v_, gradient ? reinterpret_cast<scalar(*)[3]>(gradient->v_) : nullptr
     );
     return true;
 }
@@ -227,7 +227,7 @@ void Foam::checkVelocity
             [&](const point& x)
             {
                 vector u;
-                flow.velocity(x.v_, at, u.v_, nullptr);
+                flow.velocity(0, x.v_, at, u.v_, nullptr);
                 return u;
             };
         const scalar through =
@@ -243,7 +243,7 @@ void Foam::checkVelocity
             frozenFlow::probe at{0, -1};
             vector u;
             flow.find(inside, at);
-            flow.velocity(x.v_, at, u.v_, nullptr);
+            flow.velocity(0, x.v_, at, u.v_, nullptr);
             wall = max(wall, mag(u));
         };
     atWalls(mesh, measure);
@@ -273,7 +273,7 @@ void Foam::checkVelocity
             ellipsoid_flow_sample sample;
 
             flow.reach(x.v_, at, c);
-            flow.sample(c, false, sample);
+            flow.sample(0, c, false, sample);
             const tensor G(known.gradient(x));
             scalar sum = 0;
             for (direction ij = 0; ij < 9; ++ij)

@@ -366,7 +366,7 @@ int main(int argc, char *argv[])
 
     undecomposedFlow whole(mesh);
     whole.gather(U, p, phi);
-    cellDomain domain(properties, whole, autoPtr<volVectorField>());
+    cellDomain domain(properties, whole, autoPtr<volVectorField>(), false);
     domain.flow.renew(whole, properties.options().fluid_density);
     const scalar slowSpeed =
         ellipsoidProperties::number

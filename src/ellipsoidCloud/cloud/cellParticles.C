@@ -1,0 +1,174 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+
+#include "cellParticles.H"
+#include "atomicWrite.H"
+#include "cellPoses.H"
+#include "ellipsoidParcel.H"
+#include "IOField.H"
+#include "IOPosition.H"
+#include "polyMesh.H"
+#include "Time.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::word Foam::cellParticles::cloudName("ellipsoidCloud");
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- Takes fields into a registry
+    struct registryTaker
+    {
+        objectRegistry& obr;
+
+        template<class Type>
+        void operator()(const word& name, const Field<Type>& values) const
+        {
+            cloud::createIOField<Type>(name, values.size(), obr)
+                .Field<Type>::operator=(values);
+        }
+    };
+
+    //- Takes fields into files of a cloud
+    struct fileTaker
+    {
+        const cloud& c;
+
+        template<class Type>
+        void operator()(const word& name, const Field<Type>& values) const
+        {
+            IOField<Type> field
+            (
+                ellipsoidParcel::fileIn(c, name, IOobject::NO_READ), values
+            );
+            atomicWrite(field, values.size() > 0);
+        }
+    };
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::DynamicList<Foam::cellParticles::particle>
+Foam::cellParticles::entered() const
+{
+    DynamicList<particle> cells;
+    for (const particle& cell : source_())
+    {
+        if (cell.first.fate != cellState::waiting)
+        {
+            cells.append(cell);
+        }
+    }
+
+    return cells;
+}
+
+
+template<class Taker>
+void Foam::cellParticles::giveFields
+(
+    const UList<particle>& cells,
+    const Taker& take
+) const
+{
+    const label n = cells.size();
+    labelField id(n), fate(n), sieve(n);
+    vectorField U(n), omega(n), O(n), semiAxes(n);
+    FixedList<scalarField, 4> q(scalarField(n, Zero));
+    tensorField axes(n);
+
+    forAll(cells, i)
+    {
+        const cellState& cell = cells[i].first;
+
+        id[i] = cell.id;
+        fate[i] = cell.fate;
+        sieve[i] = cell.fate == cellState::caught ? cell.patch : -1;
+        U[i] = pointOf(cell.body.u);
+        omega[i] = pointOf(cell.body.omega);
+        O[i] = longAxis(cell.body.q);
+        for (label d = 0; d < 4; ++d)
+        {
+            q[d][i] = cell.body.q[d];
+        }
+        semiAxes[i] = pointOf(population_.model(cell.id).options.semi_axes);
+        axes[i] = fullAxes(cell, population_);
+    }
+
+    take("id", id);
+    take("fate", fate);
+    take("sieve", sieve);
+    take("U", U);
+    take("omega", omega);
+    take("O", O);
+    take("eps1", q[0]);
+    take("eps2", q[1]);
+    take("eps3", q[2]);
+    take("eta", q[3]);
+    take("semiAxes", semiAxes);
+    take("axes", axes);
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::cellParticles::cellParticles
+(
+    const polyMesh& mesh,
+    const cellPopulation& population,
+    const source& cells
+)
+:
+    cloud(mesh, cloudName),
+    mesh_(mesh),
+    population_(population),
+    source_(cells)
+{}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::cellParticles::writeObjects(objectRegistry& obr) const
+{
+    const DynamicList<particle> cells(entered());
+
+    pointField& position =
+        cloud::createIOField<point>("position", cells.size(), obr);
+    forAll(cells, i)
+    {
+        position[i] = cells[i].first.centre();
+    }
+
+    giveFields(cells, registryTaker{obr});
+}
+
+
+void Foam::cellParticles::writeFiles() const
+{
+    const DynamicList<particle> cells(entered());
+    Cloud<passiveParticle> c(mesh_, cloudName, IDLList<passiveParticle>());
+
+    DynamicList<label> ids;
+    for (const particle& cell : cells)
+    {
+        const ellipsoidParcel parcel(mesh_, cell.second, cell.first);
+        c.addParticle(new passiveParticle(parcel));
+        ids.append(cell.first.id);
+    }
+    ellipsoidParcel::writePlaces(c, ids);
+    giveFields(cells, fileTaker{c});
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,121 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+Description
+    What a run of the cloud is, in order: begin, move, write, finish.
+
+\*---------------------------------------------------------------------------*/
+
+#include "ellipsoidCloud.H"
+#include "atomicWrite.H"
+#include "fvMesh.H"
+#include "OSspecific.H"
+#include "Time.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::ellipsoidCloud::begin()
+{
+    const fileName folder(statistics_->log.name().path());
+
+    // Tables that reach beyond the start are cut there
+    const bool goesOn = earlier_.found();
+    const bool cut =
+        mesh_.time().times().last().value() > mesh_.time().value();
+
+    if (Pstream::master() && isDir(folder) && (cut || !goesOn))
+    {
+        const fileName copy(folder + ".part");
+
+        if
+        (
+            (goesOn && !cp(folder, copy))
+         || !mvBak(folder, "bak")
+         || (goesOn && !mv(copy, folder))
+        )
+        {
+            cannotWrite(folder);
+        }
+        Info<< "ellipsoidCloud: the tables that were in " << folder.c_str()
+            << " are kept beside it, as .bak" << endl;
+    }
+
+    statistics_->log.open();
+    tracks_->file.open();
+    if (occupancy_.valid())
+    {
+        occupancy_->begin();
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::ellipsoidCloud::track
+(
+    Time& runTime,
+    const label every,
+    flowRenewal* occupied
+)
+{
+    begin();
+    if (occupied)
+    {
+        occupied->begin();
+    }
+
+    while (runTime.loop())
+    {
+        evolve();
+        if (occupied)
+        {
+            occupied->update();
+        }
+
+        if (every ? runTime.timeIndex() % every == 0 : runTime.writeTime())
+        {
+            write();
+        }
+    }
+
+    finish();
+}
+
+
+void Foam::ellipsoidCloud::finish()
+{
+    if (Pstream::master())
+    {
+        DynamicList<cellTracks::row> rows;
+        for (cellState& cell : cells_)
+        {
+            if (cell.fate != cellState::waiting)
+            {
+                tracks_->finish(cell, rows);
+            }
+        }
+        tracks_->take(rows);
+    }
+    tracks_->flush();
+
+    reportWork();
+
+    if (Pstream::master())
+    {
+        statistics_->update(cells_);
+        statistics_->reportContact(Info);
+        statistics_->write(Info);
+        tracks_->writeVTP
+        (
+            [&](const label id) { return statistics_->sizeOf(id); }
+        );
+    }
+}
+
+
+// ************************************************************************* //
