@@ -59,29 +59,6 @@ namespace Foam
             weight[a] /= sum;
         }
     }
-
-    //- End the run if what should be an open end is a wall to the flow
-    static void checkOpenPatches(const undecomposedFlow& undecomposed)
-    {
-        const inletFlux through(undecomposed.U(), undecomposed.phi());
-
-        forAll(through.patches, i)
-        {
-            const polyPatch& pp =
-                undecomposed.mesh().boundaryMesh()[through.patches[i]];
-
-            if (pp.size() && through.isRounding(through.magFlux[i]))
-            {
-                FatalErrorInFunction
-                    << "nothing flows through patch " << pp.name()
-                    << " of type " << pp.type() << nl
-                    << "    Cells would leave there. If it is a wall, make it "
-                    << "one: type wall in "
-                    << undecomposed.mesh().meshDir()/"boundary"
-                    << exit(FatalError);
-            }
-        }
-    }
 }
 
 
@@ -208,7 +185,6 @@ Foam::tetFlow Foam::frozenFlow::flowIn
 Foam::frozenFlow::frozenFlow
 (
     const undecomposedFlow& undecomposed,
-    const scalar rho,
     const schemeType scheme,
     const autoPtr<volVectorField>& E
 )
@@ -219,8 +195,7 @@ Foam::frozenFlow::frozenFlow
     {
         const undecomposedFlow::serialScope serial;
 
-        make(undecomposed, rho, E);
-        checkOpenPatches(undecomposed);
+        make(undecomposed, E);
 
         for (const polyPatch& pp : undecomposed.mesh().boundaryMesh())
         {

@@ -500,16 +500,16 @@ int main(int argc, char *argv[])
     undecomposed.gather(U, p, phi);
 
     scalar clock = seconds();
-    const frozenFlow flow
+    frozenFlow flow
     (
         undecomposed,
-        997.5,
         frozenFlow::schemeNames
         [
             args.getOrDefault<word>("interpolation", "divergenceFree")
         ],
         nullptr
     );
+    flow.renew(undecomposed, 997.5);
     Info<< "made in " << seconds() - clock << " s" << endl;
     checkVelocity(flow, phi);
     if (known != "none")
