@@ -3,11 +3,13 @@
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
 """Meshes and start fields about one body at the origin, for penalisation.test.
 
-usage: bodyMeshes.py tube|shear CELLS RATIO   (in the case folder; lengths in units of the
-semi-minor axis of 0.5 um; CELLS: mesh cells across the smallest diameter)
+usage: bodyMeshes.py tube|duct|plates|shear CELLS RATIO   (in the case folder; lengths in units
+of the semi-minor axis of 0.5 um; CELLS: mesh cells across the smallest diameter)
 
-tube: a circular tube along z, of radius 1/RATIO. shear: u = (RATIO y, 0, 0) per second between
-moving plates; periodic along x and z. Mesh cells are uniform about the body, larger elsewhere.
+tube, duct: a circular tube along z, of radius 1/RATIO, or a square one of half-width 1/RATIO.
+plates: at y = -+1/RATIO, flow along z, periodic along x. shear: u = (RATIO y, 0, 0) per second
+between moving plates; periodic along x and z. Mesh cells are uniform about the body, larger
+elsewhere.
 """
 
 import math
@@ -75,31 +77,69 @@ def tube(cells, ratio):
             for k in range(3) for i in range(4)]
     mesh(points, blocks, edges, (("inlet", "type patch;", end(0, -1)), ("outlet", "type patch;", end(3, 1)),
                                  ("wall", "type wall;", wall)))
-    fields('"(inlet|outlet)" { type pressureInletOutletVelocity; value uniform (0 0 0); } wall { type noSlip; }',
+    driven()
+
+
+def driven(sides=""):
+    """Start fields of a flow by pressure, besides patches that have conditions of their own."""
+    fields('"(inlet|outlet)" { type pressureInletOutletVelocity; value uniform (0 0 0); } wall { type noSlip; }' + sides,
            'inlet { type fixedValue; value uniform 0.05; } outlet { type fixedValue; value uniform 0; }'
-           ' wall { type zeroGradient; }')
+           ' wall { type zeroGradient; }' + sides)
+
+
+def box(cells, fine, far, patches):
+    """One block to +-far, graded but for +-fine: points of a face as blockMesh counts them."""
+    h, largest = 2 / cells, 6
+
+    def graded(half, end):
+        n = 1
+        while h * sum(largest ** (i / max(n - 1, 1)) for i in range(n)) < end - half:
+            n += 1
+        middle = math.ceil(2 * half / h)
+        return 2 * n + middle, (f"(({end - half} {n} {1 / largest}) ({2 * half} {middle} 1)"
+                                f" ({end - half} {n} {largest}))")
+
+    counts, grading = zip(*map(graded, fine, far))
+    a, b, c = far
+    points = [(x, y, z) for z in (-c, c) for x, y in ((-a, -b), (a, -b), (a, b), (-a, b))]
+    mesh(points, [f"hex (0 1 2 3 4 5 6 7) ({' '.join(map(str, counts))}) simpleGrading ({' '.join(grading)})"],
+         [], patches)
+
+
+LEFT, RIGHT, BOTTOM, TOP, BACK, FRONT = (
+    (0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7))
+
+
+def periodic(*names):
+    """Patches of pairs of faces."""
+    return [(one, f"type cyclic; neighbourPatch {other};", [face])
+            for (one, face), (other, _) in zip(names, [v for i in range(0, len(names), 2) for v in names[i:i + 2][::-1]])]
+
+
+def duct(cells, ratio):
+    """A square tube of a block."""
+    half = 1 / ratio
+    box(cells, (1.6, 1.6, 1.6), (half, half, 2 * half + 6),
+        [("inlet", "type patch;", [BACK]), ("outlet", "type patch;", [FRONT]),
+         ("wall", "type wall;", [LEFT, RIGHT, BOTTOM, TOP])])
+    driven()
+
+
+def plates(cells, ratio):
+    """Two plates."""
+    half = 1 / ratio
+    box(cells, (1.6, 1.6, 1.6), (8 * half, half, 8 * half),
+        [("inlet", "type patch;", [BACK]), ("outlet", "type patch;", [FRONT]), ("wall", "type wall;", [BOTTOM, TOP])]
+        + periodic(("left", LEFT), ("right", RIGHT)))
+    driven(' "(left|right)" { type cyclic; }')
 
 
 def shear(cells, rate):
-    """One block, graded."""
-    h, fine, far, largest = 2 / cells, (2.4, 2.4, 1.3), 9, 6
-
-    def graded(half):
-        n = 1
-        while h * sum(largest ** (i / max(n - 1, 1)) for i in range(n)) < far - half:
-            n += 1
-        middle = math.ceil(2 * half / h)
-        return 2 * n + middle, (f"(({far - half} {n} {1 / largest}) ({2 * half} {middle} 1)"
-                                f" ({far - half} {n} {largest}))")
-
-    counts, grading = zip(*map(graded, fine))
-    points = [(x, y, z) for z in (-far, far) for x, y in ((-far, -far), (far, -far), (far, far), (-far, far))]
-    blocks = [f"hex (0 1 2 3 4 5 6 7) ({' '.join(map(str, counts))}) simpleGrading ({' '.join(grading)})"]
-    mesh(points, blocks, [], [
-        (name, f"type cyclic; neighbourPatch {other};", [face]) for name, other, face in (
-            ("left", "right", (0, 4, 7, 3)), ("right", "left", (1, 2, 6, 5)),
-            ("back", "front", (0, 3, 2, 1)), ("front", "back", (4, 5, 6, 7)))
-    ] + [("bottom", "type wall;", [(0, 1, 5, 4)]), ("top", "type wall;", [(3, 7, 6, 2)])])
+    """Two plates that move, far away."""
+    far = 9
+    box(cells, (2.4, 2.4, 1.3), (far, far, far),
+        periodic(("left", LEFT), ("right", RIGHT), ("back", BACK), ("front", FRONT))
+        + [("bottom", "type wall;", [BOTTOM]), ("top", "type wall;", [TOP])])
     speed = rate * far * A
     cyclic = '"(left|right|back|front)" { type cyclic; }'
     fields(f"{cyclic} bottom {{ type fixedValue; value uniform (-{speed} 0 0); }}"
@@ -107,4 +147,4 @@ def shear(cells, rate):
            f'{cyclic} "(top|bottom)" {{ type zeroGradient; }}')
 
 
-{"tube": tube, "shear": shear}[sys.argv[1]](float(sys.argv[2]), float(sys.argv[3]))
+{"tube": tube, "duct": duct, "plates": plates, "shear": shear}[sys.argv[1]](float(sys.argv[2]), float(sys.argv[3]))

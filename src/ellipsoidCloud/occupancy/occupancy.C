@@ -110,6 +110,15 @@ Foam::occupancy::occupancy
     {
         held_.insert(ids[i], heldWrench{forces[i], Zero});
     }
+
+    const labelList gone(notes.getOrDefault("letGo", labelList()));
+    const vectorField places(notes.getOrDefault("letGoFrom", vectorField()));
+
+    forAll(gone, i)
+    {
+        const vector* of = &places[3*i];
+        letGo_.insert(gone[i], letGoCell{of[0], heldWrench{of[1], of[2]}});
+    }
 }
 
 
@@ -150,10 +159,11 @@ bool Foam::occupancy::pushed
 }
 
 
-bool Foam::occupancy::pulledOff
+bool Foam::occupancy::moves
 (
     const cellState& cell,
-    const UList<cellState>& cells
+    const UList<cellState>& cells,
+    const heldWrench& pull
 )
 {
     DynamicList<cellSweep> group;
@@ -170,18 +180,50 @@ bool Foam::occupancy::pulledOff
         }
     }
 
-    const scalar time = criterion_.holdTime();
+    heldWrench& acting = held_[cell.id];
+    const heldWrench whole(acting);
+    acting = pull;
+
     DynamicList<groupAdvance::segment> path;
     trials_->pulled = cell.id;
     trials_->advance
     (
-        group, identity(group.size()), cell.time + time, false, path
+        group, identity(group.size()), cell.time + criterion_.holdTime(),
+        false, path
     );
+    acting = whole;
 
     return
         group[own].gone()
-     || mag(group[own].state.centre() - cell.centre())
-     >= criterion_.slowSpeed()*time;
+     || mag(group[own].state.centre() - cell.centre()) >= reach();
+}
+
+
+bool Foam::occupancy::pulledOff
+(
+    const cellState& cell,
+    const UList<cellState>& cells
+)
+{
+    const heldWrench whole(held_[cell.id]);
+    const auto from = letGo_.cfind(cell.id);
+
+    if (!moves(cell, cells, whole))
+    {
+        return false;
+    }
+    if (!from.found())
+    {
+        return true;
+    }
+
+    const heldWrench& withstood = (*from).pull;
+    const heldWrench excess
+    {
+        whole.force - withstood.force, whole.torque - withstood.torque
+    };
+
+    return moves(cell, cells, excess);
 }
 
 
@@ -210,6 +252,7 @@ void Foam::occupancy::letGo
     for (const label i : loose)
     {
         cellState& cell = cells[i];
+        letGo_.set(cell.id, letGoCell{cell.centre(), held_[cell.id]});
         held_.erase(cell.id);
         outdated_ = true;
         cell.slowTime = 0;
@@ -259,13 +302,20 @@ void Foam::occupancy::update
     letGo(cells, false, events);
 
     DynamicList<label> caught;
+    Map<letGoCell> near;
     for (const cellState& cell : cells)
     {
+        const auto from = letGo_.cfind(cell.id);
+        if (from.found() && mag(cell.centre() - (*from).centre) < reach())
+        {
+            near.insert(cell.id, *from);
+        }
         if (blocks(cell) && !held_.found(cell.id))
         {
             caught.append(cell.id);
         }
     }
+    letGo_.transfer(near);
     outdated_ = outdated_ || caught.size() >= setting_.every;
 
     if (outdated_)
@@ -377,6 +427,18 @@ void Foam::occupancy::note(dictionary& notes, dictionary& tables)
         forces[i] = held_[ids[i]].force;
     }
 
+    const labelList gone(letGo_.sortedToc());
+    vectorField places(3*gone.size());
+    forAll(gone, i)
+    {
+        const letGoCell& of = letGo_[gone[i]];
+        places[3*i] = of.centre;
+        places[3*i + 1] = of.pull.force;
+        places[3*i + 2] = of.pull.torque;
+    }
+
+    notes.add("letGo", gone);
+    notes.add("letGoFrom", places);
     notes.add("held", ids);
     notes.add("heldForces", forces);
     tables.add("fluxes", fluxes_.notes());

@@ -16,6 +16,7 @@ PICTURE is one of
     figure3         the model drawn, and a cell at discrete times
     figure4         trapping performance of every sieve, of several designs
     figure5         the mesh, with close-ups of the apertures
+    fluxShares      share of the flow of every sieve, where held cells block it
     movie           cells that tumble past a sieve, an animation
     nearWall        spin rate against the distance from the sieves
     probability     that a sieve catches a cell, and holds exactly one of N
@@ -44,7 +45,7 @@ from files import CaseError
 # The longest first, so that none of them comes last alone
 PICTURES = (
     "movie", "figure3", "speedAndTracks", "figure2", "trappedCells", "figure5", "nearWall",
-    "figure1", "deflection",
+    "figure1", "fluxShares", "deflection",
 )
 # What takes runs of its own
 BY_ITSELF = ("figure4", "captureMap", "probability")

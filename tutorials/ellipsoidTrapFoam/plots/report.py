@@ -31,6 +31,7 @@ CHAPTERS = {
     ),
     "Catches": (
         ("figure1", "Cells caught against time (Figure 1 of the paper)"),
+        ("fluxShares", "The flow through the sieves as they fill"),
         ("trappedCells", "The cells at rest"),
         ("captureMap", "Where a cell must enter to be caught"),
         ("probability", "How probable it is that a sieve holds exactly one"),
