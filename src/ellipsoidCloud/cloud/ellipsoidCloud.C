@@ -116,6 +116,32 @@ void Foam::ellipsoidCloud::checkClock() const
 }
 
 
+void Foam::ellipsoidCloud::checkImages() const
+{
+    const polyMesh& mesh = undecomposed_->mesh();
+    const domainImages images(mesh, properties_.unreached());
+
+    for (const domainImages::seam& seam : images.seams())
+    {
+        const bool occupies =
+            properties_.section("occupancy").getOrDefault("active", false);
+
+        if (!seam.mirrors() && (properties_.pushing() || occupies))
+        {
+            const word& name = mesh.boundaryMesh()[seam.patch].name();
+
+            FatalIOErrorInFunction(properties_)
+                << "cells pass cyclic patch " << name << ", and "
+                << (occupies ? "occupancy is active" : "contact/cells is on")
+                << nl << "    A cell on one side of it does not meet those on"
+                << " the other: set contact/cells off and no occupancy, or, if"
+                << " no cell comes there, unreached (" << name << ");"
+                << exit(FatalIOError);
+        }
+    }
+}
+
+
 void Foam::ellipsoidCloud::checkTimes() const
 {
     const scalar end = mesh_.time().endTime().value();
@@ -191,6 +217,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
 
         if (Pstream::master())
         {
+            checkImages();
             meshNotes_ = checkpoint::notesOf(undecomposed_->mesh());
             earlier_.checkMesh(meshNotes_);
         }

@@ -123,64 +123,116 @@ Foam::frozenFlow::tetCoordinates Foam::frozenFlow::coordinates
 }
 
 
+Foam::label Foam::frozenFlow::exitOf
+(
+    const flowTet& tet,
+    const tetCoordinates& c,
+    const label previous
+)
+{
+    // A coordinate this far below 0 is rounding, not another tetrahedron
+    const scalar tolerance = 1e-10;
+
+    // Leave by the face most exceeded that leads on; a patch only where
+    // no face does, since the way round a corner may graze it. Nor go
+    // straight back where tetrahedra overlap.
+    int exit = -1;
+    int patchExit = -1;
+
+    for (int i = 0; i < 4; ++i)
+    {
+        int& best = tet.neighbours[i] < 0 ? patchExit : exit;
+
+        if
+        (
+            c.weight[i] < -tolerance
+         && (tet.neighbours[i] != previous || previous < 0)
+         && (best < 0 || c.weight[i] < c.weight[best])
+        )
+        {
+            best = i;
+        }
+    }
+
+    return exit >= 0 ? exit : patchExit;
+}
+
+
 Foam::frozenFlow::locationType Foam::frozenFlow::walk
 (
     const point& x,
     probe& at,
-    tetCoordinates& c
+    tetCoordinates& c,
+    isometry* image
 ) const
 {
-    // A coordinate this far below 0 is rounding, not another tetrahedron
-    const scalar tolerance = 1e-10;
     const label maxTets = 10000;
 
+    // Where x is in the mesh, and what takes it there from a passage on
+    point y(x);
+    isometry moved;
+    bool passed = false;
+    bool turned = false;
+
     label previous = -1;
+    bool justPassed = false;
+    locationType location = pBeyondWall;
 
     for (label n = 0; n < maxTets; ++n)
     {
         const flowTet& tet = tets_[at.tet];
-        c = coordinates(tet, x);
+        c = coordinates(tet, y);
         c.tet = at.tet;
-
-        // Leave by the face most exceeded that leads on; a patch only where
-        // no face does, since the way round a corner may graze it. Nor go
-        // straight back where tetrahedra overlap.
-        int exit = -1;
-        int patchExit = -1;
-
-        for (int i = 0; i < 4; ++i)
-        {
-            int& best = tet.neighbours[i] < 0 ? patchExit : exit;
-
-            if
-            (
-                c.weight[i] < -tolerance
-             && (tet.neighbours[i] != previous || previous < 0)
-             && (best < 0 || c.weight[i] < c.weight[best])
-            )
-            {
-                best = i;
-            }
-        }
-
         at.patch = -1;
-        if (exit >= 0)
+
+        const label exit = exitOf(tet, c, previous);
+        if (exit < 0)
+        {
+            location = pInside;
+            break;
+        }
+        if (tet.neighbours[exit] >= 0)
         {
             previous = at.tet;
             at.tet = tet.neighbours[exit];
+            justPassed = false;
+            continue;
         }
-        else if (patchExit >= 0)
+
+        const label patchi = -1 - tet.neighbours[exit];
+        if (patchLocation_[patchi] != pBeyondSeam)
         {
-            at.patch = -1 - tet.neighbours[patchExit];
-            return locationType(patchLocation_[at.patch]);
+            at.patch = patchi;
+            location = locationType(patchLocation_[patchi]);
+            break;
         }
-        else
+        if (justPassed)
         {
-            return pInside;
+            // Straight back is rounding
+            location = pInside;
+            break;
         }
+
+        const domainImages::seam& seam = *images_.at(patchi);
+        moved = passed ? seam.inward.after(moved) : seam.inward;
+        y = moved(x);
+        at.tet = seam.mirrors() ? at.tet : tetAcross_[at.tet];
+        turned = turned || seam.mirrors();
+        passed = justPassed = true;
+        previous = -1;
     }
 
-    return pBeyondWall;
+    c.turned = turned;
+    if (turned)
+    {
+        c.turn = moved.turn();
+    }
+    if (image)
+    {
+        *image = passed ? moved : isometry();
+    }
+
+    return location;
 }
 
 
@@ -210,6 +262,7 @@ Foam::frozenFlow::frozenFlow
     const undecomposedFlow& undecomposed,
     const scalar rho,
     const schemeType scheme,
+    const wordRes& unreached,
     const autoPtr<volVectorField>& E
 )
 :
@@ -219,7 +272,9 @@ Foam::frozenFlow::frozenFlow
     {
         const undecomposedFlow::serialScope serial;
 
+        images_ = domainImages(undecomposed.mesh(), unreached);
         make(undecomposed, rho, E);
+        findAcross(undecomposed.mesh());
         checkOpenPatches(undecomposed);
 
         for (const polyPatch& pp : undecomposed.mesh().boundaryMesh())
@@ -227,6 +282,7 @@ Foam::frozenFlow::frozenFlow
             patchLocation_.append
             (
                 isA<wallPolyPatch>(pp) ? pBeyondWall
+              : images_.at(pp.index()) ? pBeyondSeam
               : polyPatch::constraintType(pp.type()) ? pBeyondCoupled
               : pBeyondOpen
             );
@@ -239,6 +295,8 @@ Foam::frozenFlow::frozenFlow
     broadcast(cellTets_);
     broadcast(excess_);
     broadcast(patchLocation_);
+    broadcast(tetAcross_);
+    images_.share();
 
     centres_.setSize(cellTets_.size() - 1);
     forAll(centres_, celli)
@@ -298,7 +356,8 @@ bool Foam::frozenFlow::find(const point& x, probe& at) const
     {
         at.tet = teti;
 
-        if (locate(x, at) == pInside)
+        isometry image;
+        if (locate(x, at, image) == pInside && image.isIdentity())
         {
             return true;
         }
@@ -317,6 +376,19 @@ Foam::frozenFlow::locationType Foam::frozenFlow::locate
     tetCoordinates c;
 
     return walk(x, at, c);
+}
+
+
+Foam::frozenFlow::locationType Foam::frozenFlow::locate
+(
+    const point& x,
+    probe& at,
+    isometry& image
+) const
+{
+    tetCoordinates c;
+
+    return walk(x, at, c, &image);
 }
 
 
@@ -352,24 +424,24 @@ void Foam::frozenFlow::sample
     (
         c, sample.velocity, derivatives ? sample.velocity_jacobian : nullptr
     );
-    copy(c.value<tensor>(gradient), sample.gradient);
-    copy(c.value<vector>(gradp), sample.pressure_gradient);
+    copy(c.back(c.value<tensor>(gradient)), sample.gradient);
+    copy(c.back(c.value<vector>(gradp)), sample.pressure_gradient);
 
     if (derivatives)
     {
-        copy(c.derivatives(gradp), sample.pressure_jacobian);
+        copy(c.back(c.derivatives(gradp)), sample.pressure_jacobian);
         std::fill_n(&sample.gradient_jacobian[0][0][0], 27, scalar(0));
 
         for (int a = 0; a < 4; ++a)
         {
-            const tensor& G = gradient(c.vertices[a]);
+            const tensor G(c.back(gradient(c.vertices[a])));
+            const vector slope(c.back(c.gradient[a]));
 
             for (int ij = 0; ij < 9; ++ij)
             {
                 for (int k = 0; k < 3; ++k)
                 {
-                    sample.gradient_jacobian[ij/3][ij % 3][k] +=
-                        c.gradient[a][k]*G[ij];
+                    sample.gradient_jacobian[ij/3][ij % 3][k] += slope[k]*G[ij];
                 }
             }
         }
@@ -405,10 +477,10 @@ void Foam::frozenFlow::velocity
             value +=
                 (c.weight[a] - inside.weight[a])*vertices_[c.vertices[a]].u;
         }
-        copy(value, velocity);
+        copy(c.back(value), velocity);
         if (jacobian)
         {
-            copy(derivatives, jacobian);
+            copy(c.back(derivatives), jacobian);
         }
         return;
     }
@@ -435,10 +507,10 @@ void Foam::frozenFlow::velocity
         }
     }
 
-    copy(value, velocity);
+    copy(c.back(value), velocity);
     if (jacobian)
     {
-        copy(derivatives, jacobian);
+        copy(c.back(derivatives), jacobian);
     }
 }
 
@@ -452,10 +524,10 @@ void Foam::frozenFlow::field
 {
     const auto E = [&](const label i) -> const vector& { return field_[i]; };
 
-    copy(c.value<vector>(E), field);
+    copy(c.back(c.value<vector>(E)), field);
     if (jacobian)
     {
-        copy(c.derivatives(E), jacobian);
+        copy(c.back(c.derivatives(E)), jacobian);
     }
 }
 

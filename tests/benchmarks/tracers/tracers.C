@@ -508,6 +508,7 @@ int main(int argc, char *argv[])
         [
             args.getOrDefault<word>("interpolation", "divergenceFree")
         ],
+        wordRes(),
         nullptr
     );
     Info<< "made in " << seconds() - clock << " s" << endl;
