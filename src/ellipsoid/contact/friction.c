@@ -26,8 +26,8 @@ ellipsoid_friction_law ellipsoid_friction_law_of(const ellipsoid_model *model)
                                    o->contact_damping};
 }
 
-/* The law between a cell and its mirror image, which comes as fast from the other
-   side and does not slide. */
+/* The law between a cell and its mirror image, which comes as fast from the
+   other side and does not slide. */
 ellipsoid_friction_law
 ellipsoid_friction_law_at_mirror(const ellipsoid_model *model)
 {

@@ -123,20 +123,24 @@ void Foam::ellipsoidCloud::checkImages() const
 
     for (const domainImages::seam& seam : images.seams())
     {
-        const bool occupies =
-            properties_.section("occupancy").getOrDefault("active", false);
+        const char* unable =
+            properties_.section("occupancy").getOrDefault("active", false)
+          ? "occupancy is active"
+          : properties_.pushing() ? "contact/cells is on"
+          : properties_.scheme() == frozenFlow::stDivergenceFree
+          ? "interpolation is divergenceFree"
+          : nullptr;
 
-        if (!seam.mirrors() && (properties_.pushing() || occupies))
+        if (!seam.mirrors() && unable)
         {
             const word& name = mesh.boundaryMesh()[seam.patch].name();
 
             FatalIOErrorInFunction(properties_)
-                << "cells pass cyclic patch " << name << ", and "
-                << (occupies ? "occupancy is active" : "contact/cells is on")
-                << nl << "    A cell on one side of it does not meet those on"
-                << " the other: set contact/cells off and no occupancy, or, if"
-                << " no cell comes there, unreached (" << name << ");"
-                << exit(FatalIOError);
+                << "cells pass cyclic patch " << name << ", and " << unable
+                << nl << "    Neither cells nor that velocity know of the other"
+                << " side: set contact/cells off, no occupancy and another"
+                << " interpolation; or, if no cell comes there, unreached ("
+                << name << ");" << exit(FatalIOError);
         }
     }
 }

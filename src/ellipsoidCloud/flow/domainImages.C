@@ -124,7 +124,8 @@ Foam::domainImages::seam Foam::domainImages::translational(const polyPatch& pp)
         );
     }
 
-    if (off > offness*boundBox(half.boundaryMesh().mesh().points(), false).mag())
+    const pointField& points = half.boundaryMesh().mesh().points();
+    if (off > offness*boundBox(points, false).mag())
     {
         refuse
         (
@@ -137,7 +138,8 @@ Foam::domainImages::seam Foam::domainImages::translational(const polyPatch& pp)
     // Back the same way to the last bit
     if (!half.owner())
     {
-        return seam{pp.index(), translational(other).inward.inverse(), Zero, Zero};
+        const isometry there(translational(other).inward);
+        return seam{pp.index(), there.inverse(), Zero, Zero};
     }
 
     return seam{pp.index(), isometry::translation(shift), Zero, Zero};

@@ -451,10 +451,8 @@ void Foam::groupScheduler::sample
     }
     for (const groupAdvance::segment& taken : u.path)
     {
-        tracks_->add
-        (
-            cells[taken.cell].state, taken.step, domain_.flow, taken.tet, u.rows
-        );
+        cellState& cell = cells[taken.cell].state;
+        tracks_->add(cell, taken.step, domain_.flow, taken.tet, u.rows);
     }
     forAll(after, k)
     {
