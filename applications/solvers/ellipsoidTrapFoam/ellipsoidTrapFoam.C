@@ -109,6 +109,10 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
     autoPtr<flowFields> flow(steadyFlow::New(mesh, solve));
     const bool accepted = flow->accept();
 
+    if (!accepted && !flowOnly)
+    {
+        cells->checkInjections(flow->U(), flow->p(), flow->phi());
+    }
     if (!accepted && !dryRun)
     {
         flow->solve();

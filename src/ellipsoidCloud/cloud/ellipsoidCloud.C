@@ -13,6 +13,7 @@ License
 #include "electricField.H"
 #include "masterGate.H"
 #include "inletFlux.H"
+#include "possibleInflow.H"
 #include "clockTime.H"
 #include "surfaceFields.H"
 #include "volFields.H"
@@ -62,7 +63,17 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::ellipsoidCloud::makeInjections()
+void Foam::ellipsoidCloud::makeDomain()
+{
+    if (!domain_.valid())
+    {
+        domain_.reset(new cellDomain(properties_, *undecomposed_, field_));
+        field_.clear();
+    }
+}
+
+
+Foam::label Foam::ellipsoidCloud::makeInjections(const bool hasFlow)
 {
     const dictionary& dict = properties_.subDict("injection");
     const scalar runStart = readScalar(firstTime_);
@@ -73,7 +84,7 @@ void Foam::ellipsoidCloud::makeInjections()
         const cellInjection::setting from
         {
             e.dict(), *undecomposed_, *domain_, population_, nCells,
-            runStart
+            runStart, hasFlow
         };
 
         injections_.append(cellInjection::New(from).ptr());
@@ -84,8 +95,7 @@ void Foam::ellipsoidCloud::makeInjections()
         nCells += injections_.last().size();
     }
 
-    Info<< "ellipsoidCloud: " << nCells << " cells to enter by "
-        << flatOutput(dict.toc()) << endl;
+    return nCells;
 }
 
 
@@ -146,37 +156,48 @@ void Foam::ellipsoidCloud::checkImages() const
 }
 
 
-void Foam::ellipsoidCloud::checkTimes() const
+Foam::label Foam::ellipsoidCloud::nToEnter() const
 {
     const scalar end = mesh_.time().endTime().value();
-    scalar first = VGREAT;
-    scalar last = -VGREAT;
-    label inTime = 0;
+    label n = 0;
 
     for (const cellInjection& injection : injections_)
     {
         for (const Tuple2<scalar, label>& cell : injection.times())
         {
-            first = min(first, cell.first());
-            last = max(last, cell.first());
-            inTime += cell.first() >= time_ && cell.first() < end;
+            n += cell.first() >= time_ && cell.first() < end;
         }
     }
 
-    Info<< "case: " << inTime << " cells enter from " << time_ << " to " << end
-        << " s" << endl;
+    return n;
+}
 
-    if (!inTime && !earlier_.found())
+
+void Foam::ellipsoidCloud::checkTimes() const
+{
+    if (earlier_.found() || nToEnter())
     {
-        const masterGate once;
-        FatalIOErrorInFunction(properties_.subDict("injection"))
-            << "no cell enters while the run lasts, from "
-            << shortText(time_).c_str() << " to " << shortText(end).c_str()
-            << " s: they are to enter from " << shortText(first).c_str()
-            << " to " << shortText(last).c_str() << " s" << nl
-            << "    Correct start of the injections, or startTime and endTime"
-            << " of controlDict" << exit(FatalIOError);
+        return;
     }
+
+    scalar first = VGREAT;
+    scalar last = -VGREAT;
+
+    for (const cellInjection& injection : injections_)
+    {
+        first = min(first, injection.times().first().first());
+        last = max(last, injection.times().last().first());
+    }
+
+    const masterGate once;
+    FatalIOErrorInFunction(properties_.subDict("injection"))
+        << "no cell enters while the run lasts, from "
+        << shortText(time_).c_str() << " to "
+        << shortText(mesh_.time().endTime().value()).c_str()
+        << " s: they are to enter from " << shortText(first).c_str()
+        << " to " << shortText(last).c_str() << " s" << nl
+        << "    Correct start of the injections, or startTime and endTime"
+        << " of controlDict" << exit(FatalIOError);
 }
 
 
@@ -248,6 +269,32 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+void Foam::ellipsoidCloud::checkInjections
+(
+    const volVectorField& U,
+    const volScalarField& p,
+    const surfaceScalarField& phi
+)
+{
+    undecomposed_->gather(possibleInflow(U, p), p, phi);
+
+    makeDomain();
+    checkPlaces();
+    makeInjections(false);
+
+    bool known = true;
+    for (const entry& e : properties_.subDict("injection"))
+    {
+        known = known && !e.dict().found("concentration");
+    }
+    if (known)
+    {
+        checkTimes();
+    }
+    injections_.clear();
+}
+
+
 void Foam::ellipsoidCloud::setFlow
 (
     const volVectorField& U,
@@ -257,10 +304,13 @@ void Foam::ellipsoidCloud::setFlow
 {
     undecomposed_->gather(U, p, phi);
 
-    domain_.reset(new cellDomain(properties_, *undecomposed_, field_));
+    const inletFlux through(U, phi);
+    through.checkOpen(mesh_);
+
+    makeDomain();
+    domain_->flow.renew(*undecomposed_, fluidDensity());
     criterion_.setInletSpeed(inletFlux::speedOf(*undecomposed_));
 
-    const inletFlux through(U, phi);
     passage_ =
         through.closed() ? VGREAT : gSum(mesh_.V())/through.inflow;
     reportFlow
@@ -271,9 +321,12 @@ void Foam::ellipsoidCloud::setFlow
     );
 
     checkPlaces();
-    makeInjections();
+    const label nCells = makeInjections(true);
     checkTimes();
-    field_.clear();
+    Info<< "ellipsoidCloud: " << nCells << " cells to enter by "
+        << flatOutput(properties_.subDict("injection").toc()) << nl
+        << "case: " << nToEnter() << " cells enter from " << time_ << " to "
+        << mesh_.time().endTime().value() << " s" << endl;
 
     if (occupancy_.valid())
     {

@@ -223,7 +223,7 @@ Foam::ellipsoidParcel::ellipsoidParcel
 Foam::List<Foam::cellState> Foam::ellipsoidParcel::read(const polyMesh& mesh)
 {
     const passiveParticleCloud c(mesh, cloudName, false);
-    List<cellState> cells(c.size());
+    List<cellState> cells(c.size(), cellState());
 
     for (const cellField& field : cellFields)
     {

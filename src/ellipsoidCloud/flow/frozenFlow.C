@@ -59,29 +59,6 @@ namespace Foam
             weight[a] /= sum;
         }
     }
-
-    //- End the run if what should be an open end is a wall to the flow
-    static void checkOpenPatches(const undecomposedFlow& undecomposed)
-    {
-        const inletFlux through(undecomposed.U(), undecomposed.phi());
-
-        forAll(through.patches, i)
-        {
-            const polyPatch& pp =
-                undecomposed.mesh().boundaryMesh()[through.patches[i]];
-
-            if (pp.size() && through.isRounding(through.magFlux[i]))
-            {
-                FatalErrorInFunction
-                    << "nothing flows through patch " << pp.name()
-                    << " of type " << pp.type() << nl
-                    << "    Cells would leave there. If it is a wall, make it "
-                    << "one: type wall in "
-                    << undecomposed.mesh().meshDir()/"boundary"
-                    << exit(FatalError);
-            }
-        }
-    }
 }
 
 
@@ -260,7 +237,6 @@ Foam::tetFlow Foam::frozenFlow::flowIn
 Foam::frozenFlow::frozenFlow
 (
     const undecomposedFlow& undecomposed,
-    const scalar rho,
     const schemeType scheme,
     const wordRes& unreached,
     const autoPtr<volVectorField>& E
@@ -273,9 +249,8 @@ Foam::frozenFlow::frozenFlow
         const undecomposedFlow::serialScope serial;
 
         images_ = domainImages(undecomposed.mesh(), unreached);
-        make(undecomposed, rho, E);
+        make(undecomposed, E);
         findAcross(undecomposed.mesh());
-        checkOpenPatches(undecomposed);
 
         for (const polyPatch& pp : undecomposed.mesh().boundaryMesh())
         {

@@ -317,13 +317,44 @@ namespace Foam
         return tets;
     }
 
-    //- The flow at the vertices
+    //- The vertices, with fluid at rest
     static List<flowVertex> makeVertices
+    (
+        const fvMesh& mesh,
+        const baffleSides& baffles
+    )
+    {
+        const label nCells = mesh.nCells();
+        const label nPoints = mesh.nPoints() + baffles.sides().size();
+
+        List<flowVertex> vertices(nCells + nPoints);
+
+        forAll(vertices, i)
+        {
+            const label j = i - nCells;
+            const label pointi =
+                j < mesh.nPoints()
+              ? j
+              : baffles.sides()[j - mesh.nPoints()].point;
+
+            vertices[i].x =
+                j < 0 ? mesh.cellCentres()[i] : mesh.points()[pointi];
+            vertices[i].u = Zero;
+            vertices[i].gradient = Zero;
+            vertices[i].pressureGradient = Zero;
+        }
+
+        return vertices;
+    }
+
+    //- Set the flow at the vertices
+    static void setVertices
     (
         const undecomposedFlow& undecomposed,
         const scalar rho,
         const domainImages& images,
-        const baffleSides& baffles
+        const baffleSides& baffles,
+        UList<flowVertex>& vertices
     )
     {
         const fvMesh& mesh = undecomposed.mesh();
@@ -357,25 +388,15 @@ namespace Foam
             }
         }
 
-        List<flowVertex> vertices(U.size());
-
         forAll(vertices, i)
         {
             const label j = i - nCells;
-            const label pointi =
-                j < mesh.nPoints()
-              ? j
-              : baffles.sides()[j - mesh.nPoints()].point;
 
-            vertices[i].x =
-                j < 0 ? mesh.cellCentres()[i] : mesh.points()[pointi];
             vertices[i].u =
                 j >= 0 && nWallFaces[j] ? wallU[j]/scalar(nWallFaces[j]) : U[i];
             vertices[i].gradient = gradU[i].T();
             vertices[i].pressureGradient = gradp[i];
         }
-
-        return vertices;
     }
 }
 
@@ -468,7 +489,7 @@ void Foam::frozenFlow::setFlow
     const baffleSides& baffles
 )
 {
-    vertices_ = makeVertices(undecomposed, rho, images_, baffles);
+    setVertices(undecomposed, rho, images_, baffles, vertices_);
 
     if (scheme_ == stDivergenceFree)
     {
@@ -488,7 +509,6 @@ void Foam::frozenFlow::setFlow
 void Foam::frozenFlow::make
 (
     const undecomposedFlow& undecomposed,
-    const scalar rho,
     const autoPtr<volVectorField>& E
 )
 {
@@ -498,13 +518,21 @@ void Foam::frozenFlow::make
     (
         undecomposed.mesh(), baffles, scheme_ == stDivergenceFree, cellTets_
     );
-    setFlow(undecomposed, rho, baffles);
+    vertices_ = makeVertices(undecomposed.mesh(), baffles);
+    if (scheme_ == stDivergenceFree)
+    {
+        excess_.setSize(tets_.size(), flowTetExcess{{0, 0, 0, 0}, 0});
+    }
 
     if (E.valid())
     {
         field_ = atVertices
         (
-            *E, images_, baffles, "electric", "look at what forces/electricField names"
+            *E,
+            images_,
+            baffles,
+            "electric",
+            "look at what forces/electricField names"
         );
     }
 }

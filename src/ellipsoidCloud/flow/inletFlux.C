@@ -9,34 +9,11 @@ License
 \*---------------------------------------------------------------------------*/
 #include "inletFlux.H"
 #include "foamVersions.H"
+#include "masterGate.H"
 #include "surfaceFields.H"
 #include "undecomposedFlow.H"
 #include "volFields.H"
 #include "wallPolyPatch.H"
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-    //- Labels of the patches that the fluid can pass
-    static labelList openPatches(const polyBoundaryMesh& patches)
-    {
-        DynamicList<label> open(patches.size());
-
-        for (const polyPatch& pp : patches)
-        {
-            const bool wall = isA<wallPolyPatch>(pp);
-
-            if (!wall && !polyPatch::constraintType(pp.type()))
-            {
-                open.append(pp.index());
-            }
-        }
-
-        return labelList(std::move(open));
-    }
-}
-
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -102,6 +79,24 @@ Foam::inletFlux::inletFlux
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+Foam::labelList Foam::inletFlux::openPatches(const polyBoundaryMesh& patches)
+{
+    DynamicList<label> open(patches.size());
+
+    for (const polyPatch& pp : patches)
+    {
+        const bool wall = isA<wallPolyPatch>(pp);
+
+        if (!wall && !polyPatch::constraintType(pp.type()))
+        {
+            open.append(pp.index());
+        }
+    }
+
+    return labelList(std::move(open));
+}
+
+
 Foam::scalar Foam::inletFlux::speedOf(const undecomposedFlow& undecomposed)
 {
     scalar speed = 0;
@@ -113,6 +108,27 @@ Foam::scalar Foam::inletFlux::speedOf(const undecomposedFlow& undecomposed)
     broadcast(speed);
 
     return speed;
+}
+
+
+void Foam::inletFlux::checkOpen(const polyMesh& mesh) const
+{
+    const masterGate once;
+
+    forAll(patches, i)
+    {
+        if (area[i] > 0 && isRounding(magFlux[i]))
+        {
+            const polyPatch& pp = mesh.boundaryMesh()[patches[i]];
+
+            FatalErrorInFunction
+                << "nothing flows through patch " << pp.name() << " of type "
+                << pp.type() << nl
+                << "    Cells would leave there. If it is a wall, make it one:"
+                << " type wall in " << mesh.meshDir()/"boundary"
+                << exit(FatalError);
+        }
+    }
 }
 
 

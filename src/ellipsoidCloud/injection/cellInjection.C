@@ -214,6 +214,11 @@ Foam::label Foam::cellInjection::readNumber(const scalar flux) const
     const scalar duration = read("duration");
     const scalar rate =
         dict.found("rate") ? read("rate") : read("concentration")*flux;
+
+    if (!from_.hasFlow && dict.found("concentration"))
+    {
+        return 1;
+    }
     const scalar number = rate*duration;
 
     if (!(number >= 0.5 && number < 1e8))

@@ -500,10 +500,9 @@ int main(int argc, char *argv[])
     undecomposed.gather(U, p, phi);
 
     scalar clock = seconds();
-    const frozenFlow flow
+    frozenFlow flow
     (
         undecomposed,
-        997.5,
         frozenFlow::schemeNames
         [
             args.getOrDefault<word>("interpolation", "divergenceFree")
@@ -511,6 +510,7 @@ int main(int argc, char *argv[])
         wordRes(),
         nullptr
     );
+    flow.renew(undecomposed, 997.5);
     Info<< "made in " << seconds() - clock << " s" << endl;
     checkVelocity(flow, phi);
     if (known != "none")

@@ -366,7 +366,8 @@ int main(int argc, char *argv[])
 
     undecomposedFlow whole(mesh);
     whole.gather(U, p, phi);
-    const cellDomain domain(properties, whole, autoPtr<volVectorField>());
+    cellDomain domain(properties, whole, autoPtr<volVectorField>());
+    domain.flow.renew(whole, properties.options().fluid_density);
     const scalar slowSpeed =
         ellipsoidProperties::number
         (
