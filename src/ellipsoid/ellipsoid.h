@@ -119,11 +119,17 @@ typedef struct ellipsoid_facet
                                    that leave vertex k */
     int star_count[3];
     int surface; /* label of the wall patch, for reports */
+    int mirror;  /* 1: no wall but a plane of symmetry, where a cell meets its
+                    own mirror image: the elastic force is a wall's (half the
+                    radius, half the modulus, twice the overlap), damping is of
+                    twice the speed, and there is neither friction nor adhesion,
+                    nor a wall's resistance. docs/theory.md, "Contact" */
 } ellipsoid_facet;
 
 /*
     Sets the vertices, and the normal and ball that follow from them; edges lead
-    to free rims until they are set. Returns 0 if the triangle has no area.
+    to free rims until they are set, and it is a wall. Returns 0 if the triangle
+    has no area.
 */
 int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3]);
 
@@ -349,6 +355,12 @@ int ellipsoid_bead_force(const double centre[3], double radius,
 */
 int ellipsoid_beads(const ellipsoid_options *options,
                     double bead[ELLIPSOID_MAX_BEADS][3]);
+
+/*
+    The body axis whose reversal takes the ellipsoid and its beads, of any
+    layout, to themselves: a shortest one.
+*/
+int ellipsoid_mirror_axis(const double semi_axes[3]);
 
 /*
     Whether the ellipsoid itself, not its beads, cuts a wall facet; exact, but

@@ -18,6 +18,7 @@ License
 #include "fvMesh.H"
 #include "inletFlux.H"
 #include "masterGate.H"
+#include "processorCyclicFvPatchField.H"
 #include "PstreamReduceOps.H"
 #include "SHA1.H"
 #include "StringStream.H"
@@ -40,6 +41,34 @@ Foam::flowFields::solveTypeNames_
 
 namespace Foam
 {
+    //- Set a field at cyclic patches that are divided between ranks, where
+    //  decomposePar does not write the values of the other side
+    template<class Type>
+    static void setSplitCyclic
+    (
+        GeometricField<Type, fvPatchField, volMesh>& field
+    )
+    {
+        typedef processorCyclicFvPatchField<Type> splitCyclic;
+        const label firstRequest = Pstream::nRequests();
+
+        for (fvPatchField<Type>& pf : field.boundaryFieldRef(false))
+        {
+            if (isA<splitCyclic>(pf))
+            {
+                pf.initEvaluate(Pstream::commsTypes::nonBlocking);
+            }
+        }
+        Pstream::waitRequests(firstRequest);
+        for (fvPatchField<Type>& pf : field.boundaryFieldRef(false))
+        {
+            if (isA<splitCyclic>(pf))
+            {
+                pf.evaluate(Pstream::commsTypes::nonBlocking);
+            }
+        }
+    }
+
 
 //- End the run if a field is not of the dimensions that the solver has it in
 template<class Field>
@@ -213,6 +242,8 @@ Foam::flowFields::flowFields(const fvMesh& mesh)
         fvc::flux(U_)
     )
 {
+    setSplitCyclic(U_);
+    setSplitCyclic(p_);
     check();
 }
 

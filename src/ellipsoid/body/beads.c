@@ -26,6 +26,14 @@ static int longest_axis(const double a[3])
     return axis;
 }
 
+int ellipsoid_mirror_axis(const double axes[3])
+{
+    const int along = longest_axis(axes);
+    const int next = (along + 1) % 3, last = (along + 2) % 3;
+
+    return axes[last] > axes[next] ? next : last;
+}
+
 /*
     A pole at either end of the longest axis and, between them at equal
     distances along it, rings of three, each turned 60 degrees from the last:
@@ -37,9 +45,8 @@ static int staggered(const double axes[3], int count,
                      double bead[ELLIPSOID_MAX_BEADS][3])
 {
     const int along = longest_axis(axes);
-    const int next = (along + 1) % 3, last = (along + 2) % 3;
-    const int rim = axes[last] > axes[next] ? last : next;
-    const int across = 3 - along - rim;
+    const int across = ellipsoid_mirror_axis(axes);
+    const int rim = 3 - along - across;
     const int rings = (count - 2) / 3;
     int n = 0;
 

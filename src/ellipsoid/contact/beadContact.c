@@ -43,6 +43,7 @@ static void find_contacts(const ellipsoid_bead *bead,
         {
             continue;
         }
+        found.mirror = facet->mirror;
         if (found.height < 0)
         {
             if (found.height > behind.height)
@@ -55,7 +56,7 @@ static void find_contacts(const ellipsoid_bead *bead,
         }
         clear = fmin(clear, found.height);
         *gap = fmin(*gap, found.height - r);
-        if (found.height < range)
+        if (found.height < (found.mirror ? r : range))
         {
             add_contact(all, &found, r);
             if (report)
@@ -119,13 +120,17 @@ static scalar redundancy(const contacts *all, const blend *m, int i, int j)
 
 /* Adds the forces of one law along the normals (sign 1) or against. */
 static void add_blended(const contacts *all, const blend *m, double sign,
-                        int derivatives, ellipsoid_point_force *sum)
+                        int derivatives, ellipsoid_bead_forces *forces)
 {
     scalar size[MAX_CONTACTS];
 
     blend_forces(all, m, size);
     for (int c = 0; c < m->count; c++)
     {
+        ellipsoid_point_force *sum = all->at[c].mirror ? &forces->mirrored
+                                   : sign < 0          ? &forces->attraction
+                                                       : &forces->repulsion;
+
         for (int i = 0; i < 3; i++)
         {
             const double n = sign * all->at[c].normal[i];
@@ -167,7 +172,10 @@ static void add_laws(const ellipsoid_bead *bead, contacts *all, int derivatives,
         {
             const contact *c = &all->at[i];
             const ellipsoid_normal_force f =
-                ellipsoid_contact_normal_force(law, c->height - bead->radius);
+                c->mirror && law->attractive
+                    ? (ellipsoid_normal_force){.force = 0}
+                    : ellipsoid_contact_normal_force(law,
+                                                     c->height - bead->radius);
 
             m.force[i].value = sign * f.force;
             for (int k = 0; k < 3; k++)
@@ -177,9 +185,7 @@ static void add_laws(const ellipsoid_bead *bead, contacts *all, int derivatives,
         }
         if (m.count > 0)
         {
-            add_blended(all, &m, sign, derivatives,
-                        law->attractive ? &sum->attraction
-                                        : &sum->repulsion);
+            add_blended(all, &m, sign, derivatives, sum);
         }
     }
 }
@@ -195,6 +201,10 @@ int ellipsoid_bead_contact(const ellipsoid_bead *bead,
     if (all.count > 0)
     {
         memset(forces, 0, sizeof *forces);
+        for (int i = 0; i < all.count; i++)
+        {
+            forces->mirrors += all.at[i].mirror;
+        }
         add_laws(bead, &all, derivatives, forces);
     }
     return all.count;

@@ -35,11 +35,12 @@ typedef struct ellipsoid_point_force
     double force[3], force_x[3][3];
 } ellipsoid_point_force;
 
-/* Those of laws that repel, on which friction and damping depend, and those of
-   laws that attract. */
+/* Those of laws that repel, on which friction and damping depend, at walls and
+   at planes of symmetry, and those of laws that attract. */
 typedef struct ellipsoid_bead_forces
 {
-    ellipsoid_point_force repulsion, attraction;
+    ellipsoid_point_force repulsion, mirrored, attraction;
+    int mirrors; /* contacts at planes of symmetry */
 } ellipsoid_bead_forces;
 
 /*
@@ -83,6 +84,8 @@ typedef struct ellipsoid_friction_law
 } ellipsoid_friction_law;
 
 ellipsoid_friction_law ellipsoid_friction_law_of(const ellipsoid_model *model);
+ellipsoid_friction_law
+ellipsoid_friction_law_at_mirror(const ellipsoid_model *model);
 ellipsoid_friction_law ellipsoid_friction_law_between(const ellipsoid_model *a,
                                             const ellipsoid_model *b);
 
@@ -155,6 +158,7 @@ typedef struct ellipsoid_wall_contact
 
 /* Adds the elastic force on the bead at `arm`, with friction and damping. */
 void ellipsoid_add_wall_friction(ellipsoid_wall_contact *at,
+                                 const ellipsoid_friction_law *law,
                                  const double arm[3],
                                  const ellipsoid_point_force *elastic);
 

@@ -27,7 +27,7 @@ static void record(contacts *all, const contact *found, double range,
                    double size, int surface, ellipsoid_contact *report)
 {
     report->gap = fmin(report->gap, found->height);
-    if (found->height < range)
+    if (found->height < (found->mirror ? 0 : range))
     {
         add_contact(all, found, size);
         list_surface(report, surface);
@@ -83,6 +83,7 @@ static void add_cut_plane(const ellipsoid_surface *body,
 
         if (ellipsoid_surface_cut_plane(facet, body, &found))
         {
+            found.mirror = facet->mirror;
             deep = deep
                 || -found.height > curvature_radius * (1 + coincidence);
             if (found.height > least.height)
@@ -118,6 +119,8 @@ static void find_contacts(const ellipsoid_surface *body,
         const double reach = report->gap > range ? report->gap : range;
 
         const int side = ellipsoid_surface_nearest(facet, body, reach, &found);
+
+        found.mirror = facet->mirror;
 
         if (side == 0)
         {
@@ -256,10 +259,12 @@ static scalar redundancy(const contacts *all, const blend *m, int i, int j)
 }
 
 /* Adds the forces of one law along the normals (sign 1) or against; with
-   friction and damping unless `friction` is NULL. */
+   friction and damping, at walls and at planes of symmetry, unless `friction` is
+   NULL. */
 static void add_blended(const contacts *all, const blend *m, double sign,
-                        const ellipsoid_friction_law *friction, int derivatives,
-                        ellipsoid_surface_force *at, ellipsoid_wrench *sum)
+                        const ellipsoid_friction_law friction[2],
+                        int derivatives, ellipsoid_surface_force *at,
+                        ellipsoid_wrench *sum)
 {
     scalar size[MAX_CONTACTS];
 
@@ -281,7 +286,8 @@ static void add_blended(const contacts *all, const blend *m, double sign,
                 at->point_slope[0][k][i] = -c->arm_slope[i][k];
             }
         }
-        ellipsoid_wrench_add(at, friction, derivatives, sum);
+        ellipsoid_wrench_add(at, friction ? &friction[c->mirror != 0] : NULL,
+                             derivatives, sum);
     }
 }
 
@@ -291,7 +297,9 @@ static void add_laws(const ellipsoid_model *model,
                      ellipsoid_wrench *sum)
 {
     const ellipsoid_surface *body = at->body[0];
-    const ellipsoid_friction_law friction = ellipsoid_friction_law_of(model);
+    const ellipsoid_friction_law friction[2] = {
+        ellipsoid_friction_law_of(model),
+        ellipsoid_friction_law_at_mirror(model)};
     int count[ELLIPSOID_LAW_COUNT];
     blend m; /* large: set where it is read */
 
@@ -314,7 +322,9 @@ static void add_laws(const ellipsoid_model *model,
         {
             const contact *c = &all->at[i];
             const ellipsoid_normal_force f =
-                ellipsoid_contact_normal_force(law, c->height);
+                c->mirror && law->attractive
+                    ? (ellipsoid_normal_force){.force = 0}
+                    : ellipsoid_contact_normal_force(law, c->height);
 
             m.force[i].value = sign * f.force;
             for (int k = 0; k < VARIABLES; k++)
@@ -326,7 +336,7 @@ static void add_laws(const ellipsoid_model *model,
         if (m.count > 0)
         {
             add_blended(all, &m, sign,
-                        !law->attractive && model->dissipative ? &friction
+                        !law->attractive && model->dissipative ? friction
                                                                : NULL,
                         derivatives, at, sum);
         }

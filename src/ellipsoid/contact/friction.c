@@ -26,6 +26,16 @@ ellipsoid_friction_law ellipsoid_friction_law_of(const ellipsoid_model *model)
                                    o->contact_damping};
 }
 
+/* The law between a cell and its mirror image, which comes as fast from the
+   other side and does not slide. */
+ellipsoid_friction_law
+ellipsoid_friction_law_at_mirror(const ellipsoid_model *model)
+{
+    const ellipsoid_options *o = &model->options;
+
+    return (ellipsoid_friction_law){0, o->slip_speed, 2 * o->contact_damping};
+}
+
 /* The geometric mean of friction: a cell without any slides on any other. */
 ellipsoid_friction_law ellipsoid_friction_law_between(const ellipsoid_model *a,
                                             const ellipsoid_model *b)
@@ -178,10 +188,10 @@ void ellipsoid_add_friction(const ellipsoid_friction *friction, int body,
     turns as the elastic force does.
 */
 void ellipsoid_add_wall_friction(ellipsoid_wall_contact *at,
+                                 const ellipsoid_friction_law *law,
                                  const double arm[3],
                                  const ellipsoid_point_force *elastic)
 {
-    const ellipsoid_friction_law law = ellipsoid_friction_law_of(at->model);
     const double size = ellipsoid_length(elastic->force);
     const double per_force =
         size > 0 ? at->model->options.bead_radius / size : 0;
@@ -195,7 +205,7 @@ void ellipsoid_add_wall_friction(ellipsoid_wall_contact *at,
         friction.elastic[i] = elastic->force[i];
         friction.attachment[0].point[i] -= per_force * elastic->force[i];
     }
-    if (!ellipsoid_friction_traction(&law, &friction, at->jacobian != NULL))
+    if (!ellipsoid_friction_traction(law, &friction, at->jacobian != NULL))
     {
         return;
     }

@@ -28,11 +28,20 @@ static void add_bead(ellipsoid_wall_contact *at, const double arm[3],
     at->contact->bead_contacts++;
     if (at->model->dissipative)
     {
-        ellipsoid_add_wall_friction(at, arm, &forces->repulsion);
+        const ellipsoid_friction_law law = ellipsoid_friction_law_of(at->model);
+
+        ellipsoid_add_wall_friction(at, &law, arm, &forces->repulsion);
     }
     else
     {
         add_elastic(at, arm, &forces->repulsion);
+    }
+    if (forces->mirrors > 0)
+    {
+        const ellipsoid_friction_law law =
+            ellipsoid_friction_law_at_mirror(at->model);
+
+        ellipsoid_add_wall_friction(at, &law, arm, &forces->mirrored);
     }
     if (at->laws.attractive)
     {

@@ -386,8 +386,10 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
 
     for (int k = 0; k < list.count; k++)
     {
-        if (!may_matter(&list.facets[list.index[k]], x, wide + margin, margin,
-                        slimness))
+        const ellipsoid_facet *facet = &list.facets[list.index[k]];
+
+        if (facet->mirror
+            || !may_matter(facet, x, wide + margin, margin, slimness))
         {
             continue;
         }

@@ -230,6 +230,7 @@ int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3])
     int opposite = 0;
 
     memcpy(facet->vertex, vertex, sizeof facet->vertex);
+    facet->mirror = 0;
     for (int k = 0; k < 3; k++)
     {
         ellipsoid_difference(vertex[(k + 2) % 3], vertex[(k + 1) % 3],

@@ -31,6 +31,7 @@ typedef struct ellipsoid_nearest
     double height;    /* [m] distance; negative behind a face */
     double normal[3]; /* unit, from there to the point; into the fluid */
     double edge[3];   /* unit, along the edge; only ON_EDGE */
+    int mirror;       /* of the facet; whoever keeps it sets it */
 } ellipsoid_nearest;
 
 /* Fills *nearest and returns 1 if there is one nearer than reach [m] on this
@@ -117,6 +118,7 @@ typedef struct ellipsoid_surface_contact
                          centre */
     double support;   /* [m] arm.normal */
     double edge[3];   /* unit, along the edge; only ON_EDGE */
+    int mirror;       /* of the facet; whoever keeps it sets it */
 
     /* set by ellipsoid_surface_derivatives() */
     double height_slope[ELLIPSOID_SURFACE_VARIABLES];

@@ -152,6 +152,36 @@ void Foam::ellipsoidCloud::checkClock() const
 }
 
 
+void Foam::ellipsoidCloud::checkImages() const
+{
+    const polyMesh& mesh = undecomposed_->mesh();
+    const domainImages images(mesh, properties_.unreached());
+
+    for (const domainImages::seam& seam : images.seams())
+    {
+        const char* unable =
+            properties_.section("occupancy").getOrDefault("active", false)
+          ? "occupancy is active"
+          : properties_.pushing() ? "contact/cells is on"
+          : properties_.scheme() == frozenFlow::stDivergenceFree
+          ? "interpolation is divergenceFree"
+          : nullptr;
+
+        if (!seam.mirrors() && unable)
+        {
+            const word& name = mesh.boundaryMesh()[seam.patch].name();
+
+            FatalIOErrorInFunction(properties_)
+                << "cells pass cyclic patch " << name << ", and " << unable
+                << nl << "    Neither cells nor that velocity know of the other"
+                << " side: set contact/cells off, no occupancy and another"
+                << " interpolation; or, if no cell comes there, unreached ("
+                << name << ");" << exit(FatalIOError);
+        }
+    }
+}
+
+
 Foam::label Foam::ellipsoidCloud::nToEnter() const
 {
     const scalar end = mesh_.time().endTime().value();
@@ -239,6 +269,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
 
         if (Pstream::master())
         {
+            checkImages();
             meshNotes_ = checkpoint::notesOf(undecomposed_->mesh());
             earlier_.checkMesh(meshNotes_);
         }

@@ -44,7 +44,11 @@ void Foam::ellipsoidCloud::makeTables()
 
     const tableSet set
     {
-        mesh_.boundaryMesh().names(), population_, folder, tables
+        mesh_.boundaryMesh().names(),
+        population_,
+        folder,
+        properties_.hasSeams(mesh_.boundaryMesh()),
+        tables
     };
 
     statistics_.reset(new captureStatistics(set, criterion_.sieves()));

@@ -9,6 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 #include "ellipsoidParcel.H"
 #include "atomicWrite.H"
+#include "domainImages.H"
 #include "IOField.H"
 #include "IOPosition.H"
 #include "passiveParticleCloud.H"
@@ -75,6 +76,7 @@ namespace Foam
         { "length", offsetof(cellState, size.length), scalars, 1 },
         { "width", offsetof(cellState, size.width), scalars, 1 },
         { "density", offsetof(cellState, size.density), scalars, 1 },
+        { "unfold", offsetof(cellState, unfold), vectors, 4 },
         { "id", offsetof(cellState, id), labels, 1 },
         { "tet", offsetof(cellState, tet), labels, 1 },
         { "fate", offsetof(cellState, fate), labels, 1 },
@@ -109,6 +111,14 @@ namespace Foam
             field.count > 1
           ? word(field.name + Foam::name(component))
           : word(field.name);
+    }
+
+    //- Is a member kept in files? What unfolds a way only where it can fold
+    static bool isKept(const cellField& field, const polyMesh& mesh)
+    {
+        return
+            field.offset != offsetof(cellState, unfold)
+         || domainImages::mayHave(mesh);
     }
 
     //- Where a state has a member
@@ -205,10 +215,14 @@ Foam::ellipsoidParcel::ellipsoidParcel
 Foam::List<Foam::cellState> Foam::ellipsoidParcel::read(const polyMesh& mesh)
 {
     const passiveParticleCloud c(mesh, cloudName, false);
-    List<cellState> cells(c.size());
+    List<cellState> cells(c.size(), cellState());
 
     for (const cellField& field : cellFields)
     {
+        if (!isKept(field, mesh))
+        {
+            continue;
+        }
         switch (field.type)
         {
             case labels: readMember<label>(c, field, cells); break;
@@ -254,6 +268,10 @@ void Foam::ellipsoidParcel::writeFields(const Cloud<ellipsoidParcel>& c)
 
     for (const cellField& field : cellFields)
     {
+        if (!isKept(field, c.pMesh()))
+        {
+            continue;
+        }
         switch (field.type)
         {
             case labels: writeMember<label>(c, field, cells); break;

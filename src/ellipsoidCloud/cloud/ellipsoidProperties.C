@@ -26,8 +26,8 @@ void Foam::ellipsoidProperties::checkUnreached
     const polyBoundaryMesh& patches
 ) const
 {
-    const wordRes unreached(getOrDefault("unreached", wordRes()));
-    DynamicList<word> impassable;
+    const wordRes unreached(this->unreached());
+    DynamicList<word> constrained;
 
     for (const polyPatch& pp : patches)
     {
@@ -40,29 +40,30 @@ void Foam::ellipsoidProperties::checkUnreached
             continue;
         }
 
-        impassable.append(pp.name());
+        constrained.append(pp.name());
 
-        if (!unreached.match(pp.name()))
+        if (!unreached.match(pp.name()) && !domainImages::isSeam(pp))
         {
             FatalIOErrorInFunction(*this)
                 << "patch " << pp.name() << " of "
                 << patches.mesh().meshDir()/"boundary"
                 << " is of type " << pp.type() << nl
                 << "    A cell that came to it could not go on. Make it a "
-                << "wall (type wall) or an open end (type patch); or, if no "
-                << "cell comes there, say so: unreached (" << pp.name()
+                << "plane of symmetry (symmetryPlane), cyclic, a wall (wall) "
+                << "or an open end (patch); or, if no cell comes there, say "
+                << "so: unreached (" << pp.name()
                 << ");" << exit(FatalIOError);
         }
     }
 
     for (const wordRe& name : unreached)
     {
-        if (findStrings(name, impassable).empty())
+        if (findStrings(name, constrained).empty())
         {
             FatalIOErrorInFunction(*this)
-                << "unreached " << name << " matches no patch that cells "
-                << "cannot pass" << nl
-                << "    patches of such types: " << flatOutput(impassable)
+                << "unreached " << name << " matches no patch of type cyclic "
+                << "or symmetry" << nl
+                << "    patches of such types: " << flatOutput(constrained)
                 << exit(FatalIOError);
         }
     }
@@ -173,6 +174,25 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::ellipsoidProperties::hasSeams
+(
+    const polyBoundaryMesh& patches
+) const
+{
+    const wordRes unreached(this->unreached());
+
+    for (const polyPatch& pp : patches)
+    {
+        if (domainImages::isSeam(pp) && !unreached.match(pp.name()))
+        {
+            return true;
+        }
+    }
+
+    return false;
+}
+
 
 void Foam::ellipsoidProperties::checkKeywords
 (

@@ -106,63 +106,115 @@ void Foam::frozenFlow::setCoordinates
 }
 
 
+Foam::label Foam::frozenFlow::exitOf
+(
+    const flowTet& tet,
+    const tetCoordinates& c,
+    const label previous
+)
+{
+    // A coordinate this far below 0 is rounding, not another tetrahedron
+    const scalar tolerance = 1e-10;
+
+    // Leave by the face most exceeded that leads on; a patch only where
+    // no face does, since the way round a corner may graze it. Nor go
+    // straight back where tetrahedra overlap.
+    int exit = -1;
+    int patchExit = -1;
+
+    for (int i = 0; i < 4; ++i)
+    {
+        int& best = tet.neighbours[i] < 0 ? patchExit : exit;
+
+        if
+        (
+            c.weight[i] < -tolerance
+         && (tet.neighbours[i] != previous || previous < 0)
+         && (best < 0 || c.weight[i] < c.weight[best])
+        )
+        {
+            best = i;
+        }
+    }
+
+    return exit >= 0 ? exit : patchExit;
+}
+
+
 Foam::frozenFlow::locationType Foam::frozenFlow::walk
 (
     const point& x,
     probe& at,
-    tetCoordinates& c
+    tetCoordinates& c,
+    isometry* image
 ) const
 {
-    // A coordinate this far below 0 is rounding, not another tetrahedron
-    const scalar tolerance = 1e-10;
     const label maxTets = 10000;
 
+    // Where x is in the mesh, and what takes it there from a passage on
+    point y(x);
+    isometry moved;
+    bool passed = false;
+    bool turned = false;
+
     label previous = -1;
+    bool justPassed = false;
+    locationType location = pBeyondWall;
 
     for (label n = 0; n < maxTets; ++n)
     {
         const flowTet& tet = tets_[at.tet];
-        setCoordinates(at.tet, x, c);
-
-        // Leave by the face most exceeded that leads on; a patch only where
-        // no face does, since the way round a corner may graze it. Nor go
-        // straight back where tetrahedra overlap.
-        int exit = -1;
-        int patchExit = -1;
-
-        for (int i = 0; i < 4; ++i)
-        {
-            int& best = tet.neighbours[i] < 0 ? patchExit : exit;
-
-            if
-            (
-                c.weight[i] < -tolerance
-             && (tet.neighbours[i] != previous || previous < 0)
-             && (best < 0 || c.weight[i] < c.weight[best])
-            )
-            {
-                best = i;
-            }
-        }
-
+        setCoordinates(at.tet, y, c);
         at.patch = -1;
-        if (exit >= 0)
+
+        const label exit = exitOf(tet, c, previous);
+        if (exit < 0)
+        {
+            location = pInside;
+            break;
+        }
+        if (tet.neighbours[exit] >= 0)
         {
             previous = at.tet;
             at.tet = tet.neighbours[exit];
+            justPassed = false;
+            continue;
         }
-        else if (patchExit >= 0)
+
+        const label patchi = -1 - tet.neighbours[exit];
+        if (patchLocation_[patchi] != pBeyondSeam)
         {
-            at.patch = -1 - tet.neighbours[patchExit];
-            return locationType(patchLocation_[at.patch]);
+            at.patch = patchi;
+            location = locationType(patchLocation_[patchi]);
+            break;
         }
-        else
+        if (justPassed)
         {
-            return pInside;
+            // Straight back is rounding
+            location = pInside;
+            break;
         }
+
+        const domainImages::seam& seam = *images_.at(patchi);
+        moved = passed ? seam.inward.after(moved) : seam.inward;
+        y = moved(x);
+        at.tet = seam.mirrors() ? at.tet : tetAcross_[at.tet];
+        turned = turned || seam.mirrors();
+        passed = justPassed = true;
+        previous = -1;
     }
 
-    return pBeyondWall;
+    c.turned = turned;
+    if (turned)
+    {
+        c.turn = moved.turn();
+    }
+    if (image)
+    {
+        *image = passed ? moved : isometry();
+    }
+
+    return location;
 }
 
 
@@ -217,24 +269,24 @@ void Foam::frozenFlow::sampleOf
         sample.velocity,
         derivatives ? sample.velocity_jacobian : nullptr
     );
-    copy(c.value<tensor>(gradient), sample.gradient);
-    copy(c.value<vector>(gradp), sample.pressure_gradient);
+    copy(c.back(c.value<tensor>(gradient)), sample.gradient);
+    copy(c.back(c.value<vector>(gradp)), sample.pressure_gradient);
 
     if (derivatives)
     {
-        copy(c.derivatives(gradp), sample.pressure_jacobian);
+        copy(c.back(c.derivatives(gradp)), sample.pressure_jacobian);
         std::fill_n(&sample.gradient_jacobian[0][0][0], 27, scalar(0));
 
         for (int a = 0; a < 4; ++a)
         {
-            const tensor& G = gradient(c.vertices[a]);
+            const tensor G(c.back(gradient(c.vertices[a])));
+            const vector slope(c.back(c.gradient[a]));
 
             for (int ij = 0; ij < 9; ++ij)
             {
                 for (int k = 0; k < 3; ++k)
                 {
-                    sample.gradient_jacobian[ij/3][ij % 3][k] +=
-                        c.gradient[a][k]*G[ij];
+                    sample.gradient_jacobian[ij/3][ij % 3][k] += slope[k]*G[ij];
                 }
             }
         }
@@ -272,10 +324,10 @@ void Foam::frozenFlow::velocityOf
         {
             value += (c.weight[a] - inside[a])*vertices[c.vertices[a]].u;
         }
-        copy(value, velocity);
+        copy(c.back(value), velocity);
         if (jacobian)
         {
-            copy(derivatives, jacobian);
+            copy(c.back(derivatives), jacobian);
         }
         return;
     }
@@ -302,10 +354,10 @@ void Foam::frozenFlow::velocityOf
         }
     }
 
-    copy(value, velocity);
+    copy(c.back(value), velocity);
     if (jacobian)
     {
-        copy(derivatives, jacobian);
+        copy(c.back(derivatives), jacobian);
     }
 }
 
@@ -316,6 +368,7 @@ Foam::frozenFlow::frozenFlow
 (
     const undecomposedFlow& undecomposed,
     const schemeType scheme,
+    const wordRes& unreached,
     const autoPtr<volVectorField>& E,
     const bool unsteady
 )
@@ -329,13 +382,16 @@ Foam::frozenFlow::frozenFlow
     {
         const undecomposedFlow::serialScope serial;
 
+        images_ = domainImages(undecomposed.mesh(), unreached);
         make(undecomposed, E);
+        findAcross(undecomposed.mesh());
 
         for (const polyPatch& pp : undecomposed.mesh().boundaryMesh())
         {
             patchLocation_.append
             (
                 isA<wallPolyPatch>(pp) ? pBeyondWall
+              : images_.at(pp.index()) ? pBeyondSeam
               : polyPatch::constraintType(pp.type()) ? pBeyondCoupled
               : pBeyondOpen
             );
@@ -348,6 +404,8 @@ Foam::frozenFlow::frozenFlow
     broadcast(cellTets_);
     broadcast(excess_);
     broadcast(patchLocation_);
+    broadcast(tetAcross_);
+    images_.share();
 
     centres_.setSize(cellTets_.size() - 1);
     forAll(centres_, celli)
@@ -432,7 +490,8 @@ bool Foam::frozenFlow::find(const point& x, probe& at) const
     {
         at.tet = teti;
 
-        if (locate(x, at) == pInside)
+        isometry image;
+        if (locate(x, at, image) == pInside && image.isIdentity())
         {
             return true;
         }
@@ -451,6 +510,19 @@ Foam::frozenFlow::locationType Foam::frozenFlow::locate
     tetCoordinates c;
 
     return walk(x, at, c);
+}
+
+
+Foam::frozenFlow::locationType Foam::frozenFlow::locate
+(
+    const point& x,
+    probe& at,
+    isometry& image
+) const
+{
+    tetCoordinates c;
+
+    return walk(x, at, c, &image);
 }
 
 
@@ -569,10 +641,10 @@ void Foam::frozenFlow::field
 {
     const auto E = [&](const label i) -> const vector& { return field_[i]; };
 
-    copy(c.value<vector>(E), field);
+    copy(c.back(c.value<vector>(E)), field);
     if (jacobian)
     {
-        copy(c.derivatives(E), jacobian);
+        copy(c.back(c.derivatives(E)), jacobian);
     }
 }
 

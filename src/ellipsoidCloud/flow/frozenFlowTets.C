@@ -16,10 +16,13 @@ Description
 #include "baffleSides.H"
 #include "undecomposedFlow.H"
 #include "vertexFit.H"
+#include "bitSet.H"
+#include "cyclicPolyPatch.H"
 #include "volPointInterpolation.H"
 #include "fvcGrad.H"
 #include "wallPolyPatch.H"
 #include "EdgeMap.H"
+#include "transform.H"
 
 #include <cmath>
 
@@ -60,11 +63,105 @@ namespace Foam
         return value/sum;
     }
 
+    //- A field at a point of a plane of symmetry by what is about it, as in the
+    //  mesh of the whole: faces of the boundary, or mesh cells if there are none
+    template<class Type>
+    static Type beforeMirror
+    (
+        const GeometricField<Type, fvPatchField, volMesh>& field,
+        const domainImages& images,
+        const label pointi
+    )
+    {
+        const polyMesh& mesh = field.mesh();
+        const point& x = mesh.points()[pointi];
+
+        Type atFaces(Zero);
+        Type atCells(Zero);
+        scalar faceWeights = 0;
+        scalar cellWeights = 0;
+
+        for (const label facei : mesh.pointFaces()[pointi])
+        {
+            const label patchi = mesh.boundaryMesh().whichPatch(facei);
+
+            if (patchi >= 0 && !images.at(patchi))
+            {
+                const scalar w = 1/mag(x - mesh.faceCentres()[facei]);
+                const label start = mesh.boundaryMesh()[patchi].start();
+                atFaces += w*field.boundaryField()[patchi][facei - start];
+                faceWeights += w;
+            }
+        }
+        for (const label celli : mesh.pointCells()[pointi])
+        {
+            const scalar w = 1/mag(x - mesh.cellCentres()[celli]);
+            atCells += w*field[celli];
+            cellWeights += w;
+        }
+
+        return faceWeights > 0 ? atFaces/faceWeights : atCells/cellWeights;
+    }
+
+    //- Make a field at the points of planes of symmetry what it is in the mesh
+    //  of the whole
+    template<class Type>
+    static void mirror
+    (
+        const GeometricField<Type, fvPatchField, volMesh>& field,
+        const domainImages& images,
+        UList<Type>& atPoints
+    )
+    {
+        const polyMesh& mesh = field.mesh();
+        bitSet isCyclic(mesh.nPoints());
+
+        for (const domainImages::seam& seam : images.seams())
+        {
+            if (!seam.mirrors())
+            {
+                isCyclic.set(mesh.boundaryMesh()[seam.patch].meshPoints());
+            }
+        }
+        for (const domainImages::seam& seam : images.seams())
+        {
+            const labelList points
+            (
+                seam.mirrors()
+              ? mesh.boundaryMesh()[seam.patch].meshPoints()
+              : labelList()
+            );
+            for (const label pointi : points)
+            {
+                // At a cyclic patch the other side counts as well
+                if (!isCyclic.test(pointi))
+                {
+                    atPoints[pointi] = beforeMirror(field, images, pointi);
+                }
+            }
+        }
+        for (const domainImages::seam& seam : images.seams())
+        {
+            const labelList points
+            (
+                seam.mirrors()
+              ? mesh.boundaryMesh()[seam.patch].meshPoints()
+              : labelList()
+            );
+            for (const label pointi : points)
+            {
+                Type& value = atPoints[pointi];
+                value = 0.5*(value + transform(seam.inward.turn(), value));
+            }
+        }
+    }
+
     //- A field at all vertices. Ends the run if a value is not finite.
     template<class Type>
     static Field<Type> atVertices
     (
         const GeometricField<Type, fvPatchField, volMesh>& field,
+        const domainImages& images,
         const baffleSides& baffles,
         const char* name = "flow",
         const char* advice = "solve the flow again from clean fields"
@@ -78,6 +175,9 @@ namespace Foam
         SubList<Type>(values, nPoints, nCells) =
             volPointInterpolation::New(field.mesh()).interpolate(field)()
            .primitiveField();
+
+        SubList<Type> atPoints(values, nPoints, nCells);
+        mirror(field, images, atPoints);
 
         forAll(baffles.sides(), sidei)
         {
@@ -252,6 +352,7 @@ namespace Foam
     (
         const undecomposedFlow& undecomposed,
         const scalar rho,
+        const domainImages& images,
         const baffleSides& baffles,
         UList<flowVertex>& vertices
     )
@@ -259,11 +360,11 @@ namespace Foam
         const fvMesh& mesh = undecomposed.mesh();
         const volVectorField& flow = undecomposed.U();
         const label nCells = mesh.nCells();
-        const vectorField U(atVertices(flow, baffles));
-        const tensorField gradU(atVertices(fvc::grad(flow)(), baffles));
+        const vectorField U(atVertices(flow, images, baffles));
+        const tensorField gradU(atVertices(fvc::grad(flow)(), images, baffles));
         const vectorField gradp
         (
-            atVertices((rho*fvc::grad(undecomposed.p()))(), baffles)
+            atVertices((rho*fvc::grad(undecomposed.p()))(), images, baffles)
         );
 
         // A point that a wall shares with an open patch moves with the wall,
@@ -302,6 +403,85 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+void Foam::frozenFlow::findAcross(const polyMesh& mesh)
+{
+    for (const domainImages::seam& seam : images_.seams())
+    {
+        if (seam.mirrors())
+        {
+            continue;
+        }
+
+        const cyclicPolyPatch& half =
+            refCast<const cyclicPolyPatch>(mesh.boundaryMesh()[seam.patch]);
+        const cyclicPolyPatch& other = half.neighbPatch();
+
+        forAll(half, i)
+        {
+            // Of the other side's tetrahedra at this face the nearest; those of
+            // a face are cut alike unless rounding has it otherwise
+            const auto tetsAt =
+                [&](const polyPatch& pp)
+                {
+                    DynamicList<label> found;
+                    const label celli = pp.faceCells()[i];
+                    for
+                    (
+                        label teti = cellTets_[celli];
+                        teti < cellTets_[celli + 1];
+                        ++teti
+                    )
+                    {
+                        const flowTet& tet = tets_[teti];
+                        bool atFace = tet.neighbours[0] == -1 - pp.index();
+                        for (label k = 1; k < 4 && atFace; ++k)
+                        {
+                            const label pointi =
+                                tet.vertices[k] - mesh.nCells();
+                            atFace =
+                                pointi >= mesh.nPoints()
+                             || pp[i].found(pointi);
+                        }
+                        if (atFace)
+                        {
+                            found.append(teti);
+                        }
+                    }
+                    return found;
+                };
+            const auto middle =
+                [&](const label teti)
+                {
+                    const label* v = tets_[teti].vertices;
+                    return
+                        (vertices_[v[1]].x + vertices_[v[2]].x
+                      + vertices_[v[3]].x)/3;
+                };
+
+            const DynamicList<label> there(tetsAt(other));
+            for (const label teti : tetsAt(half))
+            {
+                const point x(seam.inward(middle(teti)));
+                label nearest = -1;
+                for (const label candidate : there)
+                {
+                    if
+                    (
+                        nearest < 0
+                     || magSqr(middle(candidate) - x)
+                      < magSqr(middle(nearest) - x)
+                    )
+                    {
+                        nearest = candidate;
+                    }
+                }
+                tetAcross_.set(teti, nearest);
+            }
+        }
+    }
+}
+
+
 void Foam::frozenFlow::setFlow
 (
     const undecomposedFlow& undecomposed,
@@ -309,7 +489,7 @@ void Foam::frozenFlow::setFlow
     const baffleSides& baffles
 )
 {
-    setVertices(undecomposed, rho, baffles, vertices_);
+    setVertices(undecomposed, rho, images_, baffles, vertices_);
 
     if (scheme_ == stDivergenceFree)
     {
@@ -348,7 +528,11 @@ void Foam::frozenFlow::make
     {
         field_ = atVertices
         (
-            *E, baffles, "electric", "look at what forces/electricField names"
+            *E,
+            images_,
+            baffles,
+            "electric",
+            "look at what forces/electricField names"
         );
     }
 }

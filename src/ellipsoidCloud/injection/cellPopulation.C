@@ -193,6 +193,34 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
 }
 
 
+Foam::scalar Foam::cellPopulation::farthestSeen
+(
+    const ellipsoidProperties& properties
+)
+{
+    const ellipsoid_options& options = properties.options();
+    scalar farthest = 0;
+
+    for (const cellSize& size : setting(properties, options).extremes(options))
+    {
+        const ellipsoid_options own(optionsOf(options, size));
+        const double* a = own.semi_axes;
+        const scalar longest = longestSemiAxis(own);
+        const scalar slimness = longest/min(a[0], min(a[1], a[2]));
+
+        // Twice the reach of its beads, as far from all walls; or what gives
+        // it resistance, see wallPlanes.c
+        farthest = max(farthest, 4*(longest + 2*own.bead_radius));
+        if (own.wall_resistance != ELLIPSOID_WALL_RESISTANCE_NONE)
+        {
+            farthest = max(farthest, (2 + slimness)*own.wall_range);
+        }
+    }
+
+    return farthest;
+}
+
+
 Foam::List<Foam::cellSize> Foam::cellPopulation::listedSizes
 (
     const dictionary& dict,

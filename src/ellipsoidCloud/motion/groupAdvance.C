@@ -61,13 +61,15 @@ struct Foam::groupAdvance::member
         DynamicList<segment>& path;
         cellSurroundings here;
         frozenFlow::locationType location;
+        isometry image;
         ellipsoid_step last;
         heldWrench pull;
 
 
     // Member Functions
 
-        //- An ellipsoid_observer: stops a cell that has left the mesh
+        //- An ellipsoid_observer: stops a cell that has left the mesh or goes
+        //  on in an image
         static int observe(void* context, const ellipsoid_step* step)
         {
             member& m = *static_cast<member*>(context);
@@ -75,8 +77,9 @@ struct Foam::groupAdvance::member
 
             const ellipsoid_contact& contact = step->contact;
 
+            const label tet = m.here.home.tet;
             m.last = *step;
-            m.location = m.here.settle(pointOf(step->after.x));
+            m.location = m.here.settle(pointOf(step->after.x), m.image);
             state.deepest = max(state.deepest, contact.deepest);
             state.deepestCell = max(state.deepestCell, contact.cell_deepest);
 
@@ -103,9 +106,25 @@ struct Foam::groupAdvance::member
 
             if (m.recording)
             {
-                m.path.append(segment{m.index, *step});
+                m.path.append(segment{m.index, *step, tet});
             }
-            return 0;
+            return !m.image.isIdentity();
+        }
+
+        //- Put a cell that has passed a plane of symmetry or a cyclic patch
+        //  where it is in the mesh
+        void pass()
+        {
+            ellipsoid_contact& contact = last.contact;
+            const tensor turn(image.turn());
+
+            cell.state.pass(image, model.options.semi_axes);
+            for (double* force : {contact.force, contact.cell_force})
+            {
+                const vector turned(turn & pointOf(force));
+                std::copy_n(turned.v_, 3, force);
+            }
+            image = isometry();
         }
 
         //- Note the contacts at the end
@@ -204,6 +223,13 @@ struct Foam::groupAdvance::member
 
             ellipsoid_step_state(&last, inside, &state.body);
             state.time = inside;
+
+            at = here.home;
+            domain.flow.locate(state.centre(), at, image);
+            if (!image.isIdentity())
+            {
+                pass();
+            }
         }
 };
 
@@ -242,7 +268,7 @@ void Foam::groupAdvance::rest
     for (const label i : group)
     {
         cellState& cell = cells[i].state;
-        path.append(segment{i, ellipsoid_step()});
+        path.append(segment{i, ellipsoid_step(), cell.tet});
 
         ellipsoid_step& step = path.last().step;
         step.start = cell.time;
@@ -288,7 +314,7 @@ void Foam::groupAdvance::enter
                 isClamped(id) ? clamped(id) : population_.model(id), domain_,
                 properties.pushing(), pulled < 0, path,
                 {domain_, frozenFlow::probe{cell.state.tet, -1}},
-                frozenFlow::pInside, ellipsoid_step(), heldWrench()
+                frozenFlow::pInside, isometry(), ellipsoid_step(), heldWrench()
             }
         );
         if (isClamped(id) || (held_ && id == pulled))
@@ -360,8 +386,13 @@ bool Foam::groupAdvance::integrate
             if (failed ? i == which : m.location != frozenFlow::pInside)
             {
                 m.remove(status);
+                continue;
             }
-            else if (status == ELLIPSOID_OK)
+            if (!m.image.isIdentity())
+            {
+                m.pass();
+            }
+            if (status == ELLIPSOID_OK)
             {
                 m.settle();
             }

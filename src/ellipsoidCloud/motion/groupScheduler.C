@@ -9,6 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 #include "groupScheduler.H"
 #include "captureCriterion.H"
+#include "cellDomain.H"
 #include "HashSet.H"
 #include "overlapGroups.H"
 
@@ -450,7 +451,8 @@ void Foam::groupScheduler::sample
     }
     for (const groupAdvance::segment& taken : u.path)
     {
-        tracks_->add(cells[taken.cell].state, taken.step, u.rows);
+        cellState& cell = cells[taken.cell].state;
+        tracks_->add(cell, taken.step, domain_.flow, taken.tet, u.rows);
     }
     forAll(after, k)
     {
@@ -530,6 +532,7 @@ Foam::groupScheduler::groupScheduler
 )
 :
     population_(population),
+    domain_(domain),
     interacting_(population.properties().pushing()),
     beadRadius_(population.properties().options().bead_radius),
     groups_(population, domain, held),

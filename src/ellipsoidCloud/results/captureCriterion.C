@@ -41,7 +41,7 @@ namespace Foam
 
             const scalar dt = end - was.time;
 
-            if (mag(cell.centre() - was.centre())/dt < slowSpeed)
+            if (mag(cell.unfolded() - was.unfolded())/dt < slowSpeed)
             {
                 cell.slowTime += dt;
                 continue;

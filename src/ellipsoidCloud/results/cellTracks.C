@@ -27,6 +27,7 @@ namespace Foam
         cellState& cell,
         const scalar t,
         const ellipsoid_state& body,
+        const isometry& unfold,
         DynamicList<cellTracks::row>& rows
     )
     {
@@ -39,6 +40,8 @@ namespace Foam
         std::copy_n(body.omega, 3, r.begin() + 12);
         r[15] = cell.fate;
         r[16] = cell.patch;
+        const point unfolded(unfold(pointOf(body.x)));
+        std::copy_n(unfolded.v_, 3, r.begin() + 17);
         rows.append(r);
 
         cell.lastRow[0] = t;
@@ -59,6 +62,8 @@ namespace Foam
     };
 
     static const trackArray positions = { "Float64", "x", 3, 2 };
+
+    static const trackArray unfolded = { "Float64", "unfolded", 3, 20 };
 
     static const trackArray pointData[] =
     {
@@ -130,7 +135,8 @@ Foam::cellTracks::cellTracks(const tableSet& set)
         set,
         "tracks",
         "t,id,x1,x2,x3,u1,u2,u3,eps1,eps2,eps3,eta,"
-        "omega1,omega2,omega3,O1,O2,O3,fate,patch",
+        "omega1,omega2,omega3,O1,O2,O3,fate,patch"
+      + std::string(set.unfolds ? ",x1Unfolded,x2Unfolded,x3Unfolded" : ""),
         9
     )
 {}
@@ -140,7 +146,7 @@ Foam::cellTracks::cellTracks(const tableSet& set)
 
 void Foam::cellTracks::start(cellState& cell, DynamicList<row>& rows) const
 {
-    append(cell, cell.time, cell.body, rows);
+    append(cell, cell.time, cell.body, cell.unfold, rows);
     cell.nextRow =
         (std::floor(cell.time/setting_.interval) + 1)*setting_.interval;
 }
@@ -150,16 +156,36 @@ void Foam::cellTracks::add
 (
     cellState& cell,
     const ellipsoid_step& step,
+    const frozenFlow& flow,
+    const label tet,
     DynamicList<row>& rows
 ) const
 {
-    const scalar longest =
-        longestSemiAxis(set_.population.model(cell.id).options);
+    const ellipsoid_options& options = set_.population.model(cell.id).options;
+    const scalar longest = longestSemiAxis(options);
+
+    // A pose within the step, put where it is in the mesh
+    const auto at =
+        [&](const ellipsoid_state& body)
+        {
+            cellState there(cell);
+            there.body = body;
+            if (set_.unfolds)
+            {
+                isometry image;
+                frozenFlow::probe from{tet, -1};
+                flow.locate(pointOf(body.x), from, image);
+                there.pass(image, options.semi_axes);
+            }
+            return there;
+        };
 
     while (cell.nextRow <= step.end)
     {
-        ellipsoid_state body;
-        ellipsoid_step_state(&step, max(cell.nextRow, step.start), &body);
+        ellipsoid_state inStep;
+        ellipsoid_step_state(&step, max(cell.nextRow, step.start), &inStep);
+        const cellState there(at(inStep));
+        const ellipsoid_state& body = there.body;
 
         scalar move = 0;
         scalar alike = 0;
@@ -187,12 +213,17 @@ void Foam::cellTracks::add
 
         if (due && moved)
         {
-            append(cell, cell.nextRow, body, rows);
+            append(cell, cell.nextRow, body, there.unfold, rows);
         }
 
         cell.nextRow =
             (std::floor(cell.nextRow/setting_.interval + 0.5) + 1)
            *setting_.interval;
+    }
+
+    if (set_.unfolds)
+    {
+        cell.unfold = at(step.after).unfold;
     }
 }
 
@@ -201,7 +232,7 @@ void Foam::cellTracks::finish(cellState& cell, DynamicList<row>& rows) const
 {
     if (cell.time - cell.lastRow[0] > 1e-6*setting_.interval)
     {
-        append(cell, cell.time, cell.body, rows);
+        append(cell, cell.time, cell.body, cell.unfold, rows);
     }
 }
 
@@ -240,7 +271,12 @@ void Foam::cellTracks::flush()
 
         os  << ',' << O.x() << ',' << O.y() << ',' << O.z()
             << ',' << cellState::fateNames[cellState::fateType(label(r[15]))]
-            << ',' << set_.patchName(label(r[16])) << '\n';
+            << ',' << set_.patchName(label(r[16]));
+        for (label i = 17; set_.unfolds && i < 20; ++i)
+        {
+            os << ',' << r[i];
+        }
+        os << '\n';
     }
 
     file.flush();
@@ -314,6 +350,10 @@ void Foam::cellTracks::writeVTP
     for (const trackArray& array : pointData)
     {
         write(array);
+    }
+    if (set_.unfolds)
+    {
+        write(unfolded);
     }
     polyData.array
     (

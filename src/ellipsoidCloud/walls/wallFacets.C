@@ -14,9 +14,11 @@ License
 #include "treeBoundBox.H"
 #include "treeDataTriSurface.H"
 #include "undecomposedFlow.H"
+#include "wallImages.H"
 #include "wallPolyPatch.H"
 
 #include <cmath>
+#include <functional>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -67,8 +69,12 @@ namespace Foam
         return best;
     }
 
-    //- Split the wall faces of the undecomposed mesh into triangles
-    static triSurface triangulate(const polyMesh& mesh)
+    //- Split the faces of patches of the undecomposed mesh into triangles
+    static triSurface triangulate
+    (
+        const polyMesh& mesh,
+        const std::function<bool(const polyPatch&)>& chosen
+    )
     {
         const labelList& basePoints = mesh.tetBasePtIs();
         DynamicList<labelledTri> triangles;
@@ -77,7 +83,7 @@ namespace Foam
         {
             const polyPatch& pp = mesh.boundaryMesh()[patchi];
 
-            if (!isA<wallPolyPatch>(pp))
+            if (!chosen(pp))
             {
                 continue;
             }
@@ -91,7 +97,7 @@ namespace Foam
                 if (base < 0)
                 {
                     FatalErrorInFunction
-                        << "a face of wall " << pp.name() << " at "
+                        << "a face of patch " << pp.name() << " at "
                         << f.centre(mesh.points()) << " cannot be cut into "
                         << "triangles from any of its points: "
                         << "checkMesh says more"
@@ -117,12 +123,73 @@ namespace Foam
 
         return triSurface(List<labelledTri>(triangles), mesh.points());
     }
+
+    //- Two surfaces that share no points
+    static triSurface both(const triSurface& a, const triSurface& b)
+    {
+        DynamicList<labelledTri> triangles(a);
+        DynamicList<point> points(a.points());
+        points.append(b.points());
+
+        for (const labelledTri& t : b)
+        {
+            const label n = a.points().size();
+            triangles.append
+            (
+                labelledTri(t[0] + n, t[1] + n, t[2] + n, t.region())
+            );
+        }
+
+        return triSurface(List<labelledTri>(triangles), pointField(points));
+    }
 }
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::wallFacets::setFacets()
+Foam::triSurface Foam::wallFacets::made
+(
+    const polyMesh& mesh,
+    const domainImages& images,
+    const bool mirrors
+) const
+{
+    const boundBox box(mesh.points(), false);
+    const scalar far = known_ + beyond_;
+    const auto isWall =
+        [](const polyPatch& pp) { return isA<wallPolyPatch>(pp); };
+    const auto isMirror =
+        [&](const polyPatch& pp)
+        {
+            const domainImages::seam* seam = images.at(pp.index());
+            return seam && seam->mirrors();
+        };
+
+    const triSurface walls(triangulate(mesh, isWall));
+
+    if (images.empty())
+    {
+        return flatMerged(walls, 2*regionSize_);
+    }
+
+    const triSurface all
+    (
+        flatMerged(withImages(walls, images, box, far), 2*regionSize_)
+    );
+    const triSurface planes(triangulate(mesh, isMirror));
+
+    return
+        mirrors && planes.size()
+      ? both
+        (
+            all,
+            flatMerged(withImages(planes, images, box, far), 2*regionSize_)
+        )
+      : all;
+}
+
+
+void Foam::wallFacets::setFacets(const domainImages& images)
 {
     facets_.setSize(surface_.size());
     spheres_.setSize(surface_.size());
@@ -147,6 +214,8 @@ void Foam::wallFacets::setFacets()
         }
 
         f.surface = surface_[faceti].region();
+        const domainImages::seam* seam = images.at(f.surface);
+        f.mirror = seam && seam->mirrors();
         spheres_[faceti] = sphere{pointOf(f.middle), f.radius};
     }
 }
@@ -255,18 +324,24 @@ const Foam::wallFacets::region& Foam::wallFacets::regionAt
 Foam::wallFacets::wallFacets
 (
     const undecomposedFlow& undecomposed,
-    const scalar length
+    const scalar length,
+    const domainImages& images,
+    const need& needed
 )
 :
-    regionSize_(length)
+    regionSize_(length),
+    known_(images.empty() ? GREAT : needed.reach),
+    beyond_(images.empty() ? 0 : length)
 {
     List<labelledTri> triangles;
     pointField points;
 
     if (Pstream::master())
     {
-        const triSurface faces(triangulate(undecomposed.mesh()));
-        const triSurface merged(flatMerged(faces, 2*length));
+        const triSurface merged
+        (
+            made(undecomposed.mesh(), images, needed.mirrors)
+        );
 
         triangles = merged;
         points = merged.points();
@@ -279,20 +354,26 @@ Foam::wallFacets::wallFacets
 
     surface_ = triSurface(triangles, points);
 
-    setFacets();
+    setFacets(images);
     setEdges();
     setStars();
 
     if (surface_.size())
     {
         span_.inflate(0.01);
+        span_.min() -= beyond_*vector::one;
+        span_.max() += beyond_*vector::one;
+
+        // A tree does not know what is outside its box
+        boundBox all(span_);
+        all.add(surface_.points());
 
         tree_.reset
         (
             new indexedOctree<treeDataTriSurface>
             (
                 treeDataTriSurface(true, surface_, 1e-6),
-                treeBoundBox(span_),
+                treeBoundBox(all),
                 10,
                 10,
                 3
@@ -326,7 +407,7 @@ int Foam::wallFacets::list
     {
         list.reach = GREAT;
     }
-    else if (!span_.contains(c))
+    else if (!span_.contains(c) || reach > known_)
     {
         return 1;
     }
@@ -345,7 +426,7 @@ int Foam::wallFacets::list
         if (listed.empty())
         {
             // As far as nothing is
-            const scalar far = 1000*reach;
+            const scalar far = min(1000*reach, known_);
             const pointIndexHit nearest(tree_->findNearest(c, sqr(far)));
 
             list.reach = nearest.hit() ? mag(nearest.hitPoint() - c) : far;

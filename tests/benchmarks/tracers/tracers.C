@@ -507,6 +507,7 @@ int main(int argc, char *argv[])
         [
             args.getOrDefault<word>("interpolation", "divergenceFree")
         ],
+        wordRes(),
         nullptr,
         false
     );

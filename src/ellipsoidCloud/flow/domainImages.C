@@ -1,0 +1,248 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "domainImages.H"
+#include "foamVersions.H"
+#include "cyclicPolyPatch.H"
+#include "polyMesh.H"
+#include "SubField.H"
+#include "symmetryPlanePolyPatch.H"
+#include "symmetryPolyPatch.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- Part of a length that the points of a mesh may be off
+    static const scalar offness = 1e-4;
+
+    static bool isSymmetry(const polyPatch& pp)
+    {
+        return isA<symmetryPolyPatch>(pp) || isA<symmetryPlanePolyPatch>(pp);
+    }
+
+    //- End the run because of a patch
+    static void refuse
+    (
+        const polyPatch& pp,
+        const char* what,
+        const char* advice
+    )
+    {
+        FatalErrorInFunction
+            << "patch " << pp.name() << " of "
+            << pp.boundaryMesh().mesh().meshDir()/"boundary"
+            << " is of type " << pp.type() << ", and " << what << nl
+            << "    " << advice << "; or, if no cell comes there, say so: "
+            << "unreached (" << pp.name() << ");" << exit(FatalError);
+    }
+
+    //- Are two the same, for lengths of a mesh of this size?
+    static bool alike
+    (
+        const isometry& a,
+        const isometry& b,
+        const scalar size
+    )
+    {
+        return
+            mag(a.A() - b.A()) < offness
+         && mag(a.b() - b.b()) < offness*size;
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::domainImages::seam Foam::domainImages::symmetry(const polyPatch& pp)
+{
+    const pointField& points = pp.boundaryMesh().mesh().points();
+    vector n(sum(vectorField(pp.faceAreas())));
+    n /= max(mag(n), VSMALL);
+
+    // Exactly along an axis if it is so but for rounding
+    for (scalar& component : n.v_)
+    {
+        component = mag(component) < 1e-9 ? 0 : component;
+    }
+    n /= mag(n);
+
+    const scalarField heights(pp.localPoints() & n);
+    const scalar size = boundBox(points, false).mag();
+
+    if (max(heights) - min(heights) > offness*size)
+    {
+        refuse
+        (
+            pp,
+            "not plane",
+            "Make each plane a patch of its own, and curved ones walls"
+        );
+    }
+
+    const scalar height = 0.5*(max(heights) + min(heights));
+    if (max(points & n) - height > offness*size)
+    {
+        refuse
+        (
+            pp,
+            "the mesh lies on both sides of its plane",
+            "Mesh the whole, or the part on one side"
+        );
+    }
+
+    const point x(height*n);
+    return seam{pp.index(), isometry::mirror(x, n), x, n};
+}
+
+
+Foam::domainImages::seam Foam::domainImages::translational(const polyPatch& pp)
+{
+    const cyclicPolyPatch& half = refCast<const cyclicPolyPatch>(pp);
+    const cyclicPolyPatch& other = half.neighbPatch();
+
+    vector shift(Zero);
+    forAll(half, i)
+    {
+        shift += other.faceCentres()[i] - half.faceCentres()[i];
+    }
+    shift /= half.size();
+
+    scalar off = 0;
+    forAll(half, i)
+    {
+        off = max
+        (
+            off,
+            mag(other.faceCentres()[i] - half.faceCentres()[i] - shift)
+        );
+    }
+
+    const pointField& points = half.boundaryMesh().mesh().points();
+    if (off > offness*boundBox(points, false).mag())
+    {
+        refuse
+        (
+            pp,
+            "its other half is turned against it",
+            "Cells pass where one half is the other moved along; mesh the whole"
+        );
+    }
+
+    // Back the same way to the last bit
+    if (!half.owner())
+    {
+        const isometry there(translational(other).inward);
+        return seam{pp.index(), there.inverse(), Zero, Zero};
+    }
+
+    return seam{pp.index(), isometry::translation(shift), Zero, Zero};
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::domainImages::domainImages
+(
+    const polyMesh& mesh,
+    const wordRes& unreached
+)
+{
+    if (!Pstream::master())
+    {
+        return;
+    }
+
+    DynamicList<seam> seams;
+    seamAt_.setSize(mesh.boundaryMesh().size(), -1);
+
+    for (const polyPatch& pp : mesh.boundaryMesh())
+    {
+        if (isSeam(pp) && pp.size() && !unreached.match(pp.name()))
+        {
+            seamAt_[pp.index()] = seams.size();
+            seams.append(isSymmetry(pp) ? symmetry(pp) : translational(pp));
+        }
+    }
+    seams_.transfer(seams);
+}
+
+
+// * * * * * * * * * * * * * * Static Functions * * * * * * * * * * * * * * * //
+
+bool Foam::domainImages::isSeam(const polyPatch& pp)
+{
+    return isSymmetry(pp) || pp.type() == cyclicPolyPatch::typeName;
+}
+
+
+bool Foam::domainImages::mayHave(const polyMesh& mesh)
+{
+    for (const polyPatch& pp : mesh.boundaryMesh())
+    {
+        if (isSeam(pp))
+        {
+            return true;
+        }
+    }
+    return false;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::domainImages::share()
+{
+    broadcast(seams_);
+    broadcast(seamAt_);
+}
+
+
+Foam::DynamicList<Foam::isometry> Foam::domainImages::near
+(
+    const boundBox& box,
+    const scalar far
+) const
+{
+    boundBox wide(box);
+    wide.min() -= far*vector::one;
+    wide.max() += far*vector::one;
+
+    const pointField corners(box.points());
+    DynamicList<isometry> found;
+    found.append(isometry());
+
+    for (label i = 0; i < found.size(); ++i)
+    {
+        for (const seam& s : seams_)
+        {
+            const isometry next(found[i].after(s.inward.inverse()));
+            boundBox image(boundBox::invertedBox);
+            for (const point& corner : corners)
+            {
+                image.add(next(corner));
+            }
+
+            bool isNew = image.overlaps(wide);
+            for (const isometry& known : found)
+            {
+                isNew = isNew && !alike(next, known, box.mag());
+            }
+            if (isNew)
+            {
+                found.append(next);
+            }
+        }
+    }
+
+    return found;
+}
+
+
+// ************************************************************************* //
