@@ -172,15 +172,14 @@ static void add_laws(const ellipsoid_bead *bead, contacts *all, int derivatives,
         {
             const contact *c = &all->at[i];
             const ellipsoid_normal_force f =
-                c->mirror && law->attractive
-                    ? (ellipsoid_normal_force){.force = 0}
-                    : ellipsoid_contact_normal_force(law,
-                                                     c->height - bead->radius);
+                ellipsoid_contact_normal_force(law, c->height - bead->radius);
+            /* A cell does not adhere to its mirror image. */
+            const double factor = c->mirror && law->attractive ? 0 : sign;
 
-            m.force[i].value = sign * f.force;
+            m.force[i].value = factor * f.force;
             for (int k = 0; k < 3; k++)
             {
-                m.force[i].gradient[k] = sign * f.slope * c->normal[k];
+                m.force[i].gradient[k] = factor * f.slope * c->normal[k];
             }
         }
         if (m.count > 0)

@@ -322,15 +322,15 @@ static void add_laws(const ellipsoid_model *model,
         {
             const contact *c = &all->at[i];
             const ellipsoid_normal_force f =
-                c->mirror && law->attractive
-                    ? (ellipsoid_normal_force){.force = 0}
-                    : ellipsoid_contact_normal_force(law, c->height);
+                ellipsoid_contact_normal_force(law, c->height);
+            /* A cell does not adhere to its mirror image. */
+            const double factor = c->mirror && law->attractive ? 0 : sign;
 
-            m.force[i].value = sign * f.force;
+            m.force[i].value = factor * f.force;
             for (int k = 0; k < VARIABLES; k++)
             {
                 m.force[i].gradient[k] =
-                    derivatives ? sign * f.slope * c->height_slope[k] : 0;
+                    derivatives ? factor * f.slope * c->height_slope[k] : 0;
             }
         }
         if (m.count > 0)
