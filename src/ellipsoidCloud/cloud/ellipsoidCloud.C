@@ -211,8 +211,11 @@ void Foam::ellipsoidCloud::checkTimes() const
 
     for (const cellInjection& injection : injections_)
     {
-        first = min(first, injection.times().first().first());
-        last = max(last, injection.times().last().first());
+        for (const Tuple2<scalar, label>& cell : injection.times())
+        {
+            first = min(first, cell.first());
+            last = max(last, cell.first());
+        }
     }
 
     const masterGate once;
