@@ -10,7 +10,7 @@
 # Usage (bash):  . Make/setup.sh && setup_environment build|run|test|full
 #   build   compilers, OpenFOAM and the Random123 headers
 #   run     also Python with matplotlib, VTK and numpy: pictures and tables
-#   test    also cmocka
+#   test    also cmocka and h5py
 #   full    also what Alltest --full needs: clang with its sanitizers and
 #           libFuzzer, valgrind, cppcheck, shellcheck and SUNDIALS
 # Exports OpenFOAM's environment and ELLIPSOID_PYTHON (run, test, full).
@@ -147,7 +147,7 @@ setup_missing_packages()    # LEVEL OPENFOAM_DIR ('' for Debian's)
     command -v gcc > /dev/null || echo gcc
     command -v g++ > /dev/null || echo g++
     command -v make > /dev/null || echo make
-    command -v mpirun > /dev/null || echo openmpi-bin
+    command -v mpicc > /dev/null || echo libopenmpi-dev
     setup_has_header Random123/philox.h || echo librandom123-dev
     if [ -z "$2" ]; then
         [ -n "$(setup_debian_openfoam_version)" ] || echo openfoam
@@ -156,7 +156,11 @@ setup_missing_packages()    # LEVEL OPENFOAM_DIR ('' for Debian's)
     if [ "$1" != build ] && [ -z "$(setup_find_python)" ]; then
         echo python3-matplotlib python3-numpy python3-vtk9
     fi
-    case $1 in test | full) setup_has_header cmocka.h || echo libcmocka-dev ;; esac
+    case $1 in
+        test | full)
+            setup_has_header cmocka.h || echo libcmocka-dev
+            /usr/bin/python3 -c 'import h5py' 2> /dev/null || echo python3-h5py ;;
+    esac
     if [ "$1" != full ]; then return; fi
     command -v clang > /dev/null || echo clang
     setup_has_clang_runtime || echo libclang-rt-dev

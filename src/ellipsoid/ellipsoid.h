@@ -216,6 +216,13 @@ typedef struct ellipsoid_surroundings
     int unsteady; /* do flow, field or force depend on time? 0; if not, the
                      derivative by time that a Rosenbrock step needs is not
                      evaluated */
+    const double (*repeat)[3]; /* [m] lab: flow and walls are the same where one
+                                  is moved by one of these, and the cells of a
+                                  group meet at the nearest of their images; */
+    int repeat_count;          /* 0 */
+    int kinked;   /* does the gradient of the velocity jump, as where it is
+                     interpolated piece by piece? 0; explicit steps of INERTIAL
+                     motion are of another method then */
     double time;  /* [s] when callbacks are asked by functions that are given no
                      time, such as ellipsoid_rhs(); 0 */
     /* The key of the cell's Brownian motion. Noise interval n begins at the
@@ -454,8 +461,10 @@ typedef struct ellipsoid_statistics
 /*
     An accepted step, for dense output: see ellipsoid_step_state(). It begins
     where the last one ended but for INERTIAL Brownian motion in long noise
-    intervals, where u and omega have jumped and x and q moved by what they do
-    in a relaxation time (docs/theory.md, "Brownian force and torque").
+    intervals, and where INTEGRATOR_SLOW_MANIFOLD begins or goes on after
+    Rosenbrock steps: there u and omega have jumped and x and q moved by what
+    they do in a relaxation time (docs/theory.md, "Brownian force and torque",
+    "Slow manifold").
 */
 typedef struct ellipsoid_step
 {
@@ -466,7 +475,8 @@ typedef struct ellipsoid_step
 } ellipsoid_step;
 
 /* The state at time start <= t <= end: of third order, or fourth in x and q
-   where the step was explicit; u and omega of INERTIALESS motion one less. */
+   where the step was explicit and nothing is `kinked`; u and omega of
+   INERTIALESS motion and of the slow manifold one less. */
 void ellipsoid_step_state(const ellipsoid_step *step, double t,
                           ellipsoid_state *state);
 

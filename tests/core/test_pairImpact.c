@@ -312,12 +312,60 @@ static void test_forces_balance(void **unused)
     check_forces_balance(ELLIPSOID_CONTACT_ELLIPSOID);
 }
 
+/* One of them a period away: the same, but for its place and for rounding, which
+   the stiff contact enlarges. */
+static void test_over_a_period(void **unused)
+{
+    const double period[2][3] = {{40, 8, 0}, {-40, -8, 0}};
+    uint64_t seed = 5;
+    int met = 0;
+
+    (void)unused;
+    for (int n = 0; n < 40; n++)
+    {
+        const ellipsoid_options options[2] = {partner(0, 1), partner(0, 0.8)};
+        encounter here, away;
+
+        meet(&here, options, n % 2, &seed);
+        for (int k = 0; k < 2; k++)
+        {
+            here.model[k].options.contact_shape =
+                n % 4 < 2 ? ELLIPSOID_CONTACT_BEADS : ELLIPSOID_CONTACT_ELLIPSOID;
+        }
+        away = here;
+        ellipsoid_add(away.state[n % 2].x, period[n % 3 == 0]);
+        for (int k = 0; k < 2; k++)
+        {
+            away.around[k].repeat = period;
+            away.around[k].repeat_count = 2;
+        }
+        go(&here, 3);
+        go(&away, 3);
+        met += here.deepest > 0;
+        for (int k = 0; k < 2; k++)
+        {
+            for (int i = 0; i < 3; i++)
+            {
+                const double moved = k == n % 2 ? period[n % 3 == 0][i] : 0;
+
+                assert_near(away.state[k].x[i] - moved, here.state[k].x[i],
+                            1e-6);
+                assert_near(away.state[k].u[i], here.state[k].u[i], 1e-6);
+                assert_near(away.state[k].omega[i], here.state[k].omega[i],
+                            1e-6);
+            }
+        }
+    }
+    assert_true(met > 20);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_is_kept),
         cmocka_unit_test(test_duration),
         cmocka_unit_test(test_forces_balance),
+        cmocka_unit_test(test_over_a_period),
     };
 
     return cmocka_run_group_tests_name("pairImpact", tests, NULL, NULL);

@@ -40,6 +40,7 @@ SourceFiles
     occupiedFlow.C
     solidBodies.C
     steadyFlow.C
+    superposedFlow.C
     steadyFlowEquations.C
     flowConvergence.C
 
@@ -105,7 +106,7 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
     }
 
     autoPtr<occupiedFlow> occupied;
-    if (cells->occupied())
+    if (cells->occupied() && cells->occupied()->changesFlow())
     {
         occupied.reset(new occupiedFlow(*flow, *cells));
     }

@@ -57,16 +57,27 @@ Foam::List<Foam::heldWrench> Foam::occupiedFlow::solve
     const List<heldBody>& bodies
 )
 {
-    solids_->set(bodies);
+    const labelList counts(cells_.heldCounts());
 
     Info<< "occupancy: " << bodies.size() << " cells held" << endl;
     if (bodies.empty())
     {
+        solids_->set(bodies);
         flow_->restore(*empty_);
+    }
+    else if (superposed_.valid() && superposed_->known(counts))
+    {
+        superposed_->superpose(counts, *flow_);
+        return List<heldWrench>(bodies.size(), heldWrench{Zero, Zero});
     }
     else
     {
-        flow_->solveFrom(*empty_, cells_.occupied()->tolerance());
+        solids_->set(bodies);
+        flow_->solveFrom(*empty_, cells_.occupied()->settings().tolerance);
+    }
+    if (superposed_.valid())
+    {
+        superposed_->report(counts, *flow_);
     }
 
     const List<heldWrench> wrenches
@@ -136,6 +147,15 @@ Foam::occupiedFlow::occupiedFlow(flowFields& empty, ellipsoidCloud& cells)
 
         const fvMesh& mesh = flow_->U().mesh();
         solids_.reset(new solidBodies(mesh, readViscosity(mesh)));
+
+        const occupancy::setting& how = cells.occupied()->settings();
+        if (how.flow == occupancy::SUPERPOSED)
+        {
+            superposed_.reset
+            (
+                new superposedFlow(how, *empty_, *flow_, *solids_)
+            );
+        }
     }
 }
 
@@ -144,6 +164,7 @@ Foam::occupiedFlow::~occupiedFlow()
 {
     const undecomposedFlow::serialScope serial;
 
+    superposed_.clear();
     solids_.clear();
     empty_.clear();
     own_.clear();

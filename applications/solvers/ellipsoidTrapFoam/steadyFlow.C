@@ -165,6 +165,19 @@ void Foam::steadyFlow::restore(const flow& kept)
 }
 
 
+void Foam::steadyFlow::add
+(
+    const scalar part,
+    const flow& one,
+    const flow& other
+)
+{
+    U_ == U_ + part*(one.U - other.U);
+    p_ == p_ + part*(one.p - other.p);
+    phi_ == phi_ + part*(one.phi - other.phi);
+}
+
+
 Foam::scalar Foam::steadyFlow::linearTolerance(const scalar before) const
 {
     // Nothing is known before the first correction. What it leaves of the forces

@@ -123,35 +123,65 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
     return status;
 }
 
-/*
-    One attempt at a step. Without inertia it is explicit, unless a cell touches
-    something in it, is turned by a dipole or under an external force: these
-    may be stiff. Sets next;
-    *error is above 1 if it is too large.
-*/
+/* Does one touch something at the start? */
+static int is_one_touching(const ellipsoid_group *g)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        if (ellipsoid_in_contact(&g->start[cell].contact))
+        {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* May a step of h be explicit? Not where a cell touches something, is turned by
+   a dipole or under an external force: these may be stiff. With inertia only on
+   the slow manifold. */
+static int may_be_explicit(const ellipsoid_group *g, double h)
+{
+    return g->inertial ? g->on_manifold && ellipsoid_manifold_is_near(g, h)
+                       : !g->stiff && !is_one_touching(g);
+}
+
+/* One attempt at a step. Sets next; *error is above 1 if it is too large. */
 static ellipsoid_status try_step(ellipsoid_group *g,
                                  const ellipsoid_plan *planned, double *error,
                                  int *explicitly)
 {
-    int touched = g->stiff;
-    ellipsoid_status status = ELLIPSOID_OK;
+    *explicitly = may_be_explicit(g, planned->h);
+    if (*explicitly)
+    {
+        int touched;
+        ellipsoid_status status = ellipsoid_explicit_step(g, planned, &touched);
 
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        touched = touched || ellipsoid_in_contact(&g->start[cell].contact);
+        if (status == ELLIPSOID_OK && !touched)
+        {
+            status = ellipsoid_judge_step(g, planned->h, error);
+        }
+        if (status != ELLIPSOID_OK || *error > 1)
+        {
+            return status;
+        }
+        if (!touched && g->inertial)
+        {
+            status = ellipsoid_manifold_complete(g, planned, error);
+            touched = g->left_manifold;
+        }
+        if (status != ELLIPSOID_OK || *error > 1)
+        {
+            return status;
+        }
+        *explicitly = !touched;
     }
-    if (!g->inertial && !touched)
-    {
-        status = ellipsoid_explicit_step(g, planned, &touched);
-    }
-    *explicitly = !g->inertial && !touched;
     if (!*explicitly)
     {
+        *error = 0;
         return try_rosenbrock(g, planned, error);
     }
     g->next_has_blocks = 0;
-    return status == ELLIPSOID_OK ? ellipsoid_judge_step(g, planned->h, error)
-                                  : status;
+    return ELLIPSOID_OK;
 }
 
 /* Tells the accepted step, of which g->step has the times. */
@@ -166,7 +196,7 @@ static void describe_step(const ellipsoid_group *g, int explicitly)
         step->contact = g->next[cell].contact;
         if (explicitly)
         {
-            ellipsoid_explicit_dense(&g->stages[cell], step, step->dense);
+            ellipsoid_explicit_dense(g, &g->stages[cell], step, step->dense);
         }
         else
         {
@@ -262,6 +292,7 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
         {
             accept_step(g, &planned, explicitly, error, largest_factor,
                         proposal, controller);
+            g->on_manifold = g->inertial && explicitly;
             return ELLIPSOID_OK;
         }
         if (status != ELLIPSOID_OK && !ellipsoid_may_recover(status))
@@ -308,10 +339,10 @@ static ellipsoid_status set_start(int inertial, const ellipsoid_state *state,
     return ELLIPSOID_OK;
 }
 
-/* Where the run begins. */
+/* Where the run begins, probably with a step of h. */
 static ellipsoid_status begin(ellipsoid_group *g,
                               const ellipsoid_member members[], double t,
-                              double end)
+                              double end, double h)
 {
     ellipsoid_status status = ELLIPSOID_OK;
 
@@ -324,7 +355,14 @@ static ellipsoid_status begin(ellipsoid_group *g,
     {
         status = ellipsoid_noise_layer(g, t, end);
     }
-    if (status == ELLIPSOID_OK)
+    g->from = t;
+    g->until = end;
+    g->on_manifold = 0;
+    if (status == ELLIPSOID_OK && g->manifold)
+    {
+        status = ellipsoid_manifold_enter(g, t, h);
+    }
+    if (status == ELLIPSOID_OK && !g->on_manifold)
     {
         g->has_blocks = g->inertial;
         status = ellipsoid_group_evaluate(g, t, g->start, !g->inertial,
@@ -386,7 +424,7 @@ ellipsoid_status ellipsoid_group_advance(ellipsoid_group *g,
                                          long *attempts)
 {
     ellipsoid_controller controller = common(g, members);
-    ellipsoid_status status = begin(g, members, *t, end);
+    ellipsoid_status status = begin(g, members, *t, end, controller.step);
 
     while (status == ELLIPSOID_OK && *t < end)
     {
@@ -403,6 +441,11 @@ ellipsoid_status ellipsoid_group_advance(ellipsoid_group *g,
             g->start = g->next;
             g->next = finished;
             g->has_blocks = g->next_has_blocks;
+        }
+        if (status == ELLIPSOID_OK && *t < end && g->manifold
+            && !g->on_manifold && !is_one_touching(g))
+        {
+            status = ellipsoid_manifold_enter(g, *t, controller.step);
         }
     }
     return status;

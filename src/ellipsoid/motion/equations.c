@@ -507,8 +507,8 @@ INLINED void add_free_drag(evaluation *e, ellipsoid_state *state,
 /* Inlined below, with constants that tell the compiler what to leave
    out; e has no address taken, so that it stays in registers. */
 INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
-                                        ellipsoid_evaluation *at, int balanced,
-                                        int with_blocks)
+                                  ellipsoid_evaluation *at, int balanced,
+                                  int with_blocks, int with_contact)
 {
     const ellipsoid_model *model = cell->model;
     const ellipsoid_surroundings *surroundings = &cell->surroundings;
@@ -553,7 +553,8 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
     {
         status = set_forces(&e, surroundings, cell->noise, d, blocks);
     }
-    if (status == ELLIPSOID_OK && ellipsoid_has_walls(model, surroundings))
+    if (status == ELLIPSOID_OK && with_contact
+        && ellipsoid_has_walls(model, surroundings))
     {
         status = add_contact(&e, cell, &at->contact, blocks);
     }
@@ -575,15 +576,13 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
     {
         finish_blocks(&e, inertial, blocks);
     }
-    if (balanced)
-    {
-        ellipsoid_set(derivative->u, 0, 0, 0);
-        ellipsoid_set(derivative->omega, 0, 0, 0);
-    }
-    else
+    if (!balanced)
     {
         accelerations(&e, inertial, derivative);
+        return finish(state, derivative);
     }
+    ellipsoid_set(derivative->u, 0, 0, 0);
+    ellipsoid_set(derivative->omega, 0, 0, 0);
     return finish(state, derivative);
 }
 
@@ -591,9 +590,13 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
                                     ellipsoid_evaluation *at, int balanced,
                                     int with_blocks)
 {
-    if (with_blocks)
-    {
-        return evaluate(cell, at, balanced, 1);
-    }
-    return balanced ? evaluate(cell, at, 1, 0) : evaluate(cell, at, 0, 0);
+    return with_blocks ? evaluate(cell, at, balanced, 1, 1)
+         : balanced    ? evaluate(cell, at, 1, 0, 1)
+                       : evaluate(cell, at, 0, 0, 1);
+}
+
+ellipsoid_status ellipsoid_evaluate_untouched(const ellipsoid_cell *cell,
+                                              ellipsoid_evaluation *at)
+{
+    return evaluate(cell, at, 1, 0, 0);
 }

@@ -64,8 +64,17 @@ static void set_kind(ellipsoid_group *g, const ellipsoid_model *model,
 {
     g->stiff = g->stiff || model->aligned || surroundings->force != NULL;
     g->unsteady = g->unsteady || surroundings->unsteady;
+    g->kinked = g->kinked || surroundings->kinked;
     g->dissipative = g->dissipative || model->dissipative
                   || ellipsoid_force_is_dissipative(surroundings);
+}
+
+/* Has it a slow manifold that slowManifold.c knows, and is that asked for? */
+static int has_manifold(const ellipsoid_cell *p)
+{
+    return p->model->options.integrator == ELLIPSOID_INTEGRATOR_SLOW_MANIFOLD
+        && p->rate > 0
+        && !ellipsoid_has_near_walls(p->model, &p->surroundings);
 }
 
 static int is_complete(const ellipsoid_member *m)
@@ -103,15 +112,18 @@ static ellipsoid_status advance(ellipsoid_group *g,
         return ELLIPSOID_OK;
     }
     g->failed = -1;
-    g->stiff = g->dissipative = g->unsteady = 0;
+    g->stiff = g->dissipative = g->unsteady = g->kinked = 0;
+    g->manifold = 1;
     g->observed = observer != NULL;
     for (int cell = 0; cell < g->count; cell++)
     {
         g->cell[cell] = problem_of(&members[cell], &noise[cell]);
         set_kind(g, members[cell].model, members[cell].surroundings);
+        g->manifold = g->manifold && has_manifold(&g->cell[cell]);
         g->start[cell].contact = g->next[cell].contact = nothing;
     }
     g->inertial = g->cell[0].inertial;
+    g->manifold = g->manifold && g->inertial && !g->stiff;
     status = check(g);
     while (status == ELLIPSOID_OK && *t < end)
     {

@@ -140,10 +140,12 @@ add_pair(ellipsoid_group *g, ellipsoid_evaluation *points,
     const ellipsoid_options *of_b = &g->cell[b].model->options;
     const ellipsoid_friction_law law =
         ellipsoid_friction_law_between(g->cell[a].model, g->cell[b].model);
+    ellipsoid_body body_b = *ellipsoid_placed_body(g, points, b);
+    double place[3];
     ellipsoid_pair_wrench on_a, on_b;
     ellipsoid_pair_contact m = {
         .a = ellipsoid_placed_body(g, points, a),
-        .b = ellipsoid_placed_body(g, points, b),
+        .b = &body_b,
         .state_a = &points[a].state,
         .state_b = &points[b].state,
         .normal_law = ellipsoid_pair_law(of_a, of_b),
@@ -155,6 +157,9 @@ add_pair(ellipsoid_group *g, ellipsoid_evaluation *points,
         .of_b = &on_b,
     };
 
+    body_b.x = ellipsoid_nearest_image(&g->cell[a].surroundings,
+                                       points[a].state.x, points[b].state.x,
+                                       place);
     ellipsoid_pair_contact_evaluate(&m, near);
     if (m.contacts > 0 && with_blocks
         && g->pairs->count + 2 > g->pairs->capacity)

@@ -99,6 +99,7 @@ typedef struct ellipsoid_evaluation
     };
     ellipsoid_blocks blocks;
     ellipsoid_contact contact; /* left as it is where there are no walls */
+    double inertia[6]; /* on the slow manifold: u_b - u, omega_b - omega */
 } ellipsoid_evaluation;
 
 /*
@@ -110,6 +111,10 @@ typedef struct ellipsoid_evaluation
 ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
                                     ellipsoid_evaluation *at, int balanced,
                                     int with_blocks);
+
+/* Likewise, balanced and without any contact. */
+ellipsoid_status ellipsoid_evaluate_untouched(const ellipsoid_cell *cell,
+                                              ellipsoid_evaluation *at);
 
 #define ELLIPSOID_MAX_STAGES 7
 
@@ -128,6 +133,8 @@ typedef struct ellipsoid_stages
     const int *in_time;
     double x[ELLIPSOID_MAX_STAGES][3], q[ELLIPSOID_MAX_STAGES][4];
     double gap[ELLIPSOID_MAX_STAGES];
+    /* On the slow manifold (rungeKutta.c): u_b - u, omega_b - omega */
+    double inertia[2][6], stage_inertia[6];
 } ellipsoid_stages;
 
 /*
@@ -178,6 +185,14 @@ void ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *system,
                                    const double r[UNKNOWNS],
                                    double k[UNKNOWNS]);
 
+/* A step as planned. */
+typedef struct ellipsoid_plan
+{
+    double h, start, end; /* [s] */
+    int last;      /* ends where the run does */
+    int shortened; /* less than proposed, to land there */
+} ellipsoid_plan;
+
 /* -------------------------------------------------------------- a group */
 
 /* How the rows of one cell depend on the pose of another that it touches. */
@@ -220,6 +235,11 @@ typedef struct ellipsoid_group
     int unsteady; /* do the surroundings of one depend on time? */
     int dissipative; /* do forces other than drag depend on velocities? */
     int observed; /* is the whole of ellipsoid_step asked for? */
+    int manifold; /* may it be advanced on the slow manifold? */
+    int kinked;   /* does the gradient of a flow jump? */
+    int on_manifold;   /* is the start there? */
+    int left_manifold; /* has the last evaluation not been there? */
+    double from, until; /* [s] the run, in one noise interval */
     ellipsoid_cell *cell;
     ellipsoid_evaluation *start, *next; /* next serves the stages, too */
     ellipsoid_stages *stages;
@@ -327,6 +347,11 @@ const ellipsoid_body *ellipsoid_placed_body(ellipsoid_group *group,
                                             const ellipsoid_evaluation *points,
                                             int cell);
 
+/* Where a cell at x is nearest to another: x itself, or the image that is set. */
+const double *ellipsoid_nearest_image(const ellipsoid_surroundings *around,
+                                      const double to[3], const double x[3],
+                                      double image[3]);
+
 /* Sees to it that all pairs that may touch in these states are listed.
    TOO_MANY_CELLS: there is no memory for so many. */
 ellipsoid_status
@@ -366,14 +391,6 @@ static inline void ellipsoid_group_solve(const ellipsoid_group *g, int stage)
     ellipsoid_stage_matrix_solve(g->system, k, k);
 }
 
-/* A step as planned. */
-typedef struct ellipsoid_plan
-{
-    double h, start, end; /* [s] */
-    int last;      /* ends where the run does */
-    int shortened; /* less than proposed, to land there */
-} ellipsoid_plan;
-
 /* The time of a stage, exactly the end of the step where it is that. */
 static inline double ellipsoid_stage_time(const ellipsoid_plan *plan,
                                           double part)
@@ -394,16 +411,18 @@ void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,
                                 double dense[3][UNKNOWNS]);
 
 /*
-    One explicit step of inertialess motion (rungeKutta.c). Its last stage is
-    `next`, the end of the step. *touched is set, and the step not finished,
-    where a stage touches something: the equations are stiff there.
+    One explicit step of inertialess motion, or on the slow manifold
+    (rungeKutta.c). Its last stage is `next`, the end of the step. *touched is
+    set, and the step not finished, where a stage touches something: the
+    equations are stiff there.
 */
 ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *group,
                                          const ellipsoid_plan *plan,
                                          int *touched);
 
 /* The continuous extension of such a step. */
-void ellipsoid_explicit_dense(ellipsoid_stages *stages,
+void ellipsoid_explicit_dense(const ellipsoid_group *group,
+                              ellipsoid_stages *stages,
                               const ellipsoid_step *step,
                               double dense[3][UNKNOWNS]);
 
@@ -411,6 +430,55 @@ void ellipsoid_explicit_dense(ellipsoid_stages *stages,
    start to where they have passed, in no time (brownian.c). */
 ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *group, double t,
                                        double until);
+
+/* Displaces the pose by what velocities do until they have decayed. */
+void ellipsoid_displace(const ellipsoid_model *model, const double u[3],
+                        const double omega[3], ellipsoid_state *state);
+
+/* --------------------------------------------------- slow manifold */
+
+/*
+    Evaluates the equations at the time t where the points' poses are, u and
+    omega set to those on the slow manifold (slowManifold.c). Where one touches
+    something or a derivative cannot be had, left_manifold is set and points are
+    of no use.
+*/
+ellipsoid_status ellipsoid_manifold_evaluate(ellipsoid_group *group, double t,
+                                             ellipsoid_evaluation *points);
+
+/* Likewise for a stage: points keep u and omega that balance the forces, and
+   only if look_up is set what inertia takes from them is set. */
+ellipsoid_status ellipsoid_manifold_stage(ellipsoid_group *group, double t,
+                                          ellipsoid_evaluation *points,
+                                          int look_up);
+
+/* Completes the end of a step that has been found good enough, and adds to
+   *error what the course of inertia's part has made. Sets left_manifold where
+   the manifold is too inaccurate. */
+ellipsoid_status ellipsoid_manifold_complete(ellipsoid_group *group,
+                                             const ellipsoid_plan *plan,
+                                             double *error);
+
+/*
+    Takes a start at the time t, of which the state is known, to the manifold if
+    what it passes over on the way is small against the tolerance and a step of
+    h is likely to stay there; else it is left as it is. Sets on_manifold. Uses
+    `next` and stages.
+*/
+ellipsoid_status ellipsoid_manifold_enter(ellipsoid_group *group, double t,
+                                          double h);
+
+/* Is a step of h from a start on the manifold likely to make no more? */
+int ellipsoid_manifold_is_near(const ellipsoid_group *group, double h);
+
+/* The slopes of an explicit step. */
+static inline ellipsoid_status ellipsoid_group_slopes(ellipsoid_group *g,
+                                               double t,
+                                               ellipsoid_evaluation *points)
+{
+    return g->inertial ? ellipsoid_manifold_evaluate(g, t, points)
+                       : ellipsoid_group_evaluate(g, t, points, 1, 0);
+}
 
 /* -------------------------------------------------------- step control */
 

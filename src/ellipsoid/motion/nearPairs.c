@@ -31,6 +31,32 @@ const ellipsoid_body *ellipsoid_placed_body(ellipsoid_group *g,
     return b;
 }
 
+const double *ellipsoid_nearest_image(const ellipsoid_surroundings *around,
+                                      const double to[3], const double x[3],
+                                      double image[3])
+{
+    const double *best = x;
+    double line[3], least;
+
+    ellipsoid_difference(x, to, line);
+    least = ellipsoid_dot(line, line);
+    for (int n = 0; n < around->repeat_count; n++)
+    {
+        double at[3];
+
+        ellipsoid_copy(x, at);
+        ellipsoid_add(at, around->repeat[n]);
+        ellipsoid_difference(at, to, line);
+        if (ellipsoid_dot(line, line) < least)
+        {
+            least = ellipsoid_dot(line, line);
+            ellipsoid_copy(at, image);
+            best = image;
+        }
+    }
+    return best;
+}
+
 /* Has a bead of this cell moved so far that the list may lack a contact? */
 static int has_moved(const ellipsoid_pairs *pairs, const ellipsoid_model *model,
                     const ellipsoid_state *now, int cell)
@@ -70,24 +96,27 @@ static ellipsoid_status collect(ellipsoid_group *g,
                                    * fmax(of_a->options.bead_radius,
                                           of_b->options.bead_radius);
             ellipsoid_near_pair *near = &pairs->near[pairs->near_count];
+            double place[3];
+            const double *x_b = ellipsoid_nearest_image(
+                &g->cell[a].surroundings, points[a].state.x, points[b].state.x,
+                place);
+            ellipsoid_body body_b;
 
-            if (ellipsoid_are_apart(of_a, points[a].state.x, of_b,
-                                    points[b].state.x, far))
+            if (ellipsoid_are_apart(of_a, points[a].state.x, of_b, x_b, far))
             {
                 continue;
             }
             ellipsoid_placed_body(g, points, a);
-            ellipsoid_placed_body(g, points, b);
+            body_b = *ellipsoid_placed_body(g, points, b);
+            body_b.x = x_b;
             if (ellipsoid_pair_is_exact(of_a, of_b))
             {
                 near->listed =
-                    ellipsoid_surface_gap(&pairs->body[a], &pairs->body[b])
-                    < far;
+                    ellipsoid_surface_gap(&pairs->body[a], &body_b) < far;
             }
             else
             {
-                ellipsoid_list_beads(&pairs->body[a], &pairs->body[b], far,
-                                     near);
+                ellipsoid_list_beads(&pairs->body[a], &body_b, far, near);
             }
             near->a = a;
             near->b = b;

@@ -28,33 +28,31 @@ static int is_thin(const ellipsoid_cell *p, double t, double until)
         && until - t >= long_interval * slowest;
 }
 
-/* Displaces `after`, which has its balanced u and omega, see below. */
-static void displace(const ellipsoid_model *m, const ellipsoid_state *before,
-                     ellipsoid_state *after)
+/* u and omega decay: x moves by R m (mu K^)^-1 R^T u, and q likewise. */
+void ellipsoid_displace(const ellipsoid_model *m, const double u[3],
+                        const double omega[3], ellipsoid_state *state)
 {
-    const double *q = before->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
-    double axis[3][3], slip[3], angle[3], turn[4];
+    const double *q = state->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
+    double axis[3][3], angle[3], turn[4];
 
     ellipsoid_rotation_inline(opposite, axis);
-    ellipsoid_difference(before->u, after->u, slip);
     for (int i = 0; i < 3; i++)
     {
         const double way =
-            m->mass * m->mobility[i] * ellipsoid_dot(axis[i], slip);
+            m->mass * m->mobility[i] * ellipsoid_dot(axis[i], u);
 
         for (int l = 0; l < 3; l++)
         {
-            after->x[l] += way * axis[i][l];
+            state->x[l] += way * axis[i][l];
         }
-        angle[i] = m->inertia[i] * m->rotation_mobility[i]
-                 * (before->omega[i] - after->omega[i]);
+        angle[i] = m->inertia[i] * m->rotation_mobility[i] * omega[i];
     }
     ellipsoid_spin(angle, q, turn);
     for (int n = 0; n < 4; n++)
     {
-        after->q[n] += 0.5 * turn[n];
+        state->q[n] += 0.5 * turn[n];
     }
-    ellipsoid_normalise(after->q);
+    ellipsoid_normalise(state->q);
 }
 
 /*
@@ -92,7 +90,11 @@ ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *g, double t,
         if (!ellipsoid_has_contact(g, cell)
             || !ellipsoid_in_contact(&g->next[cell].contact))
         {
-            displace(g->cell[cell].model, before, after);
+            double slip[3], spin[3];
+
+            ellipsoid_difference(before->u, after->u, slip);
+            ellipsoid_difference(before->omega, after->omega, spin);
+            ellipsoid_displace(g->cell[cell].model, slip, spin, after);
         }
         *before = *after;
     }

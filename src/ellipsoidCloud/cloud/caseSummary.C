@@ -11,6 +11,7 @@ License
 #include "caseSummary.H"
 #include "captureCriterion.H"
 #include "cellPopulation.H"
+#include "domainImages.H"
 #include "fvMesh.H"
 #include "inletFlux.H"
 #include "narrowestGaps.H"
@@ -114,6 +115,7 @@ static void reportSieves
 (
     const fvMesh& mesh,
     const captureCriterion& criterion,
+    const domainImages& images,
     const scalar width
 )
 {
@@ -127,7 +129,7 @@ static void reportSieves
         return;
     }
 
-    const narrowestGaps gaps(mesh);
+    const narrowestGaps gaps(mesh, images);
 
     for (const label patchi : criterion.sieves())
     {
@@ -183,7 +185,13 @@ void Foam::reportCase
 
     reportMesh(mesh, widest, longest);
     reportCell(options);
-    reportSieves(mesh, criterion, widthOf(options));
+    reportSieves
+    (
+        mesh,
+        criterion,
+        domainImages(mesh, properties.unreached()),
+        widthOf(options)
+    );
 
     const scalar deltaT = mesh.time().deltaTValue();
     const scalar end = mesh.time().endTime().value();

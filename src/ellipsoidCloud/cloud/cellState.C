@@ -25,6 +25,8 @@ void Foam::cellState::pass(const isometry& image, const scalar semiAxes[3])
 
     std::copy_n(x.v_, 3, body.x);
     std::copy_n(u.v_, 3, body.u);
+    dragImpulse = turn & dragImpulse;
+    netImpulse = turn & netImpulse;
     unfold = unfold.after(image.inverse());
 
     if (image.translates())

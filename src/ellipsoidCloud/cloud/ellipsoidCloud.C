@@ -115,11 +115,17 @@ void Foam::ellipsoidCloud::checkFlowType() const
             << "Cells that block the flow, occupancy, need the flow of"
             << " ellipsoidTrapFoam" << exit(FatalIOError);
     }
-    if (flowType_ == UNSTEADY && !properties_.section("capture").found("speed"))
+    const dictionary& capture = properties_.section("capture");
+
+    if
+    (
+        flowType_ == UNSTEADY
+     && !capture.found("displacement") && !capture.found("speed")
+    )
     {
         FatalIOErrorInFunction(properties_)
-            << "capture/speed is missing: in an unsteady flow there is no one"
-            << " inlet speed that speedFraction could be of"
+            << "capture/speed is missing, or displacement: in an unsteady flow"
+            << " there is no one inlet speed that speedFraction could be of"
             << exit(FatalIOError);
     }
 }
@@ -162,7 +168,6 @@ void Foam::ellipsoidCloud::checkImages() const
         const char* unable =
             properties_.section("occupancy").getOrDefault("active", false)
           ? "occupancy is active"
-          : properties_.pushing() ? "contact/cells is on"
           : properties_.scheme() == frozenFlow::stDivergenceFree
           ? "interpolation is divergenceFree"
           : nullptr;
@@ -173,10 +178,36 @@ void Foam::ellipsoidCloud::checkImages() const
 
             FatalIOErrorInFunction(properties_)
                 << "cells pass cyclic patch " << name << ", and " << unable
-                << nl << "    Neither cells nor that velocity know of the other"
-                << " side: set contact/cells off, no occupancy and another"
-                << " interpolation; or, if no cell comes there, unreached ("
-                << name << ");" << exit(FatalIOError);
+                << nl << "    Neither held cells nor that velocity know of the"
+                << " other side: set no occupancy and another interpolation;"
+                << " or, if no cell comes there, unreached (" << name << ");"
+                << exit(FatalIOError);
+        }
+    }
+
+    // A cell meets one image of another at a time, and none of itself
+    const ellipsoid_options& options = properties_.options();
+    const cellPopulation::setting sizes(properties_, options);
+    scalar longest = 0;
+    for (const cellSize& size : sizes.extremes(options))
+    {
+        longest = max
+        (
+            longest,
+            2*longestSemiAxis(cellPopulation::optionsOf(options, size))
+        );
+    }
+    for (const vector& period : images.periods())
+    {
+        if (properties_.pushing() && mag(period) < 2.2*longest)
+        {
+            FatalIOErrorInFunction(properties_)
+                << "cells of " << shortText(longest).c_str() << " m push one"
+                << " another, and the cyclic patches repeat every "
+                << shortText(mag(period)).c_str() << " m" << nl
+                << "    That must be 2.2 lengths of a cell or more: mesh"
+                << " several periods, or set contact/cells off"
+                << exit(FatalIOError);
         }
     }
 }
@@ -359,8 +390,8 @@ void Foam::ellipsoidCloud::setFlow
     checkTimes();
     Info<< "ellipsoidCloud: " << nCells << " cells to enter by "
         << flatOutput(properties_.subDict("injection").toc()) << nl
-        << "case: " << nToEnter() << " cells enter from " << time_ << " to "
-        << mesh_.time().endTime().value() << " s" << endl;
+        << "case: " << nToEnter() << " cells enter in the run from " << time_
+        << " to " << mesh_.time().endTime().value() << " s" << endl;
 
     if (occupancy_.valid())
     {

@@ -49,7 +49,8 @@ void Foam::ellipsoidProperties::checkUnreached
                 << patches.mesh().meshDir()/"boundary"
                 << " is of type " << pp.type() << nl
                 << "    A cell that came to it could not go on. Make it a "
-                << "plane of symmetry (symmetryPlane), cyclic, a wall (wall) "
+                << "plane of symmetry (symmetryPlane), cyclic (by createPatch, "
+                << "if its halves have the same faces), a wall (wall) "
                 << "or an open end (patch); or, if no cell comes there, say "
                 << "so: unreached (" << pp.name()
                 << ");" << exit(FatalIOError);

@@ -204,6 +204,35 @@ void Foam::domainImages::share()
 }
 
 
+Foam::List<Foam::vector> Foam::domainImages::periods() const
+{
+    DynamicList<vector> sums;
+    sums.append(Zero);
+
+    for (const seam& s : seams_)
+    {
+        // Both halves of a patch have a seam, and lead back together
+        const label n = s.mirrors() ? 0 : sums.size();
+
+        for (label i = 0; i < n; ++i)
+        {
+            const vector sum(sums[i] + s.inward.b());
+            bool isNew = true;
+            for (const vector& known : sums)
+            {
+                isNew = isNew && mag(sum - known) > offness*mag(s.inward.b());
+            }
+            if (isNew)
+            {
+                sums.append(sum);
+            }
+        }
+    }
+
+    return List<vector>(SubList<vector>(sums, sums.size() - 1, 1));
+}
+
+
 Foam::DynamicList<Foam::isometry> Foam::domainImages::near
 (
     const boundBox& box,

@@ -398,7 +398,6 @@ void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
     List<FixedList<scalar, 4>> areas(tets_.size());
     List<FixedList<scalar, 4>> fluxes(tets_.size());
     scalarField volumes(tets_.size());
-    excess_.setSize(tets_.size());
 
     forAll(tets_, teti)
     {
@@ -471,6 +470,48 @@ void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
             vertices_
         );
     }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::label Foam::frozenFlow::fanBase
+(
+    const polyMesh& mesh,
+    const label facei
+)
+{
+    const face& f = mesh.faces()[facei];
+    const vector& S = mesh.faceAreas()[facei];
+    label best = max(mesh.tetBasePtIs()[facei], label(0));
+    scalar widest = -GREAT;
+
+    for (label base = 0; f.size() > 4 && base < f.size(); ++base)
+    {
+        const point& x = mesh.points()[f[base]];
+        scalar narrowest = GREAT;
+
+        for (label i = 1; i < f.size() - 1; ++i)
+        {
+            const vector a(mesh.points()[f[(base + i) % f.size()]] - x);
+            const vector b
+            (
+                mesh.points()[f[(base + i + 1) % f.size()]] - x
+            );
+            narrowest = min
+            (
+                narrowest,
+                ((a ^ b) & S)/max(max(magSqr(a), magSqr(b)), magSqr(b - a))
+            );
+        }
+        if (narrowest > widest)
+        {
+            widest = narrowest;
+            best = base;
+        }
+    }
+
+    return best;
 }
 
 

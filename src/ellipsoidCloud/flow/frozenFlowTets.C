@@ -211,7 +211,7 @@ namespace Foam
         const label celli,
         const labelUList& bases,
         label teti,
-        List<flowTet>& tets
+        UList<flowTet>& tets
     )
     {
         // The tetrahedron, and its face, at each edge of the cell's surface
@@ -268,13 +268,26 @@ namespace Foam
         }
     }
 
+    //- The number of tetrahedra of a mesh
+    static label nTetsOf(const polyMesh& mesh)
+    {
+        label n = 0;
+        forAll(mesh.faces(), facei)
+        {
+            const label nSides = 1 + mesh.isInternalFace(facei);
+            n += nSides*(mesh.faces()[facei].size() - 2);
+        }
+        return n;
+    }
+
     //- The tetrahedra of a mesh, and the first of each cell
-    static List<flowTet> makeTets
+    static void makeTets
     (
         const polyMesh& mesh,
         const baffleSides& baffles,
         const bool widest,
-        labelList& cellTets
+        UList<label>& cellTets,
+        UList<flowTet>& tets
     )
     {
         // Triangles of a face, in fan order, are tetrahedra first + 0, 1, ...
@@ -282,7 +295,6 @@ namespace Foam
         List<labelPair> faceTets(mesh.nFaces(), labelPair(-1, -1));
         label nTets = 0;
 
-        cellTets.setSize(mesh.nCells() + 1);
         forAll(mesh.cells(), celli)
         {
             cellTets[celli] = nTets;
@@ -304,8 +316,6 @@ namespace Foam
               : max(bases[facei], label(0));
         }
 
-        List<flowTet> tets(nTets);
-
         forAll(mesh.cells(), celli)
         {
             splitCell
@@ -313,21 +323,17 @@ namespace Foam
                 mesh, baffles, faceTets, celli, bases, cellTets[celli], tets
             );
         }
-
-        return tets;
     }
 
     //- The vertices, with fluid at rest
-    static List<flowVertex> makeVertices
+    static void makeVertices
     (
         const fvMesh& mesh,
-        const baffleSides& baffles
+        const baffleSides& baffles,
+        UList<flowVertex>& vertices
     )
     {
         const label nCells = mesh.nCells();
-        const label nPoints = mesh.nPoints() + baffles.sides().size();
-
-        List<flowVertex> vertices(nCells + nPoints);
 
         forAll(vertices, i)
         {
@@ -343,8 +349,6 @@ namespace Foam
             vertices[i].gradient = Zero;
             vertices[i].pressureGradient = Zero;
         }
-
-        return vertices;
     }
 
     //- Set the flow at the vertices
@@ -512,71 +516,67 @@ void Foam::frozenFlow::make
     const autoPtr<volVectorField>& E
 )
 {
-    const baffleSides baffles(undecomposed.mesh());
+    const bool master = Pstream::master();
+    bool hasField = E.valid();
+    broadcast(hasField);
 
-    tets_ = makeTets
-    (
-        undecomposed.mesh(), baffles, scheme_ == stDivergenceFree, cellTets_
-    );
-    vertices_ = makeVertices(undecomposed.mesh(), baffles);
+    autoPtr<baffleSides> baffles;
+    label nVertices = 0;
+    label nTets = 0;
+    if (master)
+    {
+        const fvMesh& mesh = undecomposed.mesh();
+        baffles.reset(new baffleSides(mesh));
+        nVertices = mesh.nCells() + mesh.nPoints() + baffles->sides().size();
+        nTets = nTetsOf(mesh);
+    }
+
+    cellTets_.reset(master ? undecomposed.mesh().nCells() + 1 : 0);
+    tets_.reset(nTets);
+    vertices_.reset(nVertices);
     if (scheme_ == stDivergenceFree)
     {
-        excess_.setSize(tets_.size(), flowTetExcess{{0, 0, 0, 0}, 0});
+        excess_.reset(nTets);
+    }
+    if (hasField)
+    {
+        field_.reset(nVertices);
     }
 
-    if (E.valid())
+    if (master)
     {
-        field_ = atVertices
+        const undecomposedFlow::serialScope serial;
+        const fvMesh& mesh = undecomposed.mesh();
+
+        makeTets
         (
-            *E,
-            images_,
-            baffles,
-            "electric",
-            "look at what forces/electricField names"
+            mesh, *baffles, scheme_ == stDivergenceFree, cellTets_, tets_
         );
-    }
-}
+        makeVertices(mesh, *baffles, vertices_);
+        static_cast<UList<flowTetExcess>&>(excess_) =
+            flowTetExcess{{0, 0, 0, 0}, 0};
 
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-Foam::label Foam::frozenFlow::fanBase
-(
-    const polyMesh& mesh,
-    const label facei
-)
-{
-    const face& f = mesh.faces()[facei];
-    const vector& S = mesh.faceAreas()[facei];
-    label best = max(mesh.tetBasePtIs()[facei], label(0));
-    scalar widest = -GREAT;
-
-    for (label base = 0; f.size() > 4 && base < f.size(); ++base)
-    {
-        const point& x = mesh.points()[f[base]];
-        scalar narrowest = GREAT;
-
-        for (label i = 1; i < f.size() - 1; ++i)
+        if (hasField)
         {
-            const vector a(mesh.points()[f[(base + i) % f.size()]] - x);
-            const vector b
+            field_.deepCopy
             (
-                mesh.points()[f[(base + i + 1) % f.size()]] - x
+                atVertices
+                (
+                    *E,
+                    images_,
+                    *baffles,
+                    "electric",
+                    "look at what forces/electricField names"
+                )
             );
-            narrowest = min
-            (
-                narrowest,
-                ((a ^ b) & S)/max(max(magSqr(a), magSqr(b)), magSqr(b - a))
-            );
-        }
-        if (narrowest > widest)
-        {
-            widest = narrowest;
-            best = base;
         }
     }
 
-    return best;
+    cellTets_.share();
+    tets_.share();
+    vertices_.share();
+    excess_.share();
+    field_.share();
 }
 
 

@@ -9,9 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 #include "undecomposedFlow.H"
 #include "copyValues.H"
-#include "masterGate.H"
-#include "plainLists.H"
-#include "labelIOList.H"
+#include "fromRanks.H"
 #include "processorPolyPatch.H"
 #include "surfaceFields.H"
 #include "volFields.H"
@@ -33,51 +31,6 @@ namespace Foam
     void setParRun(const bool on, long)
     {
         PstreamType::parRun() = on;
-    }
-
-    //- Addressing that decomposePar left beside the mesh of this rank
-    static labelList readAddressing(const word& name, const polyMesh& mesh)
-    {
-        return labelIOList
-        (
-            IOobject
-            (
-                name,
-                mesh.facesInstance(),
-                polyMesh::meshSubDir,
-                mesh,
-                IOobject::MUST_READ,
-                IOobject::NO_WRITE,
-                false
-            )
-        );
-    }
-
-    //- A list of a size, filled with the values of all ranks by their addresses
-    //  in it; empty but on the master; collective
-    template<class Type>
-    static Field<Type> putTogether
-    (
-        const UList<Type>& values,
-        const labelUList& addresses,
-        const label size
-    )
-    {
-        const List<List<Type>> allValues(gathered(List<Type>(values)));
-        const List<labelList> allAddresses(gathered(labelList(addresses)));
-
-        if (!Pstream::master())
-        {
-            return Field<Type>();
-        }
-
-        Field<Type> result(size, Zero);
-        forAll(allValues, ranki)
-        {
-            UIndirectList<Type>(result, allAddresses[ranki]) = allValues[ranki];
-        }
-
-        return result;
     }
 
     //- Values of a field at the faces of this rank, 0 where it has none
@@ -127,55 +80,6 @@ Foam::undecomposedFlow::serialScope::~serialScope()
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::undecomposedFlow::readMesh(const Time& runTime)
-{
-    const fileName casePath(runTime.rootPath()/runTime.globalCaseName());
-
-    if (!isDir(casePath/runTime.constant()/polyMesh::meshSubDir))
-    {
-        FatalErrorInFunction
-            << "no undecomposed mesh in " << casePath/runTime.constant()
-            << nl << "    The cells see the whole flow, so constant/polyMesh "
-            << "has to stay where decomposePar found it"
-            << exit(FatalError);
-    }
-
-    // A Time sets the digits of what is printed
-    const int digits = Sout.precision();
-
-    time_.reset
-    (
-        new Time
-        (
-            Time::controlDictName,
-            runTime.rootPath(),
-            runTime.globalCaseName(),
-            "system",
-            "constant",
-            false,
-            false
-        )
-    );
-
-    Sout.precision(digits);
-    Pout.precision(digits);
-
-    mesh_.reset
-    (
-        new fvMesh
-        (
-            IOobject
-            (
-                polyMesh::defaultRegion,
-                time_->constant(),
-                *time_,
-                IOobject::MUST_READ
-            )
-        )
-    );
-}
-
-
 template<class Type, template<class> class PatchField, class GeoMesh>
 Foam::autoPtr<Foam::GeometricField<Type, PatchField, GeoMesh>>
 Foam::undecomposedFlow::gather
@@ -188,9 +92,9 @@ Foam::undecomposedFlow::gather
     const bool atFaces = std::is_same<GeoMesh, surfaceMesh>::value;
 
     Field<Type> partValues(valuesAtFaces(field, part_.nFaces()));
-    if (atFaces)
+    forAll(partValues, facei)
     {
-        for (const label facei : turnedFaces_)
+        if (atFaces && faceAddressing_[facei] < 0)
         {
             partValues[facei] *= -1;
         }
@@ -198,13 +102,13 @@ Foam::undecomposedFlow::gather
 
     const Field<Type> faceValues
     (
-        putTogether(partValues, faceAddressing_, mesh().nFaces())
+        putTogether(faceAddressing_, partValues, mesh().nFaces())
     );
     const Field<Type> cellValues
     (
         atFaces
       ? Field<Type>()
-      : putTogether(field.primitiveField(), cellAddressing_, mesh().nCells())
+      : putTogether(cellAddressing_, field.primitiveField(), nCells_)
     );
 
     if (!Pstream::master())
@@ -255,50 +159,24 @@ Foam::undecomposedFlow::gather
 
 Foam::undecomposedFlow::undecomposedFlow(const fvMesh& mesh)
 :
-    part_(mesh)
+    part_(mesh),
+    nCells_(mesh.nCells())
 {
-    if (Pstream::parRun())
+    if (!Pstream::parRun())
     {
-        cellAddressing_ = readAddressing("cellProcAddressing", mesh);
-        faceAddressing_ = readAddressing("faceProcAddressing", mesh);
-        forAll(faceAddressing_, facei)
-        {
-            // From 1, negative where the normal is the opposite there
-            label& whole = faceAddressing_[facei];
-            if (whole < 0)
-            {
-                turnedFaces_.append(facei);
-            }
-            whole = mag(whole) - 1;
-        }
-
-        if (Pstream::master())
-        {
-            const serialScope serial;
-            readMesh(mesh.time());
-        }
-
-        // Before anything is put where the addressing says
-        label nWhole = (Pstream::master() ? mesh_->nCells() : 0);
-        broadcast(nWhole);
-        const label nParts = returnReduce(mesh.nCells(), sumOp<label>());
-
-        const masterGate once;
-
-        if (nWhole != nParts)
-        {
-            FatalErrorInFunction
-                << "the decomposed mesh has " << nParts
-                << " cells, the undecomposed one " << nWhole << nl
-                << "    Run decomposePar -force again"
-                << exit(FatalError);
-        }
+        cellAddressing_ = identity(mesh.nCells(), 1);
+        faceAddressing_ = identity(mesh.nFaces(), 1);
+        return;
     }
-    else
+
+    if (!readAddressing())
     {
-        cellAddressing_ = identity(mesh.nCells());
-        faceAddressing_ = identity(mesh.nFaces());
+        makeAddressing();
     }
+    makeMesh();
+
+    // Of no further use
+    pointAddressing_.clear();
 }
 
 
@@ -349,10 +227,12 @@ void Foam::undecomposedFlow::take
 
 Foam::labelList Foam::undecomposedFlow::localCells() const
 {
-    return invert
-    (
-        returnReduce(part_.nCells(), sumOp<label>()), cellAddressing_
-    );
+    labelList cells(nCells_, -1);
+    forAll(cellAddressing_, celli)
+    {
+        cells[cellAddressing_[celli] - 1] = celli;
+    }
+    return cells;
 }
 
 

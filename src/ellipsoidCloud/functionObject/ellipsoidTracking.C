@@ -133,9 +133,14 @@ Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
 {
     read(dict);
 
-    // The flow of the start, which a solver replaces in its first time step
-    if (!steady_)
+    if (steady_)
     {
+        // Mistakes are told before the solver takes its time
+        const ellipsoidProperties checked(mesh_);
+    }
+    else
+    {
+        // The flow of the start, which the first time step replaces
         begin();
     }
 }

@@ -63,7 +63,10 @@ struct Foam::groupAdvance::member
         frozenFlow::locationType location;
         isometry image;
         ellipsoid_step last;
-        heldWrench pull;
+
+    //- Where it was at the start [m], and when [s]
+    point from;
+    scalar since;
 
 
     // Member Functions
@@ -119,11 +122,16 @@ struct Foam::groupAdvance::member
             const tensor turn(image.turn());
 
             cell.state.pass(image, model.options.semi_axes);
+            if (image.translates())
+            {
+                cell.passed -= image.b();
+            }
             for (double* force : {contact.force, contact.cell_force})
             {
                 const vector turned(turn & pointOf(force));
                 std::copy_n(turned.v_, 3, force);
             }
+            from = image(from);
             image = isometry();
         }
 
@@ -136,44 +144,51 @@ struct Foam::groupAdvance::member
             std::copy_n(contact.surface, cell.nWalls, cell.walls);
             cell.nCells = contact.cell_count;
             std::copy_n(contact.cell_id, cell.nCells, cell.cells);
-
-            // Only of a cell that has been slow, or is in contact and may be
-            // slow from now on
-            if
-            (
-                cell.state.fate != cellState::caught
-             && (cell.state.slowTime > 0 || cell.nWalls || cell.nCells)
-            )
-            {
-                cell.state.imbalance = max(cell.state.imbalance, imbalance());
-            }
         }
 
-        //- Part of the drag on a cell held still that its contacts, of its
-        //  last step, leave unbalanced
-        scalar imbalance() const
+        //- Compare what the contacts leave unbalanced with the drag on the cell
+        //  held still: of its last step up to its catch, and over the time
+        //  since it settled, when it is what drives its motion. Only of a cell that has been slow, or is in contact and may be slow
+        //  from now on
+        void balance()
         {
-            const ellipsoid_state& body = cell.state.body;
+            cellState& state = cell.state;
             const ellipsoid_contact& contact = last.contact;
+            const scalar dt = state.time - since;
+
+            if (!(state.slowTime > 0 || cell.nWalls || cell.nCells))
+            {
+                return;
+            }
 
             frozenFlow::probe at(here.home);
             frozenFlow::tetCoordinates c;
-            if (!domain.flow.reach(body.x, at, c))
+            if (!domain.flow.reach(state.body.x, at, c))
             {
-                return 1;
+                state.imbalance = 1;
+                return;
             }
 
             vector U;
             vector drag;
-            domain.flow.velocity(cell.state.time, c, U.v_, nullptr);
-            ellipsoid_drag_at_rest(&model, body.q, U.v_, drag.v_);
+            domain.flow.velocity(state.time, c, U.v_, nullptr);
+            ellipsoid_drag_at_rest(&model, state.body.q, U.v_, drag.v_);
 
             const vector sum
             (
                 drag + (pointOf(contact.force) + pointOf(contact.cell_force))
             );
 
-            return mag(sum)/max(mag(drag), VSMALL);
+            if (state.fate != cellState::caught)
+            {
+                state.imbalance =
+                    max(state.imbalance, mag(sum)/max(mag(drag), VSMALL));
+            }
+            state.dragImpulse += dt*drag;
+
+            const vector moved(state.centre() - from);
+            ellipsoid_drag_at_rest(&model, state.body.q, moved.v_, drag.v_);
+            state.netImpulse += drag;
         }
 
         //- A cell that passed an open patch is stopped there, one that is
@@ -312,20 +327,23 @@ void Foam::groupAdvance::enter
             {
                 group[i], cell,
                 isClamped(id) ? clamped(id) : population_.model(id), domain_,
-                properties.pushing(), pulled < 0, path,
+                properties.pushing(), tried < 0, path,
                 {domain_, frozenFlow::probe{cell.state.tet, -1}},
-                frozenFlow::pInside, isometry(), ellipsoid_step(), heldWrench()
+                frozenFlow::pInside, isometry(), ellipsoid_step(),
+                cell.state.centre(), cell.state.time
             }
         );
-        if (isClamped(id) || (held_ && id == pulled))
+        if (isClamped(id) || (pull && id == tried))
         {
             own[i].here.setStill();
         }
-        if (held_ && id == pulled)
+        if (pull && id == tried)
         {
-            own[i].pull = (*held_)[id];
-            own[i].here.setPull(own[i].pull);
+            own[i].here.setPull(*pull);
         }
+        own[i].here.repeat =
+            reinterpret_cast<const scalar(*)[3]>(periods_.cdata());
+        own[i].here.repeat_count = periods_.size();
         own[i].here.seed = properties.seed();
         own[i].here.id = id;
 
@@ -395,6 +413,10 @@ bool Foam::groupAdvance::integrate
             if (status == ELLIPSOID_OK)
             {
                 m.settle();
+                if (!isClamped(m.cell.state.id))
+                {
+                    m.balance();
+                }
             }
             else
             {
@@ -419,6 +441,7 @@ Foam::groupAdvance::groupAdvance
 :
     population_(population),
     domain_(domain),
+    periods_(domain.flow.images().periods()),
     held_(held),
     done_()
 {}

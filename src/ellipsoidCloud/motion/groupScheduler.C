@@ -170,14 +170,15 @@ Foam::groupScheduler::nearPairs
         boxes[k] = cell.box(reach + 0.5*margin);
     }
 
-    for (const labelPair& pair : overlapGroups::overlapping(boxes))
+    const List<vector>& periods = groups_.periods();
+    for (const auto& met : overlapGroups::overlapping(boxes, periods))
     {
-        const cellSweep& a = cells[indices[pair.first()]];
-        const cellSweep& b = cells[indices[pair.second()]];
+        const cellSweep& a = cells[indices[met.items.first()]];
+        const cellSweep& b = cells[indices[met.items.second()]];
 
         if
         (
-            unitOf[pair.first()] != unitOf[pair.second()]
+            unitOf[met.items.first()] != unitOf[met.items.second()]
          && !(groups_.isClamped(a.state.id) && groups_.isClamped(b.state.id))
         )
         {
@@ -186,13 +187,13 @@ Foam::groupScheduler::nearPairs
             const scalar gap = ellipsoid_cell_gap
             (
                 &population_.model(a.state.id), a.start.x, a.start.q,
-                &population_.model(b.state.id), b.start.x, b.start.q,
-                horizon
+                &population_.model(b.state.id),
+                (pointOf(b.start.x) + met.moved).v_, b.start.q, horizon
             );
 
             if (gap < horizon)
             {
-                found.append(nearPair{pair, gap});
+                found.append(nearPair{met.items, gap});
             }
         }
     }

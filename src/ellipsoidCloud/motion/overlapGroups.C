@@ -10,12 +10,13 @@ License
 #include "overlapGroups.H"
 #include "ListOps.H"
 
-// * * * * * * * * * * * * * Static Member Functions * * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
-Foam::DynamicList<Foam::labelPair> Foam::overlapGroups::overlapping
-(
-    const UList<boundBox>& boxes
-)
+namespace Foam
+{
+
+//- Pairs of boxes that overlap, the lower index first, in ascending order
+static DynamicList<labelPair> pairsOf(const UList<boundBox>& boxes)
 {
     DynamicList<labelPair> pairs;
 
@@ -61,6 +62,68 @@ Foam::DynamicList<Foam::labelPair> Foam::overlapGroups::overlapping
     sort(pairs);
 
     return pairs;
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+Foam::DynamicList<Foam::overlapGroups::meeting>
+Foam::overlapGroups::overlapping
+(
+    const UList<boundBox>& boxes,
+    const UList<vector>& translations
+)
+{
+    DynamicList<boundBox> all(boxes);
+    DynamicList<meeting> images;
+    boundBox extent(boundBox::invertedBox);
+    for (const boundBox& box : boxes)
+    {
+        extent.add(box);
+    }
+
+    for (const vector& by : translations)
+    {
+        forAll(boxes, i)
+        {
+            const boundBox image(boxes[i].min() + by, boxes[i].max() + by);
+            if (image.overlaps(extent))
+            {
+                all.append(image);
+                images.append(meeting{labelPair(i, i), by});
+            }
+        }
+    }
+
+    DynamicList<meeting> found;
+    for (const labelPair& pair : pairsOf(all))
+    {
+        const label image = pair.second() - boxes.size();
+
+        if (image < 0)
+        {
+            found.append(meeting{pair, Zero});
+        }
+        else if
+        (
+            // Each once: the image of the first meets the second as well
+            pair.first() < images[image].items.first()
+        )
+        {
+            found.append
+            (
+                meeting
+                {
+                    labelPair(pair.first(), images[image].items.first()),
+                    images[image].moved
+                }
+            );
+        }
+    }
+
+    return found;
 }
 
 

@@ -19,6 +19,9 @@ namespace Foam
     //  one of them is held and the other in contact with it or slow
     static const scalar nearGap = 0.5;
 
+    //- What the flow does to a held cell is the same within this part
+    static const scalar sameWrench = 0.05;
+
     //- From the body to the lab
     static tensor rotationOf(const scalar q[4])
     {
@@ -32,6 +35,16 @@ namespace Foam
 }
 
 
+// * * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::occupancy::flowType> Foam::occupancy::flowNames
+({
+    {flowType::UNCHANGED, "unchanged"},
+    {flowType::SOLVED, "solved"},
+    {flowType::SUPERPOSED, "superposed"}
+});
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::occupancy::setting::setting
@@ -41,6 +54,7 @@ Foam::occupancy::setting::setting
 )
 :
     active(dict.getOrDefault("active", false)),
+    flow(flowNames.getOrDefault("flow", dict, SOLVED)),
     fates({cellState::caught}),
     every(ellipsoidProperties::number<label>(dict, "every", atLeast(1), 1)),
     tolerance
@@ -50,7 +64,8 @@ Foam::occupancy::setting::setting
 {
     ellipsoidProperties::checkKeywords
     (
-        dict, {"active", "fates", "every", "tolerance", "apertures"}
+        dict,
+        {"active", "flow", "fates", "every", "tolerance", "apertures"}
     );
 
     if (dict.found("fates"))
@@ -72,7 +87,10 @@ Foam::occupancy::setting::setting
     for (const entry& e : dict.subOrEmptyDict("apertures"))
     {
         const dictionary& of = e.dict();
-        ellipsoidProperties::checkKeywords(of, {"min", "max", "normal"});
+        ellipsoidProperties::checkKeywords
+        (
+            of, {"min", "max", "normal", "relativeFlux"}
+        );
 
         const boundBox box(of.get<point>("min"), of.get<point>("max"));
         const vector normal(of.get<vector>("normal"));
@@ -84,7 +102,33 @@ Foam::occupancy::setting::setting
                 << "aperture " << e.keyword() << " needs the name of a patch,"
                 << " min below max and a normal" << exit(FatalIOError);
         }
-        apertures.append(aperture{e.keyword(), patchi, box, normal});
+
+        const scalarList parts
+        (
+            of.getOrDefault("relativeFlux", scalarList())
+        );
+        for (const scalar part : parts)
+        {
+            if (!(part > 0 && part <= 1))
+            {
+                FatalIOErrorInFunction(of)
+                    << "relativeFlux " << part << nl
+                    << "    allowed: above 0 to 1" << exit(FatalIOError);
+            }
+        }
+        apertures.append(aperture{e.keyword(), patchi, box, normal, parts});
+    }
+
+    if
+    (
+        flow == SUPERPOSED
+     && (apertures.empty() || fates.found(cellState::stalled))
+    )
+    {
+        FatalIOErrorInFunction(dict)
+            << "flow superposed knows of cells that sieves hold, by the fluxes"
+            << " of their apertures: give apertures, and no fate but caught"
+            << exit(FatalIOError);
     }
 }
 
@@ -118,6 +162,14 @@ Foam::occupancy::occupancy
     {
         const vector* of = &places[3*i];
         letGo_.insert(gone[i], letGoCell{of[0], heldWrench{of[1], of[2]}});
+    }
+
+    const labelList stayed(notes.getOrDefault("stayed", labelList()));
+    const vectorField borne(notes.getOrDefault("borne", vectorField()));
+
+    forAll(stayed, i)
+    {
+        borne_.insert(stayed[i], heldWrench{borne[2*i], borne[2*i + 1]});
     }
 }
 
@@ -163,7 +215,7 @@ bool Foam::occupancy::moves
 (
     const cellState& cell,
     const UList<cellState>& cells,
-    const heldWrench& pull
+    const heldWrench* pull
 )
 {
     DynamicList<cellSweep> group;
@@ -180,18 +232,14 @@ bool Foam::occupancy::moves
         }
     }
 
-    heldWrench& acting = held_[cell.id];
-    const heldWrench whole(acting);
-    acting = pull;
-
     DynamicList<groupAdvance::segment> path;
-    trials_->pulled = cell.id;
+    trials_->tried = cell.id;
+    trials_->pull = pull;
     trials_->advance
     (
         group, identity(group.size()), cell.time + criterion_.holdTime(),
         false, path
     );
-    acting = whole;
 
     return
         group[own].gone()
@@ -208,11 +256,11 @@ bool Foam::occupancy::pulledOff
     const heldWrench whole(held_[cell.id]);
     const auto from = letGo_.cfind(cell.id);
 
-    if (!moves(cell, cells, whole))
+    if (!moves(cell, cells, setting_.flow == SOLVED ? &whole : nullptr))
     {
         return false;
     }
-    if (!from.found())
+    if (setting_.flow != SOLVED || !from.found())
     {
         return true;
     }
@@ -223,7 +271,69 @@ bool Foam::occupancy::pulledOff
         whole.force - withstood.force, whole.torque - withstood.torque
     };
 
-    return moves(cell, cells, excess);
+    return moves(cell, cells, &excess);
+}
+
+
+bool Foam::occupancy::hasBorne(const cellState& cell) const
+{
+    const auto before = borne_.cfind(cell.id);
+    if (setting_.flow != SOLVED || !before.found())
+    {
+        return false;
+    }
+
+    const scalar* semiAxes = population_.model(cell.id).options.semi_axes;
+    const scalar arm = max(semiAxes[0], max(semiAxes[1], semiAxes[2]));
+    const heldWrench& now = held_[cell.id];
+    const heldWrench& then = *before;
+
+    return
+        arm*mag(now.force - then.force) + mag(now.torque - then.torque)
+     <= sameWrench*(arm*mag(then.force) + mag(then.torque));
+}
+
+
+bool Foam::occupancy::stays
+(
+    const cellState& cell,
+    const UList<cellState>& cells,
+    const bool afterSolution
+)
+{
+    const bool isPushed = pushed(cell, cells);
+    const bool asked =
+        isPushed
+      ? afterSolution || criterion_.isDue(cell)
+      : afterSolution && !hasBorne(cell);
+
+    if (!asked)
+    {
+        return true;
+    }
+    if (pulledOff(cell, cells))
+    {
+        return false;
+    }
+    if (!isPushed)
+    {
+        borne_.set(cell.id, held_[cell.id]);
+    }
+
+    return true;
+}
+
+
+void Foam::occupancy::still(List<cellState>& cells) const
+{
+    for (cellState& cell : cells)
+    {
+        if (held_.found(cell.id))
+        {
+            std::fill_n(cell.body.u, 3, scalar(0));
+            std::fill_n(cell.body.omega, 3, scalar(0));
+        }
+    }
 }
 
 
@@ -238,15 +348,16 @@ void Foam::occupancy::letGo
 
     forAll(cells, i)
     {
-        if
-        (
-            held_.found(cells[i].id)
-         && (all || pushed(cells[i], cells))
-         && pulledOff(cells[i], cells)
-        )
+        if (held_.found(cells[i].id) && !stays(cells[i], cells, all))
         {
             loose.append(i);
         }
+    }
+
+    // Those that stay have lost a neighbour, perhaps
+    if (loose.size())
+    {
+        borne_.clear();
     }
 
     for (const label i : loose)
@@ -255,8 +366,7 @@ void Foam::occupancy::letGo
         letGo_.set(cell.id, letGoCell{cell.centre(), held_[cell.id]});
         held_.erase(cell.id);
         outdated_ = true;
-        cell.slowTime = 0;
-        cell.imbalance = 0;
+        cell.settleAt(cell.unfolded());
         cell.fate = cellState::inFlight;
         events.append(cellEvent{"released", cell});
         cell.patch = -1;
@@ -266,14 +376,13 @@ void Foam::occupancy::letGo
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::scalar Foam::occupancy::aperture::flux
+Foam::DynamicList<Foam::label> Foam::occupancy::aperture::faces
 (
-    const surfaceScalarField& phi
+    const fvMesh& mesh
 ) const
 {
-    const fvMesh& mesh = phi.mesh();
     const point middle(box.centre());
-    scalar sum = 0;
+    DynamicList<label> found;
 
     // Mesh faces between centres on either side of the plane in the middle
     for (label facei = 0; facei < mesh.nInternalFaces(); ++facei)
@@ -285,11 +394,47 @@ Foam::scalar Foam::occupancy::aperture::flux
 
         if (before == after && box.contains(mesh.Cf()[facei]))
         {
-            sum += before ? phi[facei] : -phi[facei];
+            found.append(facei);
         }
     }
 
+    return found;
+}
+
+
+Foam::scalar Foam::occupancy::aperture::flux
+(
+    const surfaceScalarField& phi
+) const
+{
+    const fvMesh& mesh = phi.mesh();
+    scalar sum = 0;
+
+    for (const label facei : faces(mesh))
+    {
+        const point& from = mesh.C()[mesh.owner()[facei]];
+        sum += phi[facei]*(((from - box.centre()) & normal) < 0 ? 1 : -1);
+    }
+
     return sum;
+}
+
+
+Foam::labelList Foam::occupancy::counts(const UList<cellState>& cells) const
+{
+    labelList n(setting_.apertures.size(), 0);
+
+    forAll(n, i)
+    {
+        for (const cellState& cell : cells)
+        {
+            n[i] +=
+                held_.found(cell.id)
+             && cell.patch == setting_.apertures[i].patch;
+        }
+    }
+
+    return n;
 }
 
 
@@ -310,7 +455,11 @@ void Foam::occupancy::update
         {
             near.insert(cell.id, *from);
         }
-        if (blocks(cell) && !held_.found(cell.id))
+        if
+        (
+            blocks(cell) && !held_.found(cell.id)
+         && criterion_.isAtRest(cell)
+        )
         {
             caught.append(cell.id);
         }
@@ -324,6 +473,11 @@ void Foam::occupancy::update
         {
             held_.insert(id, heldWrench());
         }
+    }
+    if (!changesFlow())
+    {
+        still(cells);
+        outdated_ = false;
     }
 }
 
@@ -382,11 +536,10 @@ bool Foam::occupancy::take
             wrench.force = wrenches[n].force;
             wrench.torque = R.T() & wrenches[n].torque;
             ++n;
-            std::fill_n(cell.body.u, 3, scalar(0));
-            std::fill_n(cell.body.omega, 3, scalar(0));
         }
     }
 
+    still(cells);
     outdated_ = false;
 
     return same;
@@ -401,18 +554,16 @@ void Foam::occupancy::write
     const UList<cellState>& cells
 )
 {
-    for (const aperture& a : setting_.apertures)
+    const labelList n(counts(cells));
+
+    forAll(n, i)
     {
+        const aperture& a = setting_.apertures[i];
         const scalar flux = a.flux(phi);
-        label n = 0;
-        for (const cellState& cell : cells)
-        {
-            n += held_.found(cell.id) && cell.patch == a.patch;
-        }
 
         fluxes_.stream()
             << time << ',' << a.name << ',' << flux << ','
-            << flux/max(inflow, VSMALL) << ',' << n << '\n';
+            << flux/max(inflow, VSMALL) << ',' << n[i] << '\n';
     }
     fluxes_.flush();
 }
@@ -437,6 +588,17 @@ void Foam::occupancy::note(dictionary& notes, dictionary& tables)
         places[3*i + 2] = of.pull.torque;
     }
 
+    const labelList stayed(borne_.sortedToc());
+    vectorField borne(2*stayed.size());
+    forAll(stayed, i)
+    {
+        const heldWrench& of = borne_[stayed[i]];
+        borne[2*i] = of.force;
+        borne[2*i + 1] = of.torque;
+    }
+
+    notes.add("stayed", stayed);
+    notes.add("borne", borne);
     notes.add("letGo", gone);
     notes.add("letGoFrom", places);
     notes.add("held", ids);

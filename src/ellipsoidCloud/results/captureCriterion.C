@@ -19,6 +19,17 @@ License
 
 namespace Foam
 {
+    //- A cell that was held is in flight
+    static void release(cellState& cell, DynamicList<cellEvent>& events)
+    {
+        if (cell.fate != cellState::inFlight)
+        {
+            cell.fate = cellState::inFlight;
+            events.append(cellEvent{"released", cell});
+            cell.patch = -1;
+        }
+    }
+
     //- How long cells have been slow: those that are not are in flight
     static void judgeSpeed
     (
@@ -49,13 +60,7 @@ namespace Foam
 
             cell.slowTime = 0;
             cell.imbalance = 0;
-
-            if (cell.fate != cellState::inFlight)
-            {
-                cell.fate = cellState::inFlight;
-                events.append(cellEvent{"released", cell});
-                cell.patch = -1;
-            }
+            release(cell, events);
         }
     }
 
@@ -86,6 +91,58 @@ namespace Foam
         }
 
         return open;
+    }
+
+    //- How long cells have been confined to their place: one that is as far
+    //  away from it as a length is in flight, and that is its new place
+    static void judgeConfinement
+    (
+        const UList<cellState>& before,
+        List<cellSweep>& moves,
+        const scalar end,
+        const scalar displacement,
+        DynamicList<cellEvent>& events
+    )
+    {
+        forAll(moves, i)
+        {
+            const cellState& was = before[i];
+            cellState& cell = moves[i].state;
+
+            if (cell.fate == cellState::waiting || moves[i].gone())
+            {
+                continue;
+            }
+            if (was.fate == cellState::waiting)
+            {
+                cell.place = was.unfolded();
+            }
+
+            if (mag(cell.unfolded() - cell.place) < displacement)
+            {
+                cell.slowTime += end - was.time;
+                cell.imbalance =
+                    mag(cell.netImpulse)/max(mag(cell.dragImpulse), VSMALL);
+                continue;
+            }
+
+            cell.settleAt(cell.unfolded());
+            release(cell, events);
+        }
+    }
+
+    //- From now on the place of a cell that has been confined for the hold time
+    //  is where it is
+    static void renewPlaces(List<cellSweep>& moves, const scalar holdTime)
+    {
+        for (cellSweep& move : moves)
+        {
+            if (move.state.slowTime >= holdTime)
+            {
+                move.state.slowTime = 0;
+                move.state.place = move.state.unfolded();
+            }
+        }
     }
 
     //- What holds the cells that have been slow for the hold time
@@ -176,6 +233,12 @@ Foam::captureCriterion::captureCriterion
     const polyBoundaryMesh& patches
 )
 :
+    displacement_
+    (
+        dict.found("displacement")
+      ? ellipsoidProperties::number<scalar>(dict, "displacement", above(0))
+      : 0
+    ),
     speed_
     (
         dict.found("speed")
@@ -187,17 +250,28 @@ Foam::captureCriterion::captureCriterion
         ellipsoidProperties::number(dict, "speedFraction", above(0), 0.01)
     ),
     slowSpeed_(0),
-    holdTime_(ellipsoidProperties::number(dict, "holdTime", above(0), 0.05))
+    holdTime_
+    (
+        ellipsoidProperties::number
+        (
+            dict, "holdTime", above(0), displacement_ > 0 ? 1 : 0.05
+        )
+    )
 {
     ellipsoidProperties::checkKeywords
     (
-        dict, {"sieves", "speed", "speedFraction", "holdTime"}
+        dict, {"sieves", "displacement", "speed", "speedFraction", "holdTime"}
     );
 
-    if (dict.found("speed") && dict.found("speedFraction"))
+    if
+    (
+        dict.found("speed") + dict.found("speedFraction")
+      + dict.found("displacement") > 1
+    )
     {
         FatalIOErrorInFunction(dict)
-            << "give one of speed and speedFraction" << exit(FatalIOError);
+            << "give one of displacement, speed and speedFraction"
+            << exit(FatalIOError);
     }
 
     for (const wordRe& name : dict.getOrDefault("sieves", wordRes()))
@@ -258,8 +332,21 @@ void Foam::captureCriterion::judge
         }
     }
 
-    judgeSpeed(before, moves, end, slowSpeed_, events);
+    if (displacement_ > 0)
+    {
+        judgeConfinement(before, moves, end, displacement_, events);
+    }
+    else
+    {
+        judgeSpeed(before, moves, end, slowSpeed_, events);
+    }
+
     judgeHeld(moves, holdTime_, sieves_, events);
+
+    if (displacement_ > 0)
+    {
+        renewPlaces(moves, holdTime_);
+    }
 }
 
 // ************************************************************************* //

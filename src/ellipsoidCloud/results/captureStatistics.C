@@ -74,7 +74,7 @@ Foam::captureStatistics::captureStatistics
     set_(set),
     sieves_(sieves),
     counts_(Zero),
-    log(set, "events", cellEvent::header(set.population.varies()), 12)
+    log(set, "events", cellEvent::header(set), 12)
 {
     readLog();
 }
@@ -126,6 +126,8 @@ void Foam::captureStatistics::update(const UList<cellState>& cells)
         if (cell.fate != cellState::waiting)
         {
             cellState& last = cells_[cell.id].last;
+            last.body = cell.body;
+            last.unfold = cell.unfold;
             last.deepest = cell.deepest;
             last.deepestCell = cell.deepestCell;
             last.imbalance = cell.imbalance;

@@ -23,7 +23,9 @@ void Foam::captureStatistics::writeCells() const
     os.precision(12);
     os  << "id,tInjected,x1,x2,x3,eps1,eps2,eps3,eta,fate,patch,tFate,"
         << "firstSieve,tFirstCatch,deepest,deepestCell,tPlanned,"
-        << "imbalance,x1End,x2End,x3End" << (sizes ? ",length,width" : "") << '\n';
+        << "imbalance,x1End,x2End,x3End" << (sizes ? ",length,width" : "")
+        << (set_.unfolds ? ",x1EndUnfolded,x2EndUnfolded,x3EndUnfolded" : "")
+        << '\n';
 
     for (const label id : cells_.sortedToc())
     {
@@ -70,6 +72,13 @@ void Foam::captureStatistics::writeCells() const
         if (sizes)
         {
             os << ',' << cell.last.size.length << ',' << cell.last.size.width;
+        }
+        if (set_.unfolds)
+        {
+            for (const scalar x : cell.last.unfolded().v_)
+            {
+                os << ',' << x;
+            }
         }
         os << '\n';
     }

@@ -46,11 +46,13 @@ namespace Foam
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-std::string Foam::cellEvent::header(const bool sizes)
+std::string Foam::cellEvent::header(const tableSet& set)
 {
     return
         std::string("t,id,event,patch,x1,x2,x3,eps1,eps2,eps3,eta,")
-      + "deepest,deepestCell" + (sizes ? ",length,width" : "");
+      + "deepest,deepestCell"
+      + (set.population.varies() ? ",length,width" : "")
+      + (set.unfolds ? ",x1Unfolded,x2Unfolded,x3Unfolded" : "");
 }
 
 
@@ -64,6 +66,13 @@ void Foam::cellEvent::write(std::ostream& os, const tableSet& set) const
     for (const scalar* number : numbersOf(now, set.population.varies()))
     {
         os << ',' << *number;
+    }
+    if (set.unfolds)
+    {
+        for (const scalar x : now.unfolded().v_)
+        {
+            os << ',' << x;
+        }
     }
     os << '\n';
 }
@@ -80,6 +89,16 @@ bool Foam::cellEvent::read(std::string line, const tableSet& set)
     for (scalar* number : numbersOf(cell, set.population.varies()))
     {
         is >> *number;
+    }
+    if (set.unfolds)
+    {
+        point unfolded(Zero);
+        for (scalar& x : unfolded.v_)
+        {
+            is >> x;
+        }
+        // Cells in the device have more than this, from elsewhere
+        cell.unfold = isometry::translation(unfolded - cell.centre());
     }
 
     const bool entered = type == "injected" || type == "released";

@@ -9,6 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "narrowestGaps.H"
+#include "domainImages.H"
 #include "DynamicList.H"
 #include "polyMesh.H"
 #include "SubField.H"
@@ -19,13 +20,17 @@ License
 namespace Foam
 {
 
-static labelList wallFaces(const polyBoundaryMesh& patches)
+static labelList wallsAndSeams
+(
+    const polyBoundaryMesh& patches,
+    const domainImages& images
+)
 {
     DynamicList<label> faces;
 
     for (const polyPatch& patch : patches)
     {
-        if (isA<wallPolyPatch>(patch))
+        if (isA<wallPolyPatch>(patch) || images.at(patch.index()))
         {
             for (label i = 0; i < patch.size(); ++i)
             {
@@ -53,12 +58,22 @@ static treeBoundBox widened(const boundBox& box)
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::narrowestGaps::narrowestGaps(const polyMesh& mesh)
+Foam::narrowestGaps::narrowestGaps
+(
+    const polyMesh& mesh,
+    const domainImages& images
+)
 :
     mesh_(mesh),
-    walls_
+    images_(images),
+    faces_
     (
-        treeDataFace(false, mesh, wallFaces(mesh.boundaryMesh())),
+        treeDataFace
+        (
+            false,
+            mesh,
+            wallsAndSeams(mesh.boundaryMesh(), images)
+        ),
         widened(boundBox(mesh.points(), false)),
         8,
         10,
@@ -67,18 +82,62 @@ Foam::narrowestGaps::narrowestGaps(const polyMesh& mesh)
 {}
 
 
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::narrowestGaps::widthAlong
+(
+    point from,
+    vector along,
+    const scalar off
+) const
+{
+    // A wall faces another if their normals are within 60 degrees of opposite:
+    // the sides of a corner do not
+    const scalar facing = 0.5;
+    // Beyond a period of the device walls come again
+    const label mostSeams = 4;
+
+    const scalar far = mesh_.bounds().mag();
+    scalar width = 0;
+
+    for (label i = 0; i <= mostSeams; ++i)
+    {
+        const pointIndexHit hit
+        (
+            faces_.findLine(from + off*along, from + far*along)
+        );
+
+        if (!hit.hit())
+        {
+            return GREAT;
+        }
+        width += mag(hit.hitPoint() - from);
+
+        const label facei = faces_.shapes().faceLabels()[hit.index()];
+        const domainImages::seam* seam =
+            images_.at(mesh_.boundaryMesh().whichPatch(facei));
+
+        if (!seam)
+        {
+            const vector& area = mesh_.faceAreas()[facei];
+
+            return (area & along) > facing*mag(area) ? width : GREAT;
+        }
+        from = seam->inward(hit.hitPoint());
+        along = seam->inward.turn() & along;
+    }
+
+    return GREAT;
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 Foam::narrowestGaps::gap Foam::narrowestGaps::at(const label patchi) const
 {
-    // A wall faces another if their normals are within 60 degrees of opposite:
-    // the sides of a corner do not
-    const scalar facing = -0.5;
-
     const polyPatch& patch = mesh_.boundaryMesh()[patchi];
     const vectorField::subField centres(patch.faceCentres());
     const vectorField::subField areas(patch.faceAreas());
-    const scalar far = mesh_.bounds().mag();
 
     gap narrowest{GREAT, Zero, GREAT};
 
@@ -86,35 +145,15 @@ Foam::narrowestGaps::gap Foam::narrowestGaps::at(const label patchi) const
     {
         const scalar area = mag(areas[i]);
         const vector n(areas[i]/area);
-        const point from(centres[i] - 1e-4*sqrt(area)*n);
-        const pointIndexHit hit(walls_.findLine(from, from - far*n));
+        const scalar width = widthAlong(centres[i], -n, 1e-4*sqrt(area));
 
-        if (!hit.hit())
-        {
-            continue;
-        }
-
-        const label other = walls_.shapes().faceLabels()[hit.index()];
-        const vector& otherArea = mesh_.faceAreas()[other];
-        const scalar width = mag(hit.hitPoint() - centres[i]);
-
-        if
-        (
-            (otherArea & n) < facing*mag(otherArea)
-         && width < narrowest.width
-        )
+        if (width < narrowest.width)
         {
             const label celli = patch.faceCells()[i];
             const scalar thickness =
                 2*mag((centres[i] - mesh_.cellCentres()[celli]) & n);
 
-            narrowest =
-                gap
-                {
-                    width,
-                    0.5*(centres[i] + hit.hitPoint()),
-                    width/thickness
-                };
+            narrowest = gap{width, centres[i] - 0.5*width*n, width/thickness};
         }
     }
 

@@ -166,8 +166,9 @@ int observe(void* context, const ellipsoid_step* step)
     journey& j = *static_cast<journey*>(context);
     const scalar* x = step->after.x;
 
+    isometry image;
     const bool inside =
-        j.here.settle(point(x[0], x[1], x[2])) == frozenFlow::pInside;
+        j.here.settle(point(x[0], x[1], x[2]), image) == frozenFlow::pInside;
 
     taken t;
     t.cost = seconds() - j.since - j.clock;
@@ -380,7 +381,8 @@ int main(int argc, char *argv[])
     {
         const cellInjection::setting from
         {
-            e.dict(), whole, domain, population, cells.size()
+            e.dict(), whole, domain, population, cells.size(),
+            runTime.value(), true
         };
         cellInjection::New(from)->append(-GREAT, GREAT, cells);
     }

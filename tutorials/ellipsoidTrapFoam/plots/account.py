@@ -3,8 +3,8 @@
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
 """How well a cell's motion fits what the paper tells of the cell of its Figure 2.
 
-It moves with a high |O_x2| in free flow, detours around S8 and flips over after t = 50 ms;
-at 55 ms its velocity along x2 rises while O_x1 and O_x2 turn steeply; at 56 ms it lies
+It moves with a high |O_x2| in free flow, detours around S8 and flips over after t = 50 ms,
+about the positive x1 axis as cells do soon after the edge of a sieve; at 55 ms its velocity along x2 rises while O_x1 and O_x2 turn steeply; at 56 ms it lies
 across the flow, |O_x1| and |O_x3| high; |O_x2| has recovered when it leaves the chamber.
 """
 
@@ -22,6 +22,7 @@ AFTER = 20e-3     # s between the passing of the sieve and the flip
 AROUND = 1e-3     # s before and after the flip for the change of u2
 PAPER_FLIP = 55.0   # ms
 SPREAD = 20.0       # ms about it
+TURN = 0.1e-3     # s before and after the flip for its axis
 RISE, STEEP = 0.2, 0.5   # mm/s and 1/ms from which on a flip fits in full
 
 
@@ -38,12 +39,18 @@ def flips(track):
     return np.array(times)
 
 
+def sense(track, t):
+    """Part of the long axis' rate of turning at a time that is about +x1, from -1 to 1."""
+    before, after = track.at([t - TURN, t + TURN]).axis
+    about = np.cross(before, after)
+    return float(about[0] / max(np.linalg.norm(about), 1e-30))
+
+
 class Account(namedtuple(
-    "Account", "cell sieve passing gap free flip rise steep across exit time among", defaults=(1,)
+    "Account", "cell sieve passing gap free flip sense rise steep across exit time"
 )):
-    """What a cell does of the paper's account; passing and flip are times of the run [s],
-    rise [mm/s], steep [1/ms], time of the flip since the injection [ms]. It is the best of so
-    many."""
+    """What a cell does of the paper's account; passing and flip are times of the run [s], sense
+    as of sense(), rise [mm/s], steep [1/ms], time of the flip since the injection [ms]."""
 
     __slots__ = ()
 
@@ -52,6 +59,7 @@ class Account(namedtuple(
         """From 0, nothing fits, to 1, all fits: the mean of its parts."""
         return np.mean([
             self.free,
+            max(0, self.sense),
             np.clip((2 * NEAR - self.gap) / NEAR, 0, 1),
             np.clip(self.rise / RISE, 0, 1),
             np.clip(self.steep / STEEP, 0, 1),
@@ -63,15 +71,13 @@ class Account(namedtuple(
     @property
     def explained(self):
         """What the score is, and what it is not, for a caption."""
-        chosen = f"""Cell {self.cell} is the best of {self.among}, those that pass {self.sieve} and flip
-            after it: that one of so many fits tells that such a motion occurs, not how often.
-            """ if self.among > 1 else ""
-        return f"""Its fit to the paper's account is {self.score:.2f} of 1, the mean of seven parts of
-            0 to 1: the median |O_x2| until it passes {self.sieve}; its gap there, 1 up to
+        return f"""Its fit to the paper's account is {self.score:.2f} of 1, the mean of eight parts of
+            0 to 1: the median |O_x2| until it passes {self.sieve}; the part of its turning
+            at the flip that is about +x1; its gap at {self.sieve}, 1 up to
             {NEAR:g} µm and 0 from {2 * NEAR:g} µm; the rise of u2 within {MILLI * AROUND:g} ms of
             the flip over {RISE:g} mm/s; |dO_x2/dt| over {STEEP:g} per ms; the higher of |O_x1| and
-            |O_x3| at the flip; |O_x2| at the chamber's end; and exp(-(t - {PAPER_FLIP:g} ms)² /
-            ({SPREAD:g} ms)²) of the time of the flip. {chosen}"""
+            |O_x3| within that of it; |O_x2| at the chamber's end; and exp(-(t - {PAPER_FLIP:g} ms)² /
+            ({SPREAD:g} ms)²) of the time of the flip."""
 
     def table(self):
         """Beside the paper's words."""
@@ -81,17 +87,19 @@ class Account(namedtuple(
             [f"detours around {self.sieve}", f"its centre passes {self.gap:.1f} µm from it, "
              f"{1e3 * (self.flip - self.passing):+.1f} ms before it flips"],
             ["flips over after t = 50 ms", f"at {self.time:.1f} ms"],
+            ["flips about +x1", f"{self.sense:+.2f} of its turning is about +x1"],
             ["at 55 ms the velocity along x2 rises",
              f"by {self.rise:+.2f} mm/s within 1 ms either way of the flip"],
             ["and O_x1 and O_x2 turn steeply", f"|dO_x2/dt| = {self.steep:.2f} per ms"],
-            ["at 56 ms |O_x1| and |O_x3| near 1", f"the higher of both is {self.across:.2f}"],
+            ["at 56 ms |O_x1| and |O_x3| near 1", f"the higher of both is {self.across:.2f} within 1 ms of it"],
             ["|O_x2| high again at the exit", f"|O_x2| = {self.exit:.2f} at the chamber's end"],
             ["fit, of 1", f"{self.score:.2f}"],
         ]
 
 
-def of_cell(case, cell, sieve=SIEVE):
-    """The account of an escaped cell; None if it does not flip after passing the sieve."""
+def detour(case, cell, sieve=SIEVE):
+    """(track, row at which it is nearest, gap there) of an escaped cell that comes near a sieve;
+    None of the others."""
     if not case.chamber or sieve not in case.sieves or case.fates[cell].name != "escaped":
         return None
     rows = case.tracks[cell]
@@ -104,9 +112,19 @@ def of_cell(case, cell, sieve=SIEVE):
     track = rows.finer(10)
     gaps = walls.distance(case, [sieve], track.x, within=2 * NEAR)
     nearest = int(np.argmin(gaps))
+    return (track, nearest, gaps[nearest]) if np.isfinite(gaps[nearest]) else None
+
+
+def of_cell(case, cell, sieve=SIEVE, near=None):
+    """The account of an escaped cell; None if it does not flip after passing the sieve. near
+    is its detour() where that is known."""
+    near = near or detour(case, cell, sieve)
+    if not near:
+        return None
+    track, nearest, gap = near
     passing = track.t[nearest]
     exits = np.flatnonzero(track.x[:, 1] > case.chamber[1])
-    if not np.isfinite(gaps[nearest]) or not len(exits):
+    if not len(exits):
         return None
     later = flips(track)
     later = later[(later > passing) & (later < min(passing + AFTER, track.t[exits[0]]))]
@@ -114,24 +132,26 @@ def of_cell(case, cell, sieve=SIEVE):
         return None
 
     flip = later[0]
-    before, at, after = (track.at([flip + dt]) for dt in (-AROUND, 0, AROUND))
+    before, after = (track.at([flip + dt]) for dt in (-AROUND, AROUND))
+    about = np.abs(track.t - flip) < AROUND
     inside = (track.x[:, 1] > -case.chamber[1]) & (track.t < passing)
-    steep = np.abs(np.gradient(track.axis[:, 1], track.t))[np.abs(track.t - flip) < AROUND]
+    steep = np.abs(np.gradient(track.axis[:, 1], track.t))[about]
     return Account(
-        cell, sieve, passing, gaps[nearest],
+        cell, sieve, passing, gap,
         float(np.median(np.abs(track.axis[inside, 1]))) if inside.any() else 0.0,
-        flip, float(after.u[0, 1] - before.u[0, 1]), steep.max(initial=0) / MILLI,
-        float(np.abs(at.axis[0, [0, 2]]).max()), float(abs(track.axis[exits[0], 1])),
+        flip, sense(track, flip), float(after.u[0, 1] - before.u[0, 1]),
+        steep.max(initial=0) / MILLI,
+        float(np.abs(track.axis[about][:, [0, 2]]).max(initial=0)), float(abs(track.axis[exits[0], 1])),
         (flip - track.t[0]) * MILLI,
     )
 
 
-def best(case, sieve=SIEVE):
-    """The account that fits best."""
+def all_of(case, sieve=SIEVE):
+    """The accounts of all cells that pass the sieve and flip, those that fit best first."""
     if not case.chamber:
         raise NotApplicable("the paper's account is of a circular trap, which this case is not "
-                            "(no constant/trapGeometry): give the id of a cell")
+                            "(no constant/generated/chamber): give the id of a cell")
     told = [one for one in (of_cell(case, cell, sieve) for cell in case.tracks) if one]
     if not told:
         raise NotApplicable(f"no escaped cell flips after it has passed {sieve}")
-    return max(told, key=lambda one: one.score)._replace(among=len(told))
+    return sorted(told, key=lambda one: -one.score)

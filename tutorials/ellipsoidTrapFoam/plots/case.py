@@ -25,6 +25,7 @@ from files import (
     CaseError, number_folders, read_csv, read_dictionary, read_text, without_header,
 )
 from plane import Plane, coincide
+from shares import PUSHING_DISPERSION, in_words, wilson
 
 MICRO = 1e6   # m to micrometres
 MILLI = 1e3   # m/s to mm/s, s to ms
@@ -163,6 +164,36 @@ class Case:
         """constant/ellipsoidCloudProperties as nested dicts of strings and lists."""
         return read_dictionary(self.path("constant", "ellipsoidCloudProperties"))
 
+    @property
+    def independent(self):
+        """Whether its cells do not see one another."""
+        contact = self.properties.get("contact", {})
+        off = ("off", "no", "false", "n", "f", "none")
+        return contact.get("cells", "on") in off or contact.get("active", "yes") in off
+
+    @property
+    def dispersion(self):
+        """Variance of a number of cells caught by that of independent cells."""
+        return 1.0 if self.independent else PUSHING_DISPERSION
+
+    @property
+    def band(self):
+        """(least, most) of a number of cells caught with other choices of the model, by that
+        with the choices made: constant/modelBand, or None."""
+        file = self.path("constant", "modelBand")
+        if not os.path.isfile(file):
+            return None
+        given = read_dictionary(file)
+        return float(given["least"]), float(given["most"])
+
+    def share_in_words(self, held, trials):
+        """A share with the interval of chance and, where known, the band of the model."""
+        words = in_words(held, trials, dispersion=self.dispersion)
+        if self.band and trials:
+            low, high = wilson(held, trials, dispersion=self.dispersion)
+            words += f"; {100 * self.band[0] * low:.1f}-{100 * min(1, self.band[1] * high):.1f} with the model's choices"
+        return words
+
     @cached_property
     def semi_axes(self):
         """The cells' semi-axes; where sizes vary those of the median cell."""
@@ -203,10 +234,10 @@ class Case:
     @cached_property
     def chamber(self):
         """(radius, y at which the channels begin) of a circular trap, or None."""
-        file = self.path("constant", "trapGeometry")
+        file = self.path("constant", "generated", "chamber")
         if not os.path.isfile(file):
             return None
-        chamber = read_dictionary(file)["chamber"]
+        chamber = read_dictionary(file)
         radius, width = float(chamber["radius"]), float(chamber["channelWidth"])
         return radius, float(np.sqrt(radius**2 - width**2 / 4))
 

@@ -10,13 +10,14 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 import style
-from case import FATES, NotApplicable
+from case import FATES, Case, NotApplicable
 from files import CaseError, read_measured
 
 OPTIONS = {
     "measured": {
         "metavar": "FILE", "help": "CSV with the columns sieve, t [s], fewest, most (cells seen)"
     },
+    "against": {"metavar": "FOLDER", "help": "another case, as one without occupancy"},
 }
 
 
@@ -66,11 +67,11 @@ def read_seen(case, measured):
     return seen
 
 
-def drawn(held, seen):
-    """The steps, and what was seen, in rows."""
+def drawn(held, other, seen):
+    """The steps, of the other case, too, and what was seen, in rows."""
     rows = [
-        (name, "held", float(t), int(n), "") for name, (times, numbers) in held.items()
-        for t, n in zip(times, numbers)
+        (name, what, float(t), int(n), "") for what, of in (("held", held), ("against", other))
+        for name, (times, numbers) in of.items() for t, n in zip(times, numbers)
     ]
     rows += [
         (name, "seen", t, low, "" if np.isnan(high) else high)
@@ -86,14 +87,25 @@ def in_words(fewest, most):
     return f"{fewest:g}" if most == fewest else f"{fewest:g}-{most:g}"
 
 
-def draw(case, measured=None):
+def holdings_against(case, folder):
+    """What holdings() says of another case with the same sieves, if one is given."""
+    if folder is None:
+        return {}
+    other = Case(folder)
+    if other.sieves != case.sieves:
+        raise CaseError(f"{folder}: other sieves than those of {case.path()}")
+    return holdings(other)
+
+
+def draw(case, measured=None, against=None):
     """The figure."""
     if not case.sieves:
         raise NotApplicable("the case has no sieves")
     seen = read_seen(case, measured)
     whose = "measured" if measured else "the paper"
     held = holdings(case)
-    most = max(1, max(numbers.max() for _, numbers in held.values()))
+    other = holdings_against(case, against)
+    most = max(1, max(numbers.max() for _, numbers in (*held.values(), *other.values())))
     thirds = [case.loading * k / 3 for k in (1, 2, 3)]
 
     figure, rows = plt.subplots(
@@ -104,15 +116,21 @@ def draw(case, measured=None):
     table = [["sieve"] + [f"at {t:g} s" for t in thirds] + [f"at {case.end_time:g} s"]]
     if seen:
         table[0].append(whose)
+    if other:
+        table[0].append(f"{against} at the end")
     for (name, (times, numbers)), (ax, side) in zip(held.items(), rows):
         ax.fill_between(times, numbers, step="post", color=style.SKY, alpha=0.6, linewidth=0)
         marks["cells held"], = ax.step(times, numbers, where="post", color=style.BLUE)
+        if other:
+            marks[f"in {against}"], = ax.step(
+                *other[name], where="post", color=style.VERMILLION, linestyle="--", linewidth=1
+            )
         marks["last cell enters"] = ax.axvline(
             case.last_injection, color="black", linewidth=0.8, linestyle=(0, (5, 3))
         )
         for t, low, high in seen.get(name, ()):
             # Of 'several' the upper end is not told
-            marks[f"seen: {whose}"] = ax.errorbar(
+            marks[whose] = ax.errorbar(
                 t, low, [[0], [0.4 * most if np.isnan(high) else high - low]],
                 lolims=np.isnan(high), color=style.VERMILLION, linewidth=1.8, capsize=4,
                 **style.MEASURED,
@@ -139,10 +157,14 @@ def draw(case, measured=None):
         if seen:
             row.append("; ".join(
                 f"{in_words(low, high)} by {t:g} s" for t, low, high in seen.get(name, ())
-            ))
+            ) or "not named")
+        if other:
+            row.append(int(other[name][1][-1]))
         table.append(row)
     sums = [sum(row[k] for row in table[1:]) for k in range(1, 5)]
     table.append(["all", *sums] + [""] * bool(seen))
+    if other:
+        table[-1].append(sum(row[-1] for row in table[1:-1]))
 
     injected = len(case.fates)
     rows[0, 0].set_title(f"cells held by each sieve; in all {sums[-1]} of {injected} injected")
@@ -153,9 +175,10 @@ def draw(case, measured=None):
         mark.set_label(label)
     style.legend_below(rows[-1, 0], list(marks.values()))
     design = f" of design {case.design}" if case.design else ""
-    told = f"Diamonds: cells seen in the experiment ({whose}); arrows: or more." if seen else ""
+    whence = "were measured" if measured else "the paper names; of other sieves it tells nothing"
+    told = f"Diamonds: cells that {whence}; arrows: or more." if seen else ""
     style.describe(figure, f"""Cells held by each sieve{design} against time, and how many after
         one, two and three thirds of the loading of {case.loading:g} s; the dashed line is when
         the last cell entered. {sums[-1]} of {injected} cells are held at {case.end_time:g} s.
-        {told}""", drawn(held, seen), table)
+        {told}""", drawn(held, other, seen), table)
     return figure

@@ -120,8 +120,10 @@ def draw_angles(ax):
 
 
 def contact_of(case):
-    """Layout, number and radius [µm] of the beads, and the ellipsoid's semi-axes."""
+    """Layout, number and radius [µm] of the beads; none where the ellipsoid itself touches."""
     contact = case.properties.get("contact", {})
+    if contact.get("shape", "beads") == "ellipsoid":
+        return None
     layout = contact.get("beadLayout", "staggered")
     try:
         count = int(contact.get("beads", 32))
@@ -132,20 +134,26 @@ def contact_of(case):
     return layout, count, radius
 
 
-def draw_beads(ax, case, scale):
-    """The beads that stand for the surface in contact."""
-    layout, count, radius = contact_of(case)
+def draw_surface(ax, case, scale):
+    """What stands for the surface in contact: the beads, or the ellipsoid."""
+    beads = contact_of(case)
     a1, a2, _ = case.semi_axes
-    reach = max(a2, a1) + radius
-    name = f"C  the {'median ' * bool(case.sizes)}cell and its beads"
-    bare(ax, (-1.25 * reach, 1.25 * reach), (-0.8 * reach, 0.8 * reach), name)
+    reach = 1.15 * max(a2, a1)
+    name = f"C  the {'median ' * bool(case.sizes)}cell" + " and its beads" * bool(beads)
+    bare(ax, (-1.25 * reach, 1.25 * reach), (min(-0.8 * reach, -3.3 * a1), max(0.8 * reach, 1.9 * a1)), name)
     lie = np.array((np.sin(np.pi / 4) * np.array((0, 0, -1))).tolist() + [np.cos(np.pi / 4)])
-    centres = poses.beads(layout, count, radius, case.semi_axes)
-    sphere = np.full(3, radius)
-    turn = poses.rotation(lie)
-    bodies.show(ax, [
-        bodies.Body(turn @ centre, lie, sphere, style.SKY, style.SKY) for centre in centres
-    ], bodies.FROM_ABOVE, scale)
+    if beads:
+        layout, count, radius = beads
+        centres = poses.beads(layout, count, radius, case.semi_axes)
+        turn = poses.rotation(lie)
+        shown = [bodies.Body(turn @ centre, lie, np.full(3, radius), style.SKY, style.SKY)
+                 for centre in centres]
+        told = (f"{len(centres)} beads of radius {radius:g} µm, layout {layout}; "
+                "the line is the ellipsoid")
+    else:
+        shown = [bodies.Body(np.zeros(3), lie, case.semi_axes, style.SKY, style.SKY)]
+        told = "in contact is the ellipsoid itself"
+    bodies.show(ax, shown, bodies.FROM_ABOVE, scale)
     angle = np.linspace(0, 2 * np.pi, 181)
     ax.plot(a2 * np.cos(angle), a1 * np.sin(angle), color=style.VERMILLION, linewidth=1.3)
     for (x0, y0), (x1, y1), text, at in (
@@ -155,9 +163,7 @@ def draw_beads(ax, case, scale):
         ax.annotate("", (x1, y1), (x0, y0), arrowprops={
             "arrowstyle": "<->", "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0})
         ax.annotate(text, at, ha="center", va="center", fontsize=8)
-    ax.annotate(f"{len(centres)} beads of radius {radius:g} µm, layout {layout}; "
-                "the line is the ellipsoid",
-                (0, 0), xycoords="axes fraction", fontsize=7.5, va="top")
+    ax.annotate(told, (0, 0), xycoords="axes fraction", fontsize=7.5, va="top")
 
 
 def sequence(case, cell):
@@ -192,7 +198,9 @@ def name_times(ax, places, times, taken, width):
             far = np.linalg.norm(at - places, axis=1)
             own = np.linalg.norm(at - place)
             # A name is taken for that of the nearest place
-            return inside + 10 * others + 4 * np.sum(far < 1.2 * own) + 0.05 * own
+            # Nor does it run into the title
+            above = at[1] + half[1] > ax.get_ylim()[1]
+            return inside + 10 * (others + above) + 4 * np.sum(far < 1.2 * own) + 0.05 * own
 
         angles = np.arange(16) * np.pi / 8
         around = [
@@ -286,12 +294,12 @@ def draw(case, cell=None):
     cell_axes = np.array((0.5, 2, 0.5)) * 0.9
     draw_frames(panels["A"], cell_axes, 60)
     draw_angles(panels["B"])
-    draw_beads(panels["C"], case, 200)
+    draw_surface(panels["C"], case, 200)
     draw_sequence(panels["D"], case, cell, 30)
-    layout, count, radius = contact_of(case)
+    beads = contact_of(case)
+    told = "cell with its {1} beads of {2:g} µm ({0})".format(*beads) if beads else "cell"
     style.describe(figure, f"""The model. A: the lab's frame x, the motion frame, which moves
         with the cell and stays parallel to the lab's, and the body's frame, the ellipsoid's
-        axes. B: Euler angles, with N the line of nodes. C: the cell with its {count} beads of
-        {radius:g} µm ({layout}). D: cell {cell} at discrete times with its velocity and
+        axes. B: Euler angles, with N the line of nodes. C: the {told}. D: cell {cell} at discrete times with its velocity and
         angular velocity; walls are cut at the cell's mean height.""", drawn(case, cell))
     return figure

@@ -5,8 +5,8 @@
 
 Of the cells that reached a sieve, the share that it held at the end; and the same of all
 cells injected. A cell has reached a sieve when its centre has come within its longest
-semi-axis of the sieve's walls: near enough to touch. Bars are Wilson's 95 % intervals,
-for which cells are taken to be caught independently of one another.
+semi-axis of the sieve's walls: near enough to touch. Bars are Wilson's 95 % intervals;
+where cells push one another wider, by the spread between runs of different seeds.
 """
 
 import matplotlib.pyplot as plt
@@ -51,6 +51,15 @@ def reached(case):
     return found
 
 
+def wider(cases):
+    """In words."""
+    most = max(one.dispersion for one in cases)
+    if most == 1:
+        return ""
+    return (f", for {most:.2g} times the variance of independent cells where they push one another:"
+            " so far runs of different seeds lie apart")
+
+
 def draw(case, designs=()):
     """The figure."""
     cases = [Case(folder) for folder in designs] or [case]
@@ -72,14 +81,14 @@ def draw(case, designs=()):
         shares, bounds = [], []
         for name, row in zip(names, table[1:]):
             held, came = one.count("caught", name), len(near.get(name, ()))
-            row.append(in_words(held, came))
+            row.append(in_words(held, came, dispersion=one.dispersion))
             for of, trials in (("reached", came), ("injected", len(one.fates))):
-                low, high = wilson(held, trials)
+                low, high = wilson(held, trials, dispersion=one.dispersion)
                 share = held / trials if trials else np.nan
                 shares.append(share)
                 bounds.append((share - low, high - share))
                 rows.append((label, name, of, held, trials, share, low, high))
-        table[-1].append(in_words(sum(one.count("caught", n) for n in names), len(one.fates)))
+        table[-1].append(one.share_in_words(sum(one.count("caught", n) for n in names), len(one.fates)))
         for ax, first in zip(axes, (0, 1)):
             ax.errorbar(
                 at, 100 * np.array(shares[first::2]), 100 * np.transpose(bounds[first::2]),
@@ -99,7 +108,7 @@ def draw(case, designs=()):
     style.legend_below(axes[1], axes[0].get_legend_handles_labels()[0])
     length = f"{cases[0].semi_axes.max():g} µm" + " for the median cell" * bool(cases[0].sizes)
     style.describe(figure, f"""Trapping performance of every sieve by itself, with Wilson's 95 %
-        intervals. A cell has reached a sieve when its centre has come within its longest
+        intervals{wider(cases)}. A cell has reached a sieve when its centre has come within its longest
         semi-axis, {length}, of the sieve's walls. In the table, in brackets:
         the intervals in per cent.""",
         (("design", "sieve", "of", "held", "cells", "share", "low", "high"), rows), table)

@@ -2,10 +2,11 @@
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
 """An animation of cells that tumble past a sieve, and of one that it catches, as in movies 2
-to 5 of the paper: true ellipsoids over the flow's speed at half depth.
+to 5 of the paper: true ellipsoids over the flow's speed at half depth. Or of all cells in the
+whole device, as they were at one time.
 
 Few cells of a run are near one sieve at one time: the film puts cells together that came
-one after the other, each from when it enters the window. They do not see one another.
+one after the other, each from when it enters the window. There they do not see one another.
 """
 
 import shutil
@@ -34,11 +35,15 @@ SHORTEST = 0.06     # at least, so that a caught cell comes to rest
 BEFORE = 0.018      # s from the first entry to the first frame, which shows some cells
 PASSING = 7         # cells that pass
 APART = 9e-3        # s between their entries
+WHOLE = 400         # frames of the whole device
 QUALITY = 55
 
 PASSES, STAYS = (style.ORANGE, style.YELLOW), (style.BLUE, style.SKY)
 
-OPTIONS = {"sieve": {"help": "to look at [the one that holds most cells]"}}
+OPTIONS = {
+    "sieve": {"help": "to look at [the one that holds most cells]"},
+    "device": {"action": "store_true", "help": "all of it, from the first cell to the end"},
+}
 
 # Frames from the standard input; even sides, as the format asks for
 ENCODE = "ffmpeg -y -loglevel error -f rawvideo -pix_fmt rgb24 -s {}x{} -r {:g} -i - -c:v libx264 " \
@@ -150,7 +155,7 @@ def draw_stage(case, sieve, window, scale, caption):
     figure.colorbar(image, cax=bar, label="|u| at half depth [mm/s]")
     keys = [
         Patch(facecolor=PASSES[0], edgecolor="black", label="passes"),
-        Patch(facecolor=STAYS[0], edgecolor="black", label=f"is caught by {sieve}"),
+        Patch(facecolor=STAYS[0], edgecolor="black", label=f"is caught by {sieve or 'a sieve'}"),
         Patch(facecolor=style.SOLID, edgecolor="black", label="no fluid"),
     ]
     figure.legend(handles=keys, loc="lower center", ncol=3, bbox_to_anchor=(0.48, 82 / size[1]))
@@ -179,6 +184,20 @@ def follow(case, shown):
     return times, actors
 
 
+def follow_all(case):
+    """The same of all cells at the run's own times."""
+    times = np.linspace(0, case.end_time, WHOLE)
+    actors = []
+    for cell, track in case.tracks.items():
+        fate = case.fates[cell]
+        stays = fate.name != "escaped"
+        there = (times >= track.t[0]) & (stays | (times <= track.t[-1]))
+        at = track.at(np.clip(times, track.t[0], track.t[-1]))
+        colours = STAYS if fate.name == "caught" else PASSES
+        actors.append((cell, there, at, case.semi_axes_of(cell), colours))
+    return times, actors
+
+
 def rows_of(times, actors):
     """What is seen when, in rows."""
     names = ("t [ms]", "cell", "x1 [um]", "x2 [um]", "x3 [um]", "eps1", "eps2", "eps3", "eta")
@@ -188,13 +207,27 @@ def rows_of(times, actors):
     ]
 
 
-def draw(case, sieve=None):
+def draw_device(case):
+    """The film of all cells."""
+    corners = np.vstack([lines.reshape(-1, 2) for lines in case.plane.outlines.values()])
+    window = tuple(zip(corners.min(axis=0) - 1, corners.max(axis=0) + 1))
+    times, actors = follow_all(case)
+    factor = FRAME / (MILLI * times[1])
+    caption = f"""All cells of the run, true ellipsoids seen from above,
+        {factor if factor > 1 else 1 / factor:.3g} times {"slowed down" if factor > 1 else "as fast"}.
+        The speed is that of the flow as it was at the start."""
+    return film_of(case, None, window, times, actors, " ".join(caption.split()))
+
+
+def draw(case, sieve=None, device=False):
     """The film."""
     if not case.sieves:
         raise NotApplicable("the case has no sieves")
     if sieve is not None and sieve not in case.sieves:
         file = case.path("constant", "ellipsoidCloudProperties")
         raise CaseError(f"{file}: no sieve {sieve}")
+    if device:
+        return draw_device(case)
     sieve = sieve or busiest(case)
     corners = case.plane.outlines[sieve].reshape(-1, 2)
     window = tuple(zip(corners.min(axis=0) - MARGIN, corners.max(axis=0) + MARGIN))
@@ -208,7 +241,11 @@ def draw(case, sieve=None):
         halves tell the ends of a cell apart. The cells came at different times of the run and are
         put together; they do not see one another."""
     caption = " ".join(caption.split())
-    times, actors = follow(case, shown)
+    return film_of(case, sieve, window, *follow(case, shown), caption)
+
+
+def film_of(case, sieve, window, times, actors, caption):
+    """The frames of actors in a window, and their data."""
     scale = -(-(LINES - BELOW - ABOVE + 1) // np.ptp(window[1]))
     stage = draw_stage(case, sieve, window, scale, caption)
     font = ImageFont.truetype(font_manager.findfont("DejaVu Sans"), 30)
@@ -231,6 +268,6 @@ def draw(case, sieve=None):
 
     film = Film(frames)
     style.describe(
-        film, f"{caption} Cells: {', '.join(str(cell) for cell, *_ in shown)}.", rows_of(times, actors)
+        film, f"{caption} Cells: {', '.join(str(cell) for cell, *_ in actors)}.", rows_of(times, actors)
     )
     return film

@@ -13,7 +13,8 @@ in the end exactly one of the N cells that were injected first. Nothing is assum
 cells act on one another; but where they push, cells that came after these N may have had
 a part in what became of them.
 
-Intervals are Wilson's. The table also tells how many cells, and how many runs, it takes
+Intervals are Wilson's. Where cells push they are wider, as the spread between runs is (shares.py), that
+of --members if it is larger. The table also tells how many cells, and how many runs, it takes
 for a half-width of --precision about the shares found.
 """
 
@@ -25,7 +26,7 @@ import numpy as np
 import style
 from case import Case, NotApplicable
 from files import CaseError, read_csv
-from shares import exactly_one, exactly_one_within, trials_for, wilson
+from shares import dispersion_of, exactly_one, exactly_one_within, trials_for, wilson
 
 PUSH = "with 'contact { cells on; }' they push one another; runs of several seeds (--members) tell"
 
@@ -66,6 +67,13 @@ def holders(case):
     return np.where(cells["fate"] == "caught", cells["patch"], "")
 
 
+def spread(case, runs, name):
+    """Variance of the number caught by a sieve between runs by that of independent cells; as
+    a few runs tell it badly, that of pushing cells is the least."""
+    found = dispersion_of([np.sum(run == name) for run in runs], list(map(len, runs)))
+    return max(found, case.dispersion)
+
+
 def check_options(cells, precision, confidence, most):
     """Refuse what makes no sense."""
     if not 0 < precision < 0.5:
@@ -74,13 +82,6 @@ def check_options(cells, precision, confidence, most):
         raise CaseError(f"--confidence {confidence:g}: must be between 0 and 1")
     if cells is not None and not 1 <= cells <= most:
         raise CaseError(f"--cells {cells}: must be 1 to {most}, the cells of a run")
-
-
-def independent(case):
-    """Whether the cells of a run do not see one another."""
-    contact = case.properties.get("contact", {})
-    off = ("off", "no", "false", "n", "f", "none")
-    return contact.get("cells", "on") in off or contact.get("active", "yes") in off
 
 
 def read_runs(cases):
@@ -109,7 +110,7 @@ def draw(case, members=(), cells=None, precision=0.05, confidence=0.95):
     sieves = cases[0].sieves
     if not sieves:
         raise NotApplicable("the case has no sieves")
-    if not members and not independent(case):
+    if not members and not case.independent:
         print(f"probability: not of independent cells: {PUSH}")
     cells = cells or fewest
     numbers = np.arange(1, fewest + 1)
@@ -131,7 +132,8 @@ def draw(case, members=(), cells=None, precision=0.05, confidence=0.95):
         ax.set_visible(False)
     for name, ax in zip(sieves, grid.flat):
         held = sum(int(np.sum(run == name)) for run in runs)
-        p, ends = held / injected, wilson(held, injected, confidence)
+        wide = spread(case, runs, name) if members else cases[0].dispersion
+        p, ends = held / injected, wilson(held, injected, confidence, wide)
         if members:
             ones = np.sum([np.cumsum(run[:fewest] == name) == 1 for run in runs], axis=0)
             share = ones / len(runs)
@@ -170,6 +172,13 @@ def draw(case, members=(), cells=None, precision=0.05, confidence=0.95):
     return figure
 
 
+def widened(case):
+    """In words."""
+    if case.independent:
+        return ""
+    return f", of p for {case.dispersion:.2g} times the variance of independent cells"
+
+
 def caption(cases, members, precision, confidence):
     """What the numbers mean, and what was assumed."""
     if members:
@@ -178,8 +187,8 @@ def caption(cases, members, precision, confidence):
             cells of the probability p"""
     else:
         how = "N p (1-p)^(N-1), of independent cells"
-        if not independent(cases[0]):
+        if not cases[0].independent:
             how += f", which these are not: {PUSH}"
     return f"""Probability p that a cell ends in the sieve, and P that the sieve holds exactly one
-        of N: {how}. In brackets and in grey Wilson's {100 * confidence:g} % intervals. The last
+        of N: {how}. In brackets and in grey Wilson's {100 * confidence:g} % intervals{widened(cases[0])}. The last
         columns: cells for a half-width of {precision:g} about p, and runs for the same about P."""

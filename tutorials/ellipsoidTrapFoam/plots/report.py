@@ -21,6 +21,7 @@ from vtkmodules.vtkCommonCore import vtkVersion
 
 from case import MILLI
 from files import CaseError, read_dictionary, read_text, spelled
+from shares import wilson
 from style import SUFFIXES
 
 # Chapter to (picture, title)
@@ -204,13 +205,12 @@ def device(case):
     low, high = case.depth
     (x0, x1), (y0, y1) = case.plane.bounds
     rows = [("Size", f"{x1 - x0:.4g} x {y1 - y0:.4g} x {high - low:.4g} µm{direction(case)}")]
-    file = case.path("constant", "trapGeometry")
-    if os.path.isfile(file):
-        given = read_dictionary(file)
-        rows += [("chamber: " + key, f"{value} µm") for key, value in given["chamber"].items()]
-        design = given["designs"].get(case.design, {})
+    if case.chamber:
+        given = read_dictionary(case.path("constant", "generated", "chamber"))
+        rows += [("chamber: " + key, f"{value} µm") for key, value in given.items()]
+        design = read_dictionary(case.path("constant", "trapGeometry"))["designs"].get(case.design, {})
         rows.append(("design of the sieves", case.design))
-        rows += [(f"design: {key}", value) for key, value in design.items()]
+        rows += [(f"design: {key}", value) for key, value in design.items() if isinstance(value, str)]
     file = case.path("constant", "generated", "plan")
     if os.path.isfile(file):
         given = read_dictionary(file)
@@ -254,10 +254,24 @@ def flow(case):
     return "\n".join(parts)
 
 
+def within(case):
+    """How many were caught, and how many it might have been."""
+    held, n = case.count("caught"), len(case.fates)
+    ends = np.multiply(wilson(held, n, dispersion=case.dispersion), n)
+    least, most = np.multiply(ends, case.band or (1, 1))
+    return f"{held} ({np.floor(least):.0f}-{min(np.ceil(most), n):.0f})"
+
+
 def catches(case):
     """How many of each fate."""
     names = ("caught", "escaped", "stalled", "in flight", "lost")
-    return table_of([["injected", *names], [len(case.fates)] + [case.count(n) for n in names]])
+    counts = table_of([["injected", *names], [len(case.fates)] + [case.count(n) for n in names]])
+    told = case.share_in_words(case.count("caught"), len(case.fates))
+    return counts + (
+        f"<p>Caught: {text_of(told)}; in brackets the interval in per cent that chance leaves, 95 %"
+        + ("" if case.independent else ", for cells that push one another")
+        + ("; with the model's choices: docs/uncertainty.md" if case.band else "") + ".</p>"
+    )
 
 
 def designs(case):
@@ -349,7 +363,7 @@ def page(case):
     title = title_of(case) + (f", design {case.design}" if case.design else "")
     facts = [
         (f"{len(case.fates)}", "cells injected"),
-        (f"{case.count('caught')}", "cells caught"),
+        (within(case), "cells caught"),
         (f"{len(case.sieves)}", "sieves"),
         (f"{case.end_time:g} s", "simulated"),
     ]

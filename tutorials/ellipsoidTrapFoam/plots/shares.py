@@ -1,11 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
-"""Shares of independent trials, with intervals, and what follows from them."""
+"""Shares of trials, with intervals, and what follows from them."""
 
+from math import comb
 from statistics import NormalDist
 
 import numpy as np
+
+# Cells that push one another are not caught independently. The variance of the number caught
+# between runs of different seeds, by that of independent cells: chi2 of the eight runs of the
+# sweep `seeds` over its degrees of freedom, 14.9/7 (docs/uncertainty.md)
+PUSHING_DISPERSION = 14.9 / 7
 
 
 def quantile(confidence):
@@ -13,13 +19,18 @@ def quantile(confidence):
     return NormalDist().inv_cdf(0.5 + confidence / 2)
 
 
-def wilson(successes, trials, confidence=0.95):
-    """(low, high) of a share, Wilson's score interval (Wilson 1927)."""
+def wilson(successes, trials, confidence=0.95, dispersion=1.0):
+    """(low, high) of a share, Wilson's score interval (Wilson 1927).
+
+    dispersion: variance of the successes by that of independent trials; so many trials tell
+    as much as one that is independent.
+    """
     if trials == 0:
         return 0.0, 1.0
     z = quantile(confidence)
     z2 = z**2
     share = successes / trials
+    trials = trials / dispersion
     middle = (share + z2 / (2 * trials)) / (1 + z2 / trials)
     half = z / (1 + z2 / trials) * np.sqrt(
         share * (1 - share) / trials + z2 / (4 * trials**2)
@@ -28,9 +39,28 @@ def wilson(successes, trials, confidence=0.95):
     return max(0.0, min(share, middle - half)), min(1.0, max(share, middle + half))
 
 
-def in_words(held, trials, confidence=0.95):
+def dispersion_of(counts, trials):
+    """Variance of counts between runs by that of independent trials, 1 at least: chi2 of
+    their being alike over its degrees of freedom (McCullagh & Nelder 1989, section 4.5)."""
+    counts, trials = np.asarray(counts, float), np.asarray(trials, float)
+    share = counts.sum() / trials.sum() if trials.sum() else 0
+    if len(counts) < 2 or not 0 < share < 1:
+        return 1.0
+    chi2 = np.sum((counts - trials * share) ** 2 / (trials * share * (1 - share)))
+    return max(1.0, float(chi2 / (len(counts) - 1)))
+
+
+def mcnemar(only_first, only_second):
+    """p of paired yes-or-no outcomes, two-sided: how likely it is that so many pairs that
+    differ do so as unevenly by chance (McNemar 1947, exact by the binomial)."""
+    pairs = only_first + only_second
+    tail = sum(comb(pairs, k) for k in range(min(only_first, only_second) + 1))
+    return min(1.0, 2 * tail / 2**pairs)
+
+
+def in_words(held, trials, confidence=0.95, dispersion=1.0):
     """A share with its interval."""
-    low, high = wilson(held, trials, confidence)
+    low, high = wilson(held, trials, confidence, dispersion)
     share = f"{held / trials:.1%}" if trials else "-"
     return f"{held}/{trials} = {share} ({100 * low:.1f}-{100 * high:.1f})"
 

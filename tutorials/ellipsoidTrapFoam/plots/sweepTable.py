@@ -18,7 +18,7 @@ from matplotlib.lines import Line2D
 
 import style  # the look, by being read
 from files import CaseError, read_csv
-from shares import wilson
+from shares import mcnemar, wilson
 
 RESULTS = ("postProcessing", "ellipsoidCloud", "0")
 POSE = ("x1", "x2", "x3", "eps1", "eps2", "eps3", "eta")
@@ -50,6 +50,12 @@ class Member:
         held = read_csv(os.path.join(path, "captures.csv"), [("sieve", "U128"), ("cells", int)])
         self.sieves = [str(name) for name in held["sieve"]]
 
+        # Where it has some of the cells drawn alone, shares are of all drawn
+        self.drawn = len(self.cells)
+        drawn = os.path.join(folder, "starts", *RESULTS, "cells.csv")
+        if os.path.isfile(drawn):
+            self.drawn = len(read_csv(drawn, types))
+
     @property
     def injected(self):
         """Number of cells."""
@@ -64,13 +70,29 @@ class Member:
         """Cells with one of the other fates."""
         return int(np.sum(self.cells["fate"] == name))
 
-    def unlike(self, other):
-        """Cells with another fate than in a run of the same starts; None if they differ."""
+    def paired(self, other):
+        """Has another run the same starts?"""
         a, b = self.cells, other.cells
-        if not np.array_equal(a["id"], b["id"]):
-            return None
-        if not all(np.allclose(a[k], b[k], rtol=0, atol=SAME_START) for k in POSE):
-            return None
+        return np.array_equal(a["id"], b["id"]) and all(
+            np.allclose(a[k], b[k], rtol=0, atol=SAME_START) for k in POSE
+        )
+
+    def only(self, other):
+        """Cells caught here and not in another run of the same starts, and the reverse."""
+        here, there = self.cells["fate"] == "caught", other.cells["fate"] == "caught"
+        return int(np.sum(here & ~there)), int(np.sum(there & ~here))
+
+    def compared(self, other):
+        """Cells with another fate than in a run of the same starts, those caught here alone
+        and there alone, and McNemar's p of these; '-' if the starts differ."""
+        if not self.paired(other):
+            return ["-"] * 4
+        here, there = self.only(other)
+        return [self.unlike(other), here, there, f"{mcnemar(here, there):.2g}"]
+
+    def unlike(self, other):
+        """Cells with another fate than in a run of the same starts."""
+        a, b = self.cells, other.cells
         # Where a cell escapes matters as little as where one is lost
         held = (a["fate"] == "caught") & (a["patch"] != b["patch"])
         return int(np.sum((a["fate"] != b["fate"]) | held))
@@ -83,12 +105,18 @@ def percent(held, trials):
     return f"{share} ({100 * low:.2f}-{100 * high:.2f})"
 
 
+def comparison(first):
+    """Headers of what compared() tells."""
+    of = first.name if first else "the first"
+    return [f"fates unlike {of}", "caught here alone", f"in {of} alone", "p (McNemar)"]
+
+
 def write_csv(file, members, names, sieves, first):
     """All numbers, a line a member."""
     shares = ("caught", *sieves)
     header = ["member", *names, "injected", "caught", *sieves]
     header += [f"{what} {part}" for what in shares for part in ("fraction", "low", "high")]
-    header += [*OTHER_FATES, f"fates unlike {first.name}" if first else "fates unlike", "wall time [s]"]
+    header += [*OTHER_FATES, *comparison(first), "wall time [s]"]
     with open(file, "w", newline="", encoding="utf-8") as f:
         table = csv.writer(f)
         table.writerow(header)
@@ -99,28 +127,26 @@ def write_csv(file, members, names, sieves, first):
             row = [one.name, *one.values, one.injected, one.caught()]
             row += [one.caught(name) for name in sieves]
             for held in (one.caught(), *(one.caught(name) for name in sieves)):
-                share = held / one.injected if one.injected else float("nan")
-                row += [f"{v:.6g}" for v in (share, *wilson(held, one.injected))]
+                share = held / one.drawn if one.drawn else float("nan")
+                row += [f"{v:.6g}" for v in (share, *wilson(held, one.drawn))]
             row += [one.fate(name) for name in OTHER_FATES]
-            unlike = one.unlike(first)
-            table.writerow([*row, "" if unlike is None else unlike, one.seconds])
+            table.writerow([*row, *one.compared(first), one.seconds])
 
 
 def markdown(members, names, sieves, first):
     """The lines of the short table."""
     header = ["member", *names, "injected", *sieves, "caught", "caught [%] (95 %)"]
     header += ["escaped", "stalled", "in flight", "lost"]
-    header += [f"fates unlike {first.name}" if first else "fates unlike", "wall time [s]"]
+    header += [*comparison(first), "wall time [s]"]
     yield header
     yield ["---"] * len(header)
     for one in members:
         row = [one.name, *one.values]
         if one.done:
-            unlike = one.unlike(first)
             row += [one.injected, *(one.caught(name) for name in sieves), one.caught()]
-            row += [percent(one.caught(), one.injected)]
+            row += [percent(one.caught(), one.drawn)]
             row += [one.fate(name) for name in OTHER_FATES]
-            row += ["-" if unlike is None else unlike, one.seconds]
+            row += [*one.compared(first), one.seconds]
         else:
             row += ["failed"] + [""] * (len(header) - len(row) - 1)
         yield row
@@ -158,8 +184,8 @@ def mark(ax, at, group, sieve, **look):
     shares, bounds = [], []
     for one in group:
         held = one.caught(sieve)
-        share = held / one.injected if one.injected else np.nan
-        low, high = wilson(held, one.injected)
+        share = held / one.drawn if one.drawn else np.nan
+        low, high = wilson(held, one.drawn)
         shares.append(100 * share)
         bounds.append((100 * (share - low), 100 * (high - share)))
     ax.errorbar(

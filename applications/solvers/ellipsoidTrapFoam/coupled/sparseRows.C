@@ -66,7 +66,7 @@ class sparseSum
 {
     List<scalar> value_;
 
-    boolList met_;
+    bitSet met_;
 
     DynamicList<label> columns_;
 
@@ -76,7 +76,7 @@ public:
     explicit sparseSum(const label nColumns)
     :
         value_(nColumns, Zero),
-        met_(nColumns, false),
+        met_(nColumns),
         columns_()
     {}
 

@@ -1,0 +1,31 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+Description
+    All files of the program.
+
+    One translation unit for all of them: OpenFOAM's templates are instantiated and
+    optimised once, which takes a third of the time that a unit for each file takes.
+
+\*---------------------------------------------------------------------------*/
+#include "coupled/aggregationMultigrid.C"
+#include "coupled/cellHalo.C"
+#include "coupled/coupledFlow.C"
+#include "flowConvergence.C"
+#include "flowFields.C"
+#include "coupled/sparseRows.C"
+#include "occupiedFlow.C"
+#include "solidBodies.C"
+#include "steadyFlow.C"
+#include "steadyFlowEquations.C"
+#include "superposedFlow.C"
+#include "coupled/stokesCoefficients.C"
+#include "coupled/stokesGMRES.C"
+#include "coupled/stokesOperator.C"
+#include "coupled/stokesPreconditioner.C"
+#include "ellipsoidTrapFoam.C"

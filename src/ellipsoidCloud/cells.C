@@ -1,0 +1,53 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+Description
+    The cells and what is kept of them.
+
+    One translation unit for all of them: OpenFOAM's templates are instantiated and
+    optimised once, which takes a third of the time that a unit for each file takes.
+
+\*---------------------------------------------------------------------------*/
+#include "injection/boxInjection.C"
+#include "injection/cellInjection.C"
+#include "injection/cellOrientation.C"
+#include "injection/cellPopulation.C"
+#include "injection/patchInflow.C"
+#include "injection/patchInjection.C"
+#include "injection/positionsInjection.C"
+
+#include "cloud/caseSummary.C"
+#include "cloud/cellParticles.C"
+#include "cloud/cellState.C"
+#include "cloud/ellipsoidCloud.C"
+#include "cloud/ellipsoidCloudFiles.C"
+#include "cloud/ellipsoidCloudRun.C"
+#include "cloud/ellipsoidOptions.C"
+#include "cloud/ellipsoidParcel.C"
+#include "cloud/ellipsoidProperties.C"
+
+#include "motion/groupAdvance.C"
+#include "motion/groupScheduler.C"
+#include "motion/independentCells.C"
+#include "motion/overlapGroups.C"
+
+#include "occupancy/occupancy.C"
+
+#include "results/appendedFile.C"
+#include "results/captureCriterion.C"
+#include "results/captureStatistics.C"
+#include "results/captureTables.C"
+#include "results/cellEvent.C"
+#include "results/cellPoses.C"
+#include "results/cellTracks.C"
+#include "results/vtkPolyData.C"
+
+#include "checkpoint/atomicWrite.C"
+#include "checkpoint/checkpoint.C"
+
+#include "functionObject/ellipsoidTracking.C"

@@ -1,0 +1,256 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "frozenFlow.H"
+#include "indexedOctree.H"
+#include "treeDataPoint.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::frozenFlow::setCoordinates
+(
+    const label teti,
+    const point& x,
+    tetCoordinates& c
+) const
+{
+    if (c.tet != teti)
+    {
+        c.tet = teti;
+        c.flowOf = nullptr;
+        c.vertices = tets_[teti].vertices;
+        c.origin = vertices_[c.vertices[0]].x;
+
+        const vector edges[3] =
+        {
+            vertices_[c.vertices[1]].x - c.origin,
+            vertices_[c.vertices[2]].x - c.origin,
+            vertices_[c.vertices[3]].x - c.origin
+        };
+
+        // A flat tetrahedron holds nothing, but the walk has to get through it
+        const scalar volume = edges[0] & (edges[1] ^ edges[2]);
+        const scalar inverseVolume = 1/(volume != 0 ? volume : 1e-40);
+
+        c.gradient[0] = Zero;
+        for (int a = 1; a < 4; ++a)
+        {
+            c.gradient[a] = inverseVolume*(edges[a % 3] ^ edges[(a + 1) % 3]);
+            c.gradient[0] -= c.gradient[a];
+        }
+    }
+
+    c.weight[0] = 1;
+    for (int a = 1; a < 4; ++a)
+    {
+        c.weight[a] = c.gradient[a] & (x - c.origin);
+        c.weight[0] -= c.weight[a];
+    }
+}
+
+
+Foam::label Foam::frozenFlow::exitOf
+(
+    const flowTet& tet,
+    const tetCoordinates& c,
+    const label previous
+)
+{
+    // A coordinate this far below 0 is rounding, not another tetrahedron
+    const scalar tolerance = 1e-10;
+
+    // Leave by the face most exceeded that leads on; a patch only where
+    // no face does, since the way round a corner may graze it. Nor go
+    // straight back where tetrahedra overlap.
+    int exit = -1;
+    int patchExit = -1;
+
+    for (int i = 0; i < 4; ++i)
+    {
+        int& best = tet.neighbours[i] < 0 ? patchExit : exit;
+
+        if
+        (
+            c.weight[i] < -tolerance
+         && (tet.neighbours[i] != previous || previous < 0)
+         && (best < 0 || c.weight[i] < c.weight[best])
+        )
+        {
+            best = i;
+        }
+    }
+
+    return exit >= 0 ? exit : patchExit;
+}
+
+
+Foam::frozenFlow::locationType Foam::frozenFlow::walk
+(
+    const point& x,
+    probe& at,
+    tetCoordinates& c,
+    isometry* image
+) const
+{
+    const label maxTets = 10000;
+
+    // Where x is in the mesh, and what takes it there from a passage on
+    point y(x);
+    isometry moved;
+    bool passed = false;
+    bool turned = false;
+
+    label previous = -1;
+    bool justPassed = false;
+    locationType location = pBeyondWall;
+
+    for (label n = 0; n < maxTets; ++n)
+    {
+        const flowTet& tet = tets_[at.tet];
+        setCoordinates(at.tet, y, c);
+        at.patch = -1;
+
+        const label exit = exitOf(tet, c, previous);
+        if (exit < 0)
+        {
+            location = pInside;
+            break;
+        }
+        if (tet.neighbours[exit] >= 0)
+        {
+            previous = at.tet;
+            at.tet = tet.neighbours[exit];
+            justPassed = false;
+            continue;
+        }
+
+        const label patchi = -1 - tet.neighbours[exit];
+        if (patchLocation_[patchi] != pBeyondSeam)
+        {
+            at.patch = patchi;
+            location = locationType(patchLocation_[patchi]);
+            break;
+        }
+        if (justPassed)
+        {
+            // Straight back is rounding
+            location = pInside;
+            break;
+        }
+
+        const domainImages::seam& seam = *images_.at(patchi);
+        moved = passed ? seam.inward.after(moved) : seam.inward;
+        y = moved(x);
+        at.tet = seam.mirrors() ? at.tet : tetAcross_[at.tet];
+        turned = turned || seam.mirrors();
+        passed = justPassed = true;
+        previous = -1;
+    }
+
+    c.turned = turned;
+    if (turned)
+    {
+        c.turn = moved.turn();
+    }
+    if (image)
+    {
+        *image = passed ? moved : isometry();
+    }
+
+    return location;
+}
+
+
+const Foam::tetFlow& Foam::frozenFlow::flowIn
+(
+    const UList<flowVertex>& vertices,
+    const UList<flowTetExcess>& excess,
+    tetCoordinates& c
+) const
+{
+    if (c.flowOf != vertices.cdata())
+    {
+        const auto vertex =
+            [&](const int a) -> const flowVertex&
+            {
+                return vertices[c.vertices[a]];
+            };
+
+        c.flowOf = vertices.cdata();
+        c.flow.set
+        (
+            c.gradient, vertex, excess[c.tet].flux, excess[c.tet].straight
+        );
+    }
+
+    return c.flow;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::frozenFlow::find(const point& x, probe& at) const
+{
+    const label celli = centreTree_->findNearest(x, sqr(GREAT)).index();
+
+    // The nearest centre's cell is the one or a neighbour; a walk from it
+    // that meets a wall may yet succeed from another of its tetrahedra
+    for (label teti = cellTets_[celli]; teti < cellTets_[celli + 1]; ++teti)
+    {
+        at.tet = teti;
+
+        isometry image;
+        if (locate(x, at, image) == pInside && image.isIdentity())
+        {
+            return true;
+        }
+    }
+
+    return false;
+}
+
+
+Foam::frozenFlow::locationType Foam::frozenFlow::locate
+(
+    const point& x,
+    probe& at
+) const
+{
+    tetCoordinates c;
+
+    return walk(x, at, c);
+}
+
+
+Foam::frozenFlow::locationType Foam::frozenFlow::locate
+(
+    const point& x,
+    probe& at,
+    isometry& image
+) const
+{
+    tetCoordinates c;
+
+    return walk(x, at, c, &image);
+}
+
+
+bool Foam::frozenFlow::reach
+(
+    const scalar x[3],
+    probe& at,
+    tetCoordinates& c
+) const
+{
+    const locationType location = walk(pointOf(x), at, c);
+
+    return location == pInside || location == pBeyondOpen;
+}
+
+// ************************************************************************* //
