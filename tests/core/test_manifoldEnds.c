@@ -156,6 +156,21 @@ static void test_cuts(void **unused)
     wall_mesh_free(&floor);
 }
 
+/* Among small vortices steps are often as long as the manifold allows, or
+   shortened to what it allows. */
+static void test_cuts_at_the_limit(void **unused)
+{
+    static run r;
+
+    (void)unused;
+    for (int n = 0; n < 24; n++)
+    {
+        begin(&r, ELLIPSOID_INTEGRATOR_SLOW_MANIFOLD, n % 2 ? 1e-4 : 3e-7,
+              1e5 + 2e4 * n);
+        check_cuts(&r);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -163,6 +178,7 @@ int main(void)
         cmocka_unit_test(test_tight_tolerance),
         cmocka_unit_test(test_hand_over),
         cmocka_unit_test(test_cuts),
+        cmocka_unit_test(test_cuts_at_the_limit),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

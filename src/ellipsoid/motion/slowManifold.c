@@ -383,8 +383,9 @@ ellipsoid_status ellipsoid_manifold_enter(ellipsoid_group *g, double t,
         status = ellipsoid_manifold_evaluate(g, t, g->next);
         far = displacement_error(g);
     }
+    /* who is there stays, as in the middle of a run */
     if (status != ELLIPSOID_OK || g->left_manifold || !(far <= share)
-        || !is_near(g, g->next, h))
+        || (far > 0 && !is_near(g, g->next, h)))
     {
         return ellipsoid_may_recover(status) ? ELLIPSOID_OK : status;
     }
