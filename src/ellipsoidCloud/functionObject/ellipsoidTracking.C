@@ -60,6 +60,18 @@ namespace Foam
         return copy;
     }
 
+    //- Errors end the run as long as it lives: OpenFOAM takes those of a function
+    //  object that is being made for warnings, and goes on without it
+    struct finalErrors
+    {
+        const bool before = throwErrors(false);
+
+        ~finalErrors()
+        {
+            throwErrors(before);
+        }
+    };
+
     //- Six digits on the screen as long as it lives: writePrecision is of files
     struct screenDigits
     {
@@ -186,6 +198,7 @@ Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
     deltaT_(runTime.deltaTValue())
 {
     const screenDigits six;
+    const finalErrors fatal;
 
     read(dict);
     ellipsoidProperties::checkDimensions(runTime);
