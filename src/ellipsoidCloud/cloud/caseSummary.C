@@ -46,7 +46,8 @@ static scalar widthOf(const ellipsoid_options& options)
 
 static void reportMesh
 (
-    const fvMesh& mesh,
+    const label nMeshCells,
+    const vector& span,
     const scalar width,
     const scalar length
 )
@@ -54,9 +55,7 @@ static void reportMesh
     // A chip is smaller
     const scalar largest = 1;
 
-    const vector span(mesh.bounds().span());
-
-    Info<< "case: mesh of " << mesh.nCells() << " cells, " << um(span).c_str()
+    Info<< "case: mesh of " << nMeshCells << " cells, " << um(span).c_str()
         << endl;
 
     if (cmptMax(span) > largest)
@@ -161,11 +160,11 @@ static void reportSieves
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
-void Foam::reportCase
+void Foam::reportSize
 (
-    const fvMesh& mesh,
-    const ellipsoidProperties& properties,
-    const captureCriterion& criterion
+    const label nMeshCells,
+    const boundBox& bounds,
+    const ellipsoidProperties& properties
 )
 {
     const ellipsoid_options& options = properties.options();
@@ -183,18 +182,29 @@ void Foam::reportCase
         longest = max(longest, 2*longestSemiAxis(one));
     }
 
-    reportMesh(mesh, widest, longest);
+    reportMesh(nMeshCells, bounds.span(), widest, longest);
     reportCell(options);
+}
+
+
+void Foam::reportCapture
+(
+    const fvMesh& mesh,
+    const Time& clock,
+    const ellipsoidProperties& properties,
+    const captureCriterion& criterion
+)
+{
     reportSieves
     (
         mesh,
         criterion,
         domainImages(mesh, properties.unreached()),
-        widthOf(options)
+        widthOf(properties.options())
     );
 
-    const scalar deltaT = mesh.time().deltaTValue();
-    const scalar end = mesh.time().endTime().value();
+    const scalar deltaT = clock.deltaTValue();
+    const scalar end = clock.endTime().value();
     const scalar holdTime = criterion.holdTime();
 
     if (deltaT > holdTime)

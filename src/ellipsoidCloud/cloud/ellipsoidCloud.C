@@ -318,7 +318,14 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
 
         if (Pstream::master())
         {
-            reportCase(undecomposed_->mesh(), properties_, criterion_);
+            const fvMesh& whole = undecomposed_->mesh();
+
+            // The function object has told it before the solver began
+            if (flowType_ != STEADY)
+            {
+                reportSize(whole.nCells(), whole.bounds(), properties_);
+            }
+            reportCapture(whole, mesh.time(), properties_, criterion_);
         }
     }
     if (earlier_.found())

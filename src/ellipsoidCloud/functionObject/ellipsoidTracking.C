@@ -12,8 +12,10 @@ License
 #include "addToRunTimeSelectionTable.H"
 #include "calculatedFvPatchFields.H"
 #include "calculatedFvsPatchFields.H"
+#include "caseSummary.H"
 #include "copyValues.H"
 #include "ellipsoidCloud.H"
+#include "masterGate.H"
 #include "Time.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -57,6 +59,29 @@ namespace Foam
 
         return copy;
     }
+
+    //- Errors end the run as long as it lives: OpenFOAM takes those of a function
+    //  object that is being made for warnings, and goes on without it
+    struct finalErrors
+    {
+        const bool before = throwErrors(false);
+
+        ~finalErrors()
+        {
+            throwErrors(before);
+        }
+    };
+
+    //- Six digits on the screen as long as it lives: writePrecision is of files
+    struct screenDigits
+    {
+        const int before = Sout.precision(6);
+
+        ~screenDigits()
+        {
+            Sout.precision(before);
+        }
+    };
 }
 
 
@@ -79,6 +104,44 @@ Foam::dictionary Foam::functionObjects::ellipsoidTracking::clockEntries() const
     entries.set("runTimeModifiable", false);
 
     return entries;
+}
+
+
+void Foam::functionObjects::ellipsoidTracking::check(const fvMesh& mesh) const
+{
+    const ellipsoidProperties properties(mesh);
+    const label nMeshCells = returnReduce(mesh.nCells(), sumOp<label>());
+
+    const masterGate once;
+
+    if (Pstream::master())
+    {
+        reportSize(nMeshCells, mesh.bounds(), properties);
+    }
+}
+
+
+void Foam::functionObjects::ellipsoidTracking::checkDryRun() const
+{
+    const Time clock
+    (
+        clockEntries(), time_.rootPath(), time_.caseName(),
+        time_.system(), time_.constant(), false, false
+    );
+
+    check
+    (
+        fvMesh
+        (
+            IOobject
+            (
+                fvMesh::defaultRegion, clock.timeName(), clock,
+                IOobject::MUST_READ
+            )
+        )
+    );
+    Info<< type() << ' ' << name() << ": the mesh of a dry run is a column of"
+        << " mesh cells, through which no cell is tracked" << endl;
 }
 
 
@@ -129,14 +192,35 @@ Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
     const dictionary& dict
 )
 :
-    fvMeshFunctionObject(name, runTime, dict)
+    fvMeshFunctionObject(name, runTime, dict),
+    idle_(true),
+    endTime_(runTime.endTime().value()),
+    deltaT_(runTime.deltaTValue())
 {
-    read(dict);
+    const screenDigits six;
+    const finalErrors fatal;
 
+    read(dict);
+    ellipsoidProperties::checkDimensions(runTime);
+
+    if (mesh_.foundObject<IOdictionary>("ellipsoidCloudProperties"))
+    {
+        Info<< type() << ' ' << name << " does nothing: the cells of"
+            << " ellipsoidCloudProperties are tracked already, by"
+            << " ellipsoidTrapFoam or another function object" << endl;
+        return;
+    }
+    if (outputPrefix == "postProcessing-dry-run")
+    {
+        checkDryRun();
+        return;
+    }
+    idle_ = false;
+
+    // Mistakes are told before the solver takes its time
     if (steady_)
     {
-        // Mistakes are told before the solver takes its time
-        const ellipsoidProperties checked(mesh_);
+        check(mesh_);
     }
     else
     {
@@ -183,7 +267,7 @@ bool Foam::functionObjects::ellipsoidTracking::read(const dictionary& dict)
 
 bool Foam::functionObjects::ellipsoidTracking::execute()
 {
-    if (steady_ || begin())
+    if (idle_ || steady_ || begin())
     {
         return true;
     }
@@ -195,6 +279,7 @@ bool Foam::functionObjects::ellipsoidTracking::execute()
             << " needs a mesh that stays as it is" << exit(FatalError);
     }
 
+    const screenDigits six;
     cells_->advance(U(), p(), phi());
 
     return true;
@@ -203,7 +288,7 @@ bool Foam::functionObjects::ellipsoidTracking::execute()
 
 bool Foam::functionObjects::ellipsoidTracking::write()
 {
-    if (!steady_)
+    if (!idle_ && !steady_)
     {
         cells_->write();
     }
@@ -214,6 +299,12 @@ bool Foam::functionObjects::ellipsoidTracking::write()
 
 bool Foam::functionObjects::ellipsoidTracking::end()
 {
+    if (idle_)
+    {
+        return true;
+    }
+    const screenDigits six;
+
     if (steady_)
     {
         trackThroughEnd();
