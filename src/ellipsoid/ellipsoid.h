@@ -289,6 +289,9 @@ typedef struct ellipsoid_facet_cache
     double near_margin; /* [m] how far the centre may move from there */
     const ellipsoid_facet *near_facets;
     int near_facet[ELLIPSOID_MAX_NEAR]; /* ascending */
+    int live_count; /* of those that count near this pose; -1: not looked up */
+    double live_x[3], live_axis[3][3]; /* where; the body's axes there */
+    short live[ELLIPSOID_MAX_NEAR];    /* which of near_facet, ascending */
 } ellipsoid_facet_cache;
 
 /*

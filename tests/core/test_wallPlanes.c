@@ -355,34 +355,56 @@ static void test_continuous(void **unused)
     }
 }
 
-/* The result is that of the pose, to the last bit, whatever the cache holds. */
+/* The result is that of the pose, to the last bit, whatever the cache holds:
+   after a new pose, and after moves of about what leaves the closer look as it
+   is, near few large facets and near many small ones. */
 static void test_cache(void **unused)
 {
+    const double corner[3] = {-8e-6, -8e-6, -5e-6};
+    const double along[3] = {16e-6, 0, 0}, across[3] = {0, 16e-6, 0};
     const ellipsoid_options o = near_walls();
     const ellipsoid_model model = test_model(&o);
     test_quadratic flow = test_shear(1000);
-    ellipsoid_state state = {.x = {-2e-6, -3e-6, -1e-6}};
     uint64_t seed = 24;
-    wall_mesh mesh;
 
     (void)unused;
-    wall_mesh_init(&mesh);
-    add_landscape(&mesh);
-    wall_mesh_finish(&mesh);
-    ellipsoid_facet_cache_clear(&cache);
-    for (int n = 0; n < 300; n++)
+    for (int n = 0; n < 2400; n++)
     {
+        static wall_mesh mesh;
+        static ellipsoid_state state;
         const ellipsoid_surroundings s = around(&mesh, &flow);
         ellipsoid_state a, b;
 
+        if (n % 1200 == 0)
+        {
+            wall_mesh_init(&mesh);
+            if (n == 0)
+            {
+                add_landscape(&mesh);
+            }
+            else
+            {
+                wall_mesh_plane(&mesh, corner, along, across, 32, 32, 2, 0);
+            }
+            wall_mesh_finish(&mesh);
+            ellipsoid_set(state.x, -2e-6, -3e-6, -1e-6);
+            ellipsoid_facet_cache_clear(&cache);
+        }
         state.x[n % 3] += 0.3e-6 * test_signed(&seed);
-        test_orientation(&seed, state.q);
+        state.q[n % 4] += 0.011 * test_signed(&seed);
+        if (n % 8 == 0)
+        {
+            test_orientation(&seed, state.q);
+        }
         ellipsoid_facet_cache_clear(&fresh);
         assert_ok(ellipsoid_rhs(&model, &s, &state, &cache, &a));
         assert_ok(ellipsoid_rhs(&model, &s, &state, &fresh, &b));
         assert_memory_equal(&a, &b, sizeof(a));
+        if (n % 1200 == 1199)
+        {
+            wall_mesh_free(&mesh);
+        }
     }
-    wall_mesh_free(&mesh);
 }
 
 /* So too where a small wall is as far beside the place as it may be. */

@@ -30,6 +30,10 @@ static const double full = 0.5;
 /* How far the centre may move before facets are listed again, in ranges. */
 static const double margin_part = 0.1;
 
+/* The same of those that count near a pose, and how far the body may turn: the
+   Frobenius norm of the difference of its axes. */
+static const double live_part = 0.02, live_turn = 0.03;
+
 /* Changes by a component n of the pose, body frame, of a vector from a fixed
    point to the centre, or of a fixed direction. */
 static void changed(const ellipsoid_wall_search *s, int n, int is_point,
@@ -373,7 +377,7 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
     {
         return ELLIPSOID_OK;
     }
-    cache->near_count = -1;
+    cache->near_count = cache->live_count = -1;
     status = ellipsoid_list_facets(surroundings, x, wide + margin, &list);
     if (status != ELLIPSOID_OK)
     {
@@ -404,6 +408,88 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
                            ? list.reach - wide
                            : margin;
     return ELLIPSOID_OK;
+}
+
+/*
+    Could ellipsoid_find_feature() find a plane on this facet while the centre
+    moves by up to `shift` and the axes turn by up to `turn`? Without a convex
+    edge the foot x - r h has to lie near the facet, r = D n/(n.D n) and h the
+    height. By n in the body frame r changes by D^(1/2) (I - 2 m m) D^(1/2) /
+    (n.D n), m = D^(1/2) n/p a unit vector: by no more than a^2/p^2 with the
+    largest semi-axis a, and the support p by no more than a.
+*/
+static int may_count(const ellipsoid_wall_search *s,
+                     const ellipsoid_facet *facet, double shift, double turn)
+{
+    double d[3], normal[3], b[3], way[3], height, support2, left, far, change;
+
+    ellipsoid_difference(s->x, facet->vertex[0], d);
+    height = ellipsoid_dot(d, facet->normal);
+    if (!(height > -shift && height < s->range + shift))
+    {
+        return 0;
+    }
+    ellipsoid_product(s->axis, facet->normal, normal);
+    for (int i = 0; i < 3; i++)
+    {
+        b[i] = s->square[i] * normal[i];
+    }
+    support2 = ellipsoid_dot(normal, b);
+    left = sqrt(support2) - s->longest * turn;
+    if (ellipsoid_facet_has_convex_edge(facet) || !(left > 0))
+    {
+        return 1;
+    }
+    far = ellipsoid_length(b) / support2;
+    change = turn * (s->longest * s->longest / (left * left) + far);
+    ellipsoid_combination(s->axis, b[0], b[1], b[2], way);
+    for (int i = 0; i < 3; i++)
+    {
+        d[i] = s->x[i] - way[i] * height / support2 - facet->middle[i];
+    }
+    return ellipsoid_length(d)
+        <= facet->radius
+               + ellipsoid_fading * s->longest * (height + shift) / left
+               + shift * (1 + far) + (fabs(height) + shift) * change;
+}
+
+/* Lists those of the near facets that count near this pose, unless it has
+   hardly changed. */
+static void look_closer(const ellipsoid_wall_search *s,
+                        ellipsoid_facet_cache *cache)
+{
+    /* far more than rounding on either side */
+    const double shift = live_part * s->range, wide = 1 + 1e-6;
+    double moved = 0, turned = 0;
+
+    for (int i = 0; i < 3; i++)
+    {
+        const double d = s->x[i] - cache->live_x[i];
+
+        moved += d * d;
+        for (int l = 0; l < 3; l++)
+        {
+            const double e = s->axis[i][l] - cache->live_axis[i][l];
+
+            turned += e * e;
+        }
+    }
+    if (cache->live_count >= 0 && moved <= shift * shift
+        && turned <= live_turn * live_turn)
+    {
+        return;
+    }
+    ellipsoid_copy(s->x, cache->live_x);
+    memcpy(cache->live_axis, s->axis, sizeof cache->live_axis);
+    cache->live_count = 0;
+    for (int k = 0; k < cache->near_count; k++)
+    {
+        if (may_count(s, &cache->near_facets[cache->near_facet[k]],
+                      wide * shift, wide * live_turn))
+        {
+            cache->live[cache->live_count++] = (short)k;
+        }
+    }
 }
 
 /* Axes of length one, and their derivatives, from those of any q. */
@@ -452,11 +538,12 @@ ellipsoid_find_planes(const ellipsoid_model *model,
         unit,     frame->by_q ? turned : NULL,
         range,    longest};
 
-    for (int k = 0; k < cache->near_count; k++)
+    look_closer(&s, cache);
+    for (int k = 0; k < cache->live_count; k++)
     {
         ellipsoid_wall_feature found;
 
-        const int facet = cache->near_facet[k];
+        const int facet = cache->near_facet[cache->live[k]];
 
         if (ellipsoid_find_feature(&s, &cache->near_facets[facet], &found))
         {

@@ -171,20 +171,25 @@ class Case:
         off = ("off", "no", "false", "n", "f", "none")
         return contact.get("cells", "on") in off or contact.get("active", "yes") in off
 
+    @cached_property
+    def _of_model(self):
+        """constant/modelBand, or nothing."""
+        file = self.path("constant", "modelBand")
+        return read_dictionary(file) if os.path.isfile(file) else {}
+
     @property
     def dispersion(self):
-        """Variance of a number of cells caught by that of independent cells."""
-        return 1.0 if self.independent else PUSHING_DISPERSION
+        """Variance of a number of cells caught by that of independent cells: of cells that push what
+        constant/modelBand tells of this design, or else the most that has been seen."""
+        measured = self._of_model.get("dispersion", {}).get(self.design, PUSHING_DISPERSION)
+        return 1.0 if self.independent else float(measured)
 
     @property
     def band(self):
         """(least, most) of a number of cells caught with other choices of the model, by that
         with the choices made: constant/modelBand, or None."""
-        file = self.path("constant", "modelBand")
-        if not os.path.isfile(file):
-            return None
-        given = read_dictionary(file)
-        return float(given["least"]), float(given["most"])
+        given = self._of_model
+        return (float(given["least"]), float(given["most"])) if given else None
 
     def share_in_words(self, held, trials):
         """A share with the interval of chance and, where known, the band of the model."""

@@ -8,9 +8,10 @@ from statistics import NormalDist
 
 import numpy as np
 
-# Cells that push one another are not caught independently. The variance of the number caught
-# between runs of different seeds, by that of independent cells: chi2 of the eight runs of the
-# sweep `seeds` over its degrees of freedom, 14.9/7 (docs/uncertainty.md)
+# Cells that push one another need not be caught independently. The variance of the number caught
+# between runs of different seeds, by that of independent cells, where a case does not tell its own
+# (constant/modelBand): chi2 of eight runs of the design narrowC, with 14 cells caught of 200 on the
+# mean, over its degrees of freedom, 14.9/7 (docs/uncertainty.md)
 PUSHING_DISPERSION = 14.9 / 7
 
 
