@@ -8,7 +8,6 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "undecomposedFlow.H"
-#include "copyValues.H"
 #include "fromRanks.H"
 #include "processorPolyPatch.H"
 #include "surfaceFields.H"
@@ -120,21 +119,10 @@ Foam::undecomposedFlow::gather
 
     autoPtr<fieldType> result
     (
-        new fieldType
+        fieldType::New
         (
-            IOobject
-            (
-                field.name(),
-                mesh().time().timeName(),
-                mesh(),
-                IOobject::NO_READ,
-                IOobject::NO_WRITE,
-                false
-            ),
-            mesh(),
-            dimensioned<Type>("zero", field.dimensions(), Zero),
-            PatchField<Type>::calculatedType()
-        )
+            field.name(), mesh(), dimensioned<Type>(field.dimensions(), Zero)
+        ).ptr()
     );
 
     const Field<Type>& values = atFaces ? faceValues : cellValues;
@@ -199,29 +187,19 @@ Foam::undecomposedFlow::~undecomposedFlow()
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::undecomposedFlow::gather
-(
-    const volVectorField& U,
-    const volScalarField& p,
-    const surfaceScalarField& phi
-)
+void Foam::undecomposedFlow::gather(const solverFields& flow)
 {
-    U_ = gather(U);
-    p_ = gather(p);
-    phi_ = gather(phi);
+    U_ = gather(flow.U);
+    p_ = gather(flow.p);
+    phi_ = gather(flow.phi);
 }
 
 
-void Foam::undecomposedFlow::take
-(
-    const volVectorField& U,
-    const volScalarField& p,
-    const surfaceScalarField& phi
-)
+void Foam::undecomposedFlow::take(const solverFields& flow)
 {
-    copyValues(U, *U_);
-    copyValues(p, *p_);
-    copyValues(phi, *phi_);
+    *U_ == flow.U;
+    *p_ == flow.p;
+    *phi_ == flow.phi;
 }
 
 

@@ -12,7 +12,6 @@ License
 #include "addToRunTimeSelectionTable.H"
 #include "calculatedFvPatchFields.H"
 #include "calculatedFvsPatchFields.H"
-#include "copyValues.H"
 #include "ellipsoidCloud.H"
 #include "Time.H"
 
@@ -37,7 +36,7 @@ namespace functionObjects
 
 namespace Foam
 {
-    //- The same values on the mesh of another clock
+    //- The same values, patches included, on the mesh of another clock
     template<class FieldType>
     static tmp<FieldType> copyOf(const FieldType& host, const fvMesh& mesh)
     {
@@ -45,15 +44,18 @@ namespace Foam
 
         tmp<FieldType> copy
         (
-            new FieldType
+            FieldType::New
             (
-                IOobject(host.name(), mesh.time().timeName(), mesh),
-                mesh,
-                dimensioned<Type>(host.dimensions(), Zero)
+                host.name(), mesh, dimensioned<Type>(host.dimensions(), Zero)
             )
         );
 
-        copyValues(host, copy.ref());
+        copy.ref().primitiveFieldRef() = host.primitiveField();
+        forAll(host.boundaryField(), patchi)
+        {
+            copy.ref().boundaryFieldRef()[patchi] ==
+                host.boundaryField()[patchi];
+        }
 
         return copy;
     }
@@ -90,7 +92,7 @@ bool Foam::functionObjects::ellipsoidTracking::begin()
     }
 
     cells_.reset(new ellipsoidCloud(mesh_, ellipsoidCloud::UNSTEADY));
-    cells_->setFlow(U(), p(), phi());
+    cells_->setFlow({U(), p(), phi()});
 
     return true;
 }
@@ -114,7 +116,7 @@ void Foam::functionObjects::ellipsoidTracking::trackThroughEnd() const
     ellipsoidCloud cells(mesh, ellipsoidCloud::STEADY);
     cells.setFlow
     (
-        copyOf(U(), mesh)(), copyOf(p(), mesh)(), copyOf(phi(), mesh)()
+        {copyOf(U(), mesh)(), copyOf(p(), mesh)(), copyOf(phi(), mesh)()}
     );
     cells.track(clock, max(label(1), label(writeInterval_/deltaT_ + 0.5)));
 }
@@ -195,7 +197,7 @@ bool Foam::functionObjects::ellipsoidTracking::execute()
             << " needs a mesh that stays as it is" << exit(FatalError);
     }
 
-    cells_->advance(U(), p(), phi());
+    cells_->advance({U(), p(), phi()});
 
     return true;
 }

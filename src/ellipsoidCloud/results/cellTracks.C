@@ -260,23 +260,13 @@ void Foam::cellTracks::flush()
 
     for (const row& r : rows)
     {
-        os << r[0] << ',' << label(r[1]);
-
-        for (label i = 2; i < 15; ++i)
-        {
-            os << ',' << r[i];
-        }
-
         const vector O(longAxis(&r[8]));
 
-        os  << ',' << O.x() << ',' << O.y() << ',' << O.z()
+        os  << r[0] << ',' << label(r[1]) << commas{&r[2], 13}
+            << commas{O.v_, 3}
             << ',' << cellState::fateNames[cellState::fateType(label(r[15]))]
-            << ',' << set_.patchName(label(r[16]));
-        for (label i = 17; set_.unfolds && i < 20; ++i)
-        {
-            os << ',' << r[i];
-        }
-        os << '\n';
+            << ',' << set_.patchName(label(r[16]))
+            << commas{&r[17], set_.unfolds ? 3 : 0} << '\n';
     }
 
     file.flush();
@@ -309,10 +299,7 @@ void Foam::cellTracks::writeVTP
     {
         const ellipsoid_options options
         (
-            cellPopulation::optionsOf
-            (
-                set_.population.properties().options(), sizeOf(cell.first)
-            )
+            set_.population.optionsOf(sizeOf(cell.first))
         );
         std::ostringstream text;
         text.precision(9);
