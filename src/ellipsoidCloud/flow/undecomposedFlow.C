@@ -125,18 +125,14 @@ Foam::undecomposedFlow::gather
         ).ptr()
     );
 
-    const Field<Type>& values = atFaces ? faceValues : cellValues;
-    forAll(*result, i)
-    {
-        (*result)[i] = values[i];
-    }
+    result->primitiveFieldRef() =
+        SubList<Type>(atFaces ? faceValues : cellValues, result->size());
     for (PatchField<Type>& pf : result->boundaryFieldRef())
     {
         // An empty patch has faces but no values
-        forAll(pf, i)
-        {
-            pf[i] = faceValues[pf.patch().start() + i];
-        }
+        const label start = pf.patch().start();
+        static_cast<Field<Type>&>(pf) =
+            SubField<Type>(faceValues, pf.size(), start);
     }
 
     return result;

@@ -84,6 +84,17 @@ Foam::dictionary Foam::functionObjects::ellipsoidTracking::clockEntries() const
 }
 
 
+Foam::solverFields Foam::functionObjects::ellipsoidTracking::flow() const
+{
+    return solverFields
+    {
+        mesh_.lookupObject<volVectorField>(U_),
+        mesh_.lookupObject<volScalarField>(p_),
+        mesh_.lookupObject<surfaceScalarField>(phi_)
+    };
+}
+
+
 bool Foam::functionObjects::ellipsoidTracking::begin()
 {
     if (cells_.valid() || !mesh_.foundObject<surfaceScalarField>(phi_))
@@ -92,7 +103,7 @@ bool Foam::functionObjects::ellipsoidTracking::begin()
     }
 
     cells_.reset(new ellipsoidCloud(mesh_, ellipsoidCloud::UNSTEADY));
-    cells_->setFlow({U(), p(), phi()});
+    cells_->setFlow(flow());
 
     return true;
 }
@@ -114,9 +125,14 @@ void Foam::functionObjects::ellipsoidTracking::trackThroughEnd() const
     );
 
     ellipsoidCloud cells(mesh, ellipsoidCloud::STEADY);
+    const solverFields host(flow());
     cells.setFlow
     (
-        {copyOf(U(), mesh)(), copyOf(p(), mesh)(), copyOf(phi(), mesh)()}
+        {
+            copyOf(host.U, mesh)(),
+            copyOf(host.p, mesh)(),
+            copyOf(host.phi, mesh)()
+        }
     );
     cells.track(clock, max(label(1), label(writeInterval_/deltaT_ + 0.5)));
 }
@@ -197,7 +213,7 @@ bool Foam::functionObjects::ellipsoidTracking::execute()
             << " needs a mesh that stays as it is" << exit(FatalError);
     }
 
-    cells_->advance({U(), p(), phi()});
+    cells_->advance(flow());
 
     return true;
 }
