@@ -4,121 +4,9 @@
     SPDX-License-Identifier: GPL-3.0-or-later
 
     test_group.c - several cells as one system: contact between them, its
-    derivatives, the coupled linear system, piles.
+    derivatives, the coupled linear system.
 */
-#include "flowTest.h"
-
-#include <stdlib.h>
-
-/* What an advance of several cells is called with. */
-typedef struct crowd
-{
-    int count;
-    ellipsoid_model model;
-    test_quadratic flow;
-    ellipsoid_surroundings *around;
-    ellipsoid_state *state;
-    ellipsoid_controller *controller;
-    ellipsoid_statistics *statistics;
-    ellipsoid_member *member;
-    void *memory;
-} crowd;
-
-static void *zeros(size_t count, size_t size)
-{
-    void *memory = calloc(count, size);
-
-    assert_non_null(memory);
-    return memory;
-}
-
-static void crowd_init(crowd *c, int count, const ellipsoid_options *options,
-                       const test_quadratic *flow)
-{
-    const size_t n = (size_t)count;
-
-    c->count = count;
-    c->model = test_model(options);
-    c->around = zeros(n, sizeof(*c->around));
-    c->state = zeros(n, sizeof(*c->state));
-    c->controller = zeros(n, sizeof(*c->controller));
-    c->statistics = zeros(n, sizeof(*c->statistics));
-    c->member = zeros(n, sizeof(*c->member));
-    c->memory = zeros(1, ellipsoid_group_size(count));
-    if (flow)
-    {
-        c->flow = *flow;
-    }
-    for (int i = 0; i < count; i++)
-    {
-        c->around[i].flow = flow ? test_quadratic_flow : NULL;
-        c->around[i].flow_context = &c->flow;
-        c->around[i].id = 100 + (uint32_t)i;
-        c->state[i].q[3] = 1;
-        c->member[i] = (ellipsoid_member){
-            &c->model, &c->around[i], &c->state[i],     &c->controller[i],
-            NULL,      NULL,          &c->statistics[i]};
-    }
-}
-
-static void crowd_free(crowd *c)
-{
-    free(c->around);
-    free(c->state);
-    free(c->controller);
-    free(c->statistics);
-    free(c->member);
-    free(c->memory);
-}
-
-static void crowd_advance(crowd *c, double *t, double end,
-                          ellipsoid_observer observer)
-{
-    int which = -2;
-
-    assert_ok(ellipsoid_advance_group(c->count, c->member, t, end, observer,
-                                      c->memory, &which));
-    assert_int_equal(which, -1);
-}
-
-/* Everything is tested for cells that touch with beads, and with themselves. */
-static ellipsoid_contact_shape shape;
-
-static int with_beads(void **unused)
-{
-    (void)unused;
-    shape = ELLIPSOID_CONTACT_BEADS;
-    return 0;
-}
-
-static int with_ellipsoids(void **unused)
-{
-    (void)unused;
-    shape = ELLIPSOID_CONTACT_ELLIPSOID;
-    return 0;
-}
-
-/* The paper's cell, weightless, that touches. */
-static ellipsoid_options touching_cell(void)
-{
-    ellipsoid_options o = test_free_cell();
-
-    o.contact = 1;
-    o.contact_shape = shape;
-    return o;
-}
-
-/* A flow from everywhere to the origin. */
-static test_quadratic towards_origin(double rate)
-{
-    test_quadratic flow = {.answer = 0};
-
-    for (int i = 0; i < 3; i++)
-    {
-        flow.g[i][i] = -rate;
-    }
-    return flow;
-}
+#include "groupTest.h"
 
 /* Two cells that overlap by some nanometres, moving and turning; a group laid
    out over them. */
@@ -484,15 +372,6 @@ static void test_converges(void **unused)
     assert_true(error[2] < error[1]);
 }
 
-static double deepest;
-
-static int note_deepest(void *context, const ellipsoid_step *step)
-{
-    (void)context;
-    deepest = fmax(deepest, step->contact.cell_deepest);
-    return 0;
-}
-
 /* Without inertia the same, but for relaxation times of 1e-7 s. */
 static void test_inertialess(void **unused)
 {
@@ -521,85 +400,13 @@ static void test_inertialess(void **unused)
     assert_near(test_distance(x[0], x[1], 3), 0, 1e-11);
 }
 
-/* Cells on a grid, turned at random, in a flow that presses them into a heap:
-   0.4 pN on each, a tenth of what a sieve's flow does. */
-static void crowd_heap(crowd *c, int count)
-{
-    const test_quadratic flow = towards_origin(20);
-    ellipsoid_options o = touching_cell();
-    uint64_t seed = 8;
-
-    o.tolerance = 1e-5;
-    crowd_init(c, count, &o, &flow);
-    for (int i = 0; i < count; i++)
-    {
-        test_orientation(&seed, c->state[i].q);
-        c->state[i].x[0] = 5e-6 * (i % 4 - 1.5);
-        c->state[i].x[1] = 5e-6 * (i / 4 % 4 - 1.5);
-        c->state[i].x[2] = 5e-6 * (i / 16 - 1.5);
-    }
-    deepest = 0;
-}
-
-static long crowd_steps(const crowd *c)
-{
-    return c->statistics[0].accepted + c->statistics[0].rejected;
-}
-
-/* Fifty run through the collision without deep overlaps; their heap has the
-   size of a dense one: within a ball of 5 um they would fill 40 %. */
-static void test_fifty(void **unused)
-{
-    double t = 0, far = 0;
-    crowd c;
-
-    (void)unused;
-    crowd_heap(&c, 50);
-    crowd_advance(&c, &t, 0.15, note_deepest);
-    for (int i = 0; i < 50; i++)
-    {
-        far = fmax(far, ellipsoid_length(c.state[i].x));
-    }
-    print_message("# fifty: %ld steps in 150 ms, deepest %.2g r_b, centres "
-                  "within %.2g m\n",
-                  crowd_steps(&c), deepest / c.model.options.bead_radius, far);
-    assert_true(deepest > 0 && deepest < 0.05 * c.model.options.bead_radius);
-    assert_true(far < 5e-6);
-    crowd_free(&c);
-}
-
-/* A heap of twelve settles in a second, and then costs next to nothing: steps
-   of ten milliseconds, 1e5 relaxation times. */
-static void test_heap_at_rest(void **unused)
-{
-    double t = 0;
-    long before;
-    crowd c;
-
-    (void)unused;
-    crowd_heap(&c, 12);
-    crowd_advance(&c, &t, 1.2, note_deepest);
-    before = crowd_steps(&c);
-    crowd_advance(&c, &t, 1.3, NULL);
-    print_message("# heap: %ld steps to rest, %ld in 100 ms at rest\n", before,
-                  crowd_steps(&c) - before);
-    assert_true(deepest > 0 && deepest < 0.05 * c.model.options.bead_radius);
-    assert_true(crowd_steps(&c) - before < 40);
-    crowd_free(&c);
-}
-
-#define BOTH(test)                                                             \
-    cmocka_unit_test_setup(test, with_beads),                                  \
-        cmocka_unit_test_setup(test, with_ellipsoids)
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         BOTH(test_equal_and_opposite), BOTH(test_two_spheres),
         BOTH(test_jacobian),           BOTH(test_coupled_system),
         cmocka_unit_test_setup(test_group_of_one, with_beads),       BOTH(test_converges),
-        BOTH(test_inertialess),        BOTH(test_fifty),
-        BOTH(test_heap_at_rest),
+        BOTH(test_inertialess),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

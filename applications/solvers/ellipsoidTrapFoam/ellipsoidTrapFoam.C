@@ -78,7 +78,7 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
 
     if (!accepted && cells.valid())
     {
-        cells->checkInjections(flow->U(), flow->p(), flow->phi());
+        cells->checkInjections({flow->U(), flow->p(), flow->phi()});
     }
     if (!accepted && dryRun)
     {
@@ -98,7 +98,7 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
         return;
     }
 
-    cells->setFlow(flow->U(), flow->p(), flow->phi());
+    cells->setFlow({flow->U(), flow->p(), flow->phi()});
     if (dryRun)
     {
         cells->forecast();

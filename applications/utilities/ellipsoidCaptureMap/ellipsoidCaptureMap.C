@@ -137,7 +137,7 @@ int main(int argc, char *argv[])
         const volScalarField p(fieldOf("p", instance, mesh), mesh);
         const surfaceScalarField phi(fieldOf("phi", instance, mesh), mesh);
 
-        undecomposed.gather(U, p, phi);
+        undecomposed.gather({U, p, phi});
 
         const independentCells cells(properties, mesh, undecomposed);
 

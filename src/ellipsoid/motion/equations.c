@@ -26,9 +26,6 @@
 #define INLINED static inline
 #endif
 
-_Static_assert(sizeof(ellipsoid_state) == ELLIPSOID_STATE_SIZE * sizeof(double),
-               "the state is thirteen doubles without padding");
-
 /* What one evaluation shares between values and derivatives. */
 typedef struct evaluation
 {

@@ -14,6 +14,9 @@
 #include "contact/contact.h"
 #include "drag/drag.h"
 
+_Static_assert(sizeof(ellipsoid_state) == ELLIPSOID_STATE_SIZE * sizeof(double),
+               "the state is thirteen doubles without padding");
+
 /* Where the unknowns are in a vector of thirteen. */
 enum
 {

@@ -61,15 +61,8 @@ namespace Foam
     static bool fromLatestTime(const argList& args)
     {
         // What is wrong with the file the Time will say
-        string text;
-        if (Pstream::master())
-        {
-            text = textOf
-            (
-                args.rootPath()/args.globalCaseName()/"system"/"controlDict"
-            );
-        }
-        broadcast(text);
+        const fileName path(args.rootPath()/args.globalCaseName()/"system");
+        const string text(fromAllRanks(string(textOf(path/"controlDict")))[0]);
 
         return
             !text.empty()
@@ -134,38 +127,24 @@ namespace Foam
     }
 
     //- Paths in a time directory
-    static fileName markFile(const fileName& path)
-    {
-        return path/"uniform"/"ellipsoidCloudFiles";
-    }
-
-    static fileName unfinishedFile(const fileName& path)
-    {
-        return path/"uniform"/"ellipsoidCloudUnfinished";
-    }
-
-    static fileName cellFolder(const fileName& path)
-    {
-        return path/cloud::prefix/"ellipsoidCloudRestart";
-    }
+    static const fileName markFile("uniform/ellipsoidCloudFiles");
+    static const fileName unfinishedFile("uniform/ellipsoidCloudUnfinished");
+    static const fileName cellFolder(cloud::prefix/"ellipsoidCloudRestart");
 
     //- And that of the same cells for other programs
-    static fileName outputFolder(const fileName& path)
-    {
-        return path/cloud::prefix/"ellipsoidCloud";
-    }
+    static const fileName outputFolder(cloud::prefix/"ellipsoidCloud");
 
     //- What the mark in a time directory says, empty if there is none
     static string readMark(const fileName& path)
     {
-        if (sharedFiles() && !isFile(markFile(path)))
+        if (sharedFiles() && !isFile(path/markFile))
         {
             // Where decomposePar puts a copy
             const word parts("processors" + Foam::name(Pstream::nProcs()));
-            return textOf(markFile(path.path().path()/parts/path.name()));
+            return textOf(path.path().path()/parts/path.name()/markFile);
         }
 
-        return textOf(markFile(path));
+        return textOf(path/markFile);
     }
 
     //- Has a rank not made the mark that it finds, but decomposePar or
@@ -187,9 +166,9 @@ namespace Foam
     static bool begun(const fileName& path)
     {
         return
-            isFile(markFile(path))
-         || isFile(unfinishedFile(path))
-         || isDir(cellFolder(path));
+            isFile(path/markFile)
+         || isFile(path/unfinishedFile)
+         || isDir(path/cellFolder);
     }
 
     //- Say what is wrong with the files of this rank in a time directory, if
@@ -198,7 +177,7 @@ namespace Foam
     {
         for (const entry& e : mark.subDict("files"))
         {
-            const fileName file(cellFolder(path)/e.keyword());
+            const fileName file(path/cellFolder/e.keyword());
 
             if (!isFile(file))
             {
@@ -256,7 +235,7 @@ Foam::checkpoint::checkpoint(const Time& time)
     path_(time.path()/time.timeName())
 {
     const List<string> marks(fromAllRanks(readMark(path_)));
-    const fileName name(markFile(path_));
+    const fileName name(path_/markFile);
     const dictionary mark(parsed(marks[Pstream::myProcNo()], name));
     bool all = true;
 
@@ -272,7 +251,7 @@ Foam::checkpoint::checkpoint(const Time& time)
     const bool copies = copied(mark, path_);
 
     // Where ranks share a file the folder is another, and asking is collective
-    const bool shared = isDir(fileHandler().filePath(cellFolder(path_)));
+    const bool shared = isDir(fileHandler().filePath(path_/cellFolder));
     const bool some = returnReduce(shared || begun(path_), orOp<bool>());
 
     string complaint;
@@ -393,7 +372,7 @@ Foam::word Foam::checkpoint::setAsideIncomplete
     {
         const word& name = time->second;
         const fileName path(args.path()/name);
-        const dictionary mark(parsed(readMark(path), markFile(path)));
+        const dictionary mark(parsed(readMark(path), path/markFile));
         const bool other = isFile(path/"U") || isDir(path/"polyMesh");
 
         // Complete, or a flow or mesh to start from, or another program's
@@ -443,11 +422,11 @@ void Foam::checkpoint::begin(const Time& time)
         rm(path/"uniform");
     }
 
-    atomicWrite(unfinishedFile(path), "Not all of this time is written\n");
+    atomicWrite(path/unfinishedFile, "Not all of this time is written\n");
     meet();
-    rm(markFile(path));
-    rmDir(cellFolder(path), true);
-    rmDir(outputFolder(path), true);
+    rm(path/markFile);
+    rmDir(path/cellFolder, true);
+    rmDir(path/outputFolder, true);
 }
 
 
@@ -456,9 +435,9 @@ void Foam::checkpoint::end(const Time& time, const dictionary& notes)
     const fileName path(time.path()/time.timeName());
     dictionary files;
 
-    for (const fileName& name : readDir(cellFolder(path)))
+    for (const fileName& name : readDir(path/cellFolder))
     {
-        const std::string text(textOf(cellFolder(path)/name));
+        const std::string text(textOf(path/cellFolder/name));
         dictionary file;
         file.add("bytes", scalar(text.size()));
         file.add("digest", string(SHA1(text).str()));
@@ -472,8 +451,8 @@ void Foam::checkpoint::end(const Time& time, const dictionary& notes)
 
     // No mark before all ranks have written
     meet();
-    atomicWrite(markFile(path), mark);
-    rm(unfinishedFile(path));
+    atomicWrite(path/markFile, mark);
+    rm(path/unfinishedFile);
 }
 
 

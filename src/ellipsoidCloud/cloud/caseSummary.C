@@ -83,13 +83,8 @@ static void reportMesh
 
 static void reportCell(const ellipsoid_options& options)
 {
-    const vector axes
-    (
-        options.semi_axes[0], options.semi_axes[1], options.semi_axes[2]
-    );
-
-    Info<< "case: cells of " << um(2*axes).c_str() << " along their axes"
-        << endl;
+    Info<< "case: cells of " << um(2*pointOf(options.semi_axes)).c_str()
+        << " along their axes" << endl;
 
     const scalar ratio = options.density/options.fluid_density;
 
@@ -128,12 +123,13 @@ static void reportSieves
         return;
     }
 
-    const narrowestGaps gaps(mesh, images);
+    const labelList& sieves = criterion.sieves();
+    const List<narrowGap> gaps(narrowestGaps(mesh, images, sieves));
 
-    for (const label patchi : criterion.sieves())
+    forAll(sieves, i)
     {
-        const word& name = mesh.boundaryMesh()[patchi].name();
-        const narrowestGaps::gap gap(gaps.at(patchi));
+        const word& name = mesh.boundaryMesh()[sieves[i]].name();
+        const narrowGap& gap = gaps[i];
 
         if (gap.width >= GREAT)
         {
@@ -164,26 +160,17 @@ void Foam::reportSize
 (
     const label nMeshCells,
     const boundBox& bounds,
-    const ellipsoidProperties& properties
+    const cellPopulation& population
 )
 {
-    const ellipsoid_options& options = properties.options();
-    const cellPopulation::setting sizes(properties, options);
-    scalar widest = 0;
-    scalar longest = 0;
-
-    for (const cellSize& size : sizes.extremes(options))
-    {
-        const ellipsoid_options one
-        (
-            cellPopulation::optionsOf(options, size)
-        );
-        widest = max(widest, widthOf(one));
-        longest = max(longest, 2*longestSemiAxis(one));
-    }
-
-    reportMesh(nMeshCells, bounds.span(), widest, longest);
-    reportCell(options);
+    reportMesh
+    (
+        nMeshCells,
+        bounds.span(),
+        population.largest(widthOf),
+        2*population.largest(longestSemiAxis)
+    );
+    reportCell(population.properties().options());
 }
 
 
@@ -191,10 +178,12 @@ void Foam::reportCapture
 (
     const fvMesh& mesh,
     const Time& clock,
-    const ellipsoidProperties& properties,
+    const cellPopulation& population,
     const captureCriterion& criterion
 )
 {
+    const ellipsoidProperties& properties = population.properties();
+
     reportSieves
     (
         mesh,

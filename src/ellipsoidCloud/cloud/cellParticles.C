@@ -12,8 +12,8 @@ License
 #include "atomicWrite.H"
 #include "cellPoses.H"
 #include "ellipsoidParcel.H"
+#include "frozenFlow.H"
 #include "IOField.H"
-#include "IOPosition.H"
 #include "polyMesh.H"
 #include "Time.H"
 
@@ -42,14 +42,14 @@ namespace Foam
     //- Takes fields into files of a cloud
     struct fileTaker
     {
-        const cloud& c;
+        const Cloud<ellipsoidParcel>& c;
 
         template<class Type>
         void operator()(const word& name, const Field<Type>& values) const
         {
             IOField<Type> field
             (
-                ellipsoidParcel::fileIn(c, name, IOobject::NO_READ), values
+                c.fieldIOobject(name, IOobject::NO_READ), values
             );
             atomicWrite(field, values.size() > 0);
         }
@@ -60,14 +60,17 @@ namespace Foam
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::DynamicList<Foam::cellParticles::particle>
-Foam::cellParticles::entered() const
+Foam::cellParticles::local(const bool waiting) const
 {
     DynamicList<particle> cells;
-    for (const particle& cell : source_())
+    for (const cellState& cell : cells_)
     {
-        if (cell.first.fate != cellState::waiting)
+        const label celli =
+            localCells_[flow_.cell(frozenFlow::probe{cell.tet, -1})];
+
+        if (celli >= 0 && (waiting || cell.fate != cellState::waiting))
         {
-            cells.append(cell);
+            cells.append({cell, celli});
         }
     }
 
@@ -127,13 +130,17 @@ Foam::cellParticles::cellParticles
 (
     const polyMesh& mesh,
     const cellPopulation& population,
-    const source& cells
+    const List<cellState>& cells,
+    const frozenFlow& flow,
+    const labelList& localCells
 )
 :
     cloud(mesh, cloudName),
     mesh_(mesh),
     population_(population),
-    source_(cells)
+    cells_(cells),
+    flow_(flow),
+    localCells_(localCells)
 {}
 
 
@@ -141,7 +148,7 @@ Foam::cellParticles::cellParticles
 
 void Foam::cellParticles::writeObjects(objectRegistry& obr) const
 {
-    const DynamicList<particle> cells(entered());
+    const DynamicList<particle> cells(local(false));
 
     pointField& position =
         cloud::createIOField<point>("position", cells.size(), obr);
@@ -154,20 +161,39 @@ void Foam::cellParticles::writeObjects(objectRegistry& obr) const
 }
 
 
-void Foam::cellParticles::writeFiles() const
+void Foam::cellParticles::writeFiles(const label nEver) const
 {
-    const DynamicList<particle> cells(entered());
-    Cloud<passiveParticle> c(mesh_, cloudName, IDLList<passiveParticle>());
-
-    DynamicList<label> ids;
-    for (const particle& cell : cells)
+    for (const bool restart : {true, false})
     {
-        const ellipsoidParcel parcel(mesh_, cell.second, cell.first);
-        c.addParticle(new passiveParticle(parcel));
-        ids.append(cell.first.id);
+        const DynamicList<particle> particles(local(restart));
+        List<cellState> states(particles.size());
+        Cloud<ellipsoidParcel> c
+        (
+            mesh_,
+            restart ? ellipsoidParcel::cloudName : cloudName,
+            IDLList<ellipsoidParcel>()
+        );
+
+        forAll(particles, i)
+        {
+            states[i] = particles[i].first;
+            c.addParticle
+            (
+                new ellipsoidParcel(mesh_, particles[i].second, states[i])
+            );
+        }
+
+        if (restart)
+        {
+            ellipsoidParcel::particleCount_ = nEver;
+            ellipsoidParcel::write(c, states);
+        }
+        else
+        {
+            ellipsoidParcel::writeFields(c);
+            giveFields(particles, fileTaker{c});
+        }
     }
-    ellipsoidParcel::writePlaces(c, ids);
-    giveFields(cells, fileTaker{c});
 }
 
 

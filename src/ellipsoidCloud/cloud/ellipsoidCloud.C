@@ -71,7 +71,7 @@ void Foam::ellipsoidCloud::makeDomain()
         (
             new cellDomain
             (
-                properties_, *undecomposed_, field_, flowType_ == UNSTEADY
+                population_, *undecomposed_, field_, flowType_ == UNSTEADY
             )
         );
         field_.clear();
@@ -186,17 +186,7 @@ void Foam::ellipsoidCloud::checkImages() const
     }
 
     // A cell meets one image of another at a time, and none of itself
-    const ellipsoid_options& options = properties_.options();
-    const cellPopulation::setting sizes(properties_, options);
-    scalar longest = 0;
-    for (const cellSize& size : sizes.extremes(options))
-    {
-        longest = max
-        (
-            longest,
-            2*longestSemiAxis(cellPopulation::optionsOf(options, size))
-        );
-    }
+    const scalar longest = 2*population_.largest(longestSemiAxis);
     for (const vector& period : images.periods())
     {
         if (properties_.pushing() && mag(period) < 2.2*longest)
@@ -213,49 +203,45 @@ void Foam::ellipsoidCloud::checkImages() const
 }
 
 
-Foam::label Foam::ellipsoidCloud::nToEnter() const
+Foam::scalarList Foam::ellipsoidCloud::entries
+(
+    const scalar start,
+    const scalar end
+) const
 {
-    const scalar end = mesh_.time().endTime().value();
-    label n = 0;
-
+    DynamicList<scalar> times;
     for (const cellInjection& injection : injections_)
     {
         for (const Tuple2<scalar, label>& cell : injection.times())
         {
-            n += cell.first() >= time_ && cell.first() < end;
+            if (cell.first() >= start && cell.first() < end)
+            {
+                times.append(cell.first());
+            }
         }
     }
 
-    return n;
+    return scalarList(std::move(times));
 }
 
 
 void Foam::ellipsoidCloud::checkTimes() const
 {
-    if (earlier_.found() || nToEnter())
+    const scalar end = mesh_.time().endTime().value();
+    const scalarList all(entries(-VGREAT, VGREAT));
+
+    if (earlier_.found() || entries(time_, end).size())
     {
         return;
-    }
-
-    scalar first = VGREAT;
-    scalar last = -VGREAT;
-
-    for (const cellInjection& injection : injections_)
-    {
-        for (const Tuple2<scalar, label>& cell : injection.times())
-        {
-            first = min(first, cell.first());
-            last = max(last, cell.first());
-        }
     }
 
     const masterGate once;
     FatalIOErrorInFunction(properties_.subDict("injection"))
         << "no cell enters while the run lasts, from "
         << shortText(time_).c_str() << " to "
-        << shortText(mesh_.time().endTime().value()).c_str()
-        << " s: they are to enter from " << shortText(first).c_str()
-        << " to " << shortText(last).c_str() << " s" << nl
+        << shortText(end).c_str() << " s: they are to enter from "
+        << shortText(min(all)).c_str() << " to " << shortText(max(all)).c_str()
+        << " s" << nl
         << "    Correct start of the injections, or startTime and endTime"
         << " of controlDict" << exit(FatalIOError);
 }
@@ -293,7 +279,6 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
         electricField::read(properties_.section("forces"), mesh, *undecomposed_)
     ),
     population_(properties_),
-    localCells_(undecomposed_->localCells()),
     criterion_(properties_.section("capture"), mesh.boundaryMesh()),
     time_(presentTime(mesh.time())),
     firstTime_(mesh.time().timeName())
@@ -323,9 +308,9 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
             // The function object has told it before the solver began
             if (flowType_ != STEADY)
             {
-                reportSize(whole.nCells(), whole.bounds(), properties_);
+                reportSize(whole.nCells(), whole.bounds(), population_);
             }
-            reportCapture(whole, mesh.time(), properties_, criterion_);
+            reportCapture(whole, mesh.time(), population_, criterion_);
         }
     }
     if (earlier_.found())
@@ -338,14 +323,10 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::ellipsoidCloud::checkInjections
-(
-    const volVectorField& U,
-    const volScalarField& p,
-    const surfaceScalarField& phi
-)
+void Foam::ellipsoidCloud::checkInjections(const solverFields& flow)
 {
-    undecomposed_->gather(possibleInflow(U, p), p, phi);
+    const tmp<volVectorField> inflow(possibleInflow(flow.U, flow.p));
+    undecomposed_->gather({inflow(), flow.p, flow.phi});
 
     makeDomain();
     checkPlaces();
@@ -364,16 +345,11 @@ void Foam::ellipsoidCloud::checkInjections
 }
 
 
-void Foam::ellipsoidCloud::setFlow
-(
-    const volVectorField& U,
-    const volScalarField& p,
-    const surfaceScalarField& phi
-)
+void Foam::ellipsoidCloud::setFlow(const solverFields& flow)
 {
-    undecomposed_->gather(U, p, phi);
+    undecomposed_->gather(flow);
 
-    const inletFlux through(U, phi);
+    const inletFlux through(flow.U, flow.phi);
     if (flowType_ != UNSTEADY)
     {
         through.checkOpen(mesh_);
@@ -394,11 +370,25 @@ void Foam::ellipsoidCloud::setFlow
 
     checkPlaces();
     const label nCells = makeInjections(true);
+    const scalar end = mesh_.time().endTime().value();
     checkTimes();
     Info<< "ellipsoidCloud: " << nCells << " cells to enter by "
         << flatOutput(properties_.subDict("injection").toc()) << nl
-        << "case: " << nToEnter() << " cells enter in the run from " << time_
-        << " to " << mesh_.time().endTime().value() << " s" << endl;
+        << "case: " << entries(time_, end).size()
+        << " cells enter in the run from " << time_ << " to " << end << " s"
+        << endl;
+
+    particles_.reset
+    (
+        new cellParticles
+        (
+            mesh_,
+            population_,
+            cells_,
+            domain_->flow,
+            undecomposed_->localCells()
+        )
+    );
 
     if (occupancy_.valid())
     {
@@ -420,11 +410,6 @@ void Foam::ellipsoidCloud::setFlow
         )
     );
 
-    particles_.reset
-    (
-        new cellParticles(mesh_, population_, [this]() { return localCells(); })
-    );
-
     Info<< "ellipsoidCloud: " << domain_->flow.nTets() << " tetrahedra, "
         << domain_->walls.size() << " wall facets; slow is below "
         << criterion_.slowSpeed() << " m/s" << endl;
@@ -436,19 +421,14 @@ void Foam::ellipsoidCloud::setFlow
 }
 
 
-void Foam::ellipsoidCloud::takeFlow
-(
-    const volVectorField& U,
-    const volScalarField& p,
-    const surfaceScalarField& phi,
-    const bool listed
-)
+void Foam::ellipsoidCloud::takeFlow(const solverFields& flow, const bool listed)
 {
-    undecomposed_->take(U, p, phi);
+    undecomposed_->take(flow);
 
     if (listed)
     {
-        occupancy_->write(time_, phi, inletFlux(U, phi).inflow, cells_);
+        const scalar inflow = inletFlux(flow.U, flow.phi).inflow;
+        occupancy_->write(time_, flow.phi, inflow, cells_);
     }
 }
 
@@ -470,12 +450,7 @@ void Foam::ellipsoidCloud::renewFlow
 }
 
 
-void Foam::ellipsoidCloud::advance
-(
-    const volVectorField& U,
-    const volScalarField& p,
-    const surfaceScalarField& phi
-)
+void Foam::ellipsoidCloud::advance(const solverFields& flow)
 {
     const scalar end = presentTime(mesh_.time());
 
@@ -485,7 +460,7 @@ void Foam::ellipsoidCloud::advance
         return;
     }
 
-    undecomposed_->gather(U, p, phi);
+    undecomposed_->gather(flow);
     domain_->flow.advance(*undecomposed_, fluidDensity(), time_, end);
     for (cellInjection& injection : injections_)
     {

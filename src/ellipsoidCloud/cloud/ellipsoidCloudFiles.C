@@ -47,7 +47,7 @@ void Foam::ellipsoidCloud::makeTables()
         mesh_.boundaryMesh().names(),
         population_,
         folder,
-        properties_.hasSeams(mesh_.boundaryMesh()),
+        domainImages::any(mesh_.boundaryMesh(), properties_.unreached()),
         tables
     };
 
@@ -85,10 +85,7 @@ void Foam::ellipsoidCloud::readCells()
     {
         const string complaint
         (
-            ellipsoidProperties::complaint
-            (
-                cellPopulation::optionsOf(properties_.options(), cell.size)
-            )
+            ellipsoidProperties::complaint(population_.optionsOf(cell.size))
         );
         if (!complaint.empty())
         {
@@ -175,48 +172,6 @@ void Foam::ellipsoidCloud::checkCells() const
           + " is missing, but by the log of events in the device"
         );
     }
-}
-
-
-Foam::DynamicList<Foam::cellParticles::particle>
-Foam::ellipsoidCloud::localCells() const
-{
-    DynamicList<cellParticles::particle> particles;
-
-    for (const cellState& cell : cells_)
-    {
-        const frozenFlow::probe at{cell.tet, -1};
-        const label celli = localCells_[domain_->flow.cell(at)];
-
-        if (celli >= 0)
-        {
-            particles.append({cell, celli});
-        }
-    }
-
-    return particles;
-}
-
-
-void Foam::ellipsoidCloud::writeParcels() const
-{
-    Cloud<ellipsoidParcel> parcels
-    (
-        mesh_, ellipsoidParcel::cloudName, IDLList<ellipsoidParcel>()
-    );
-
-    for (const cellParticles::particle& cell : localCells())
-    {
-        parcels.addParticle
-        (
-            new ellipsoidParcel(mesh_, cell.second, cell.first)
-        );
-    }
-
-    // OpenFOAM's number of particles so far
-    ellipsoidParcel::particleCount_ = statistics_->size();
-    parcels.write();
-    particles_->writeFiles();
 }
 
 
@@ -312,7 +267,7 @@ void Foam::ellipsoidCloud::write()
     atomicWrite(state);
 
     tracks_->flush();
-    writeParcels();
+    particles_->writeFiles(statistics_->size());
     writePoses();
 
     dictionary tables;
@@ -351,15 +306,9 @@ void Foam::ellipsoidCloud::forecast()
         {
             scalar sum = nCells*min(until - start, passage_);
 
-            for (const cellInjection& injection : injections_)
+            for (const scalar t : entries(start, until))
             {
-                for (const Tuple2<scalar, label>& cell : injection.times())
-                {
-                    if (cell.first() >= start && cell.first() < until)
-                    {
-                        sum += min(until - cell.first(), passage_);
-                    }
-                }
+                sum += min(until - t, passage_);
             }
             return sum;
         };

@@ -30,17 +30,13 @@ namespace Foam
     //- What options.def says of a member
     static ellipsoid_option optionOf(const word& member)
     {
-        const std::vector<ellipsoid_option> all(coreOptions());
+        ellipsoid_option found = {};
+        for (const ellipsoid_option& option : coreOptions())
+        {
+            found = option.member == member ? option : found;
+        }
 
-        return *std::find_if
-        (
-            all.begin(),
-            all.end(),
-            [&](const ellipsoid_option& option)
-            {
-                return option.member == member;
-            }
-        );
+        return found;
     }
 
     //- An option as the user knows it

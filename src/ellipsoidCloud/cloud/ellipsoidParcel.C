@@ -12,7 +12,6 @@ License
 #include "domainImages.H"
 #include "IOField.H"
 #include "IOPosition.H"
-#include "passiveParticleCloud.H"
 
 #include <cstddef>
 
@@ -20,7 +19,11 @@ License
 
 namespace Foam
 {
-    defineTemplateTypeNameAndDebug(Cloud<ellipsoidParcel>, 0);
+    // What tools that read places expect in their header
+    defineTemplateTypeNameAndDebugWithName
+    (
+        Cloud<ellipsoidParcel>, "Cloud<passiveParticle>", 0
+    );
 }
 
 const Foam::word Foam::ellipsoidParcel::cloudName("ellipsoidCloudRestart");
@@ -121,73 +124,71 @@ namespace Foam
     {
         return
             field.offset != offsetof(cellState, unfold)
-         || domainImages::mayHave(mesh);
+         || domainImages::any(mesh.boundaryMesh());
     }
 
-    //- Where a state has a member
-    static char* memberOf(cellState& state, const cellField& field)
-    {
-        void* bytes = &state;
-        return static_cast<char*>(bytes) + field.offset;
-    }
-
-    //- Read a member of the states
+    //- Read a member of the states from its files, or write it
     template<class Type>
-    static void readMember
-    (
-        const passiveParticleCloud& c,
-        const cellField& field,
-        List<cellState>& cells
-    )
-    {
-        for (int d = 0; d < field.count; ++d)
-        {
-            const IOField<Type> values
-            (
-                ellipsoidParcel::fileIn
-                (
-                    c, fileOf(field, d), IOobject::MUST_READ
-                ),
-                c.size() > 0
-            );
-            c.checkFieldIOobject(c, values);
-
-            forAll(cells, i)
-            {
-                char* member = memberOf(cells[i], field);
-                std::memcpy(member + d*sizeof(Type), &values[i], sizeof(Type));
-            }
-        }
-    }
-
-    //- Write a member of the states
-    template<class Type>
-    static void writeMember
+    static void transfer
     (
         const Cloud<ellipsoidParcel>& c,
         const cellField& field,
-        List<cellState>& cells
+        List<cellState>& cells,
+        const IOobject::readOption option
     )
     {
         for (int d = 0; d < field.count; ++d)
         {
             IOField<Type> values
             (
-                ellipsoidParcel::fileIn
-                (
-                    c, fileOf(field, d), IOobject::NO_READ
-                ),
-                c.size()
+                c.fieldIOobject(fileOf(field, d), option), cells.size() > 0
             );
+            const bool read = option == IOobject::MUST_READ;
+            if (read)
+            {
+                c.checkFieldIOobject(c, values);
+            }
+            values.setSize(cells.size());
 
             forAll(cells, i)
             {
-                const char* member = memberOf(cells[i], field);
+                void* state = &cells[i];
                 void* value = &values[i];
-                std::memcpy(value, member + d*sizeof(Type), sizeof(Type));
+                void* member =
+                    static_cast<char*>(state) + field.offset + d*sizeof(Type);
+                std::memcpy
+                (
+                    read ? member : value, read ? value : member, sizeof(Type)
+                );
             }
 
-            atomicWrite(values, c.size() > 0);
+            if (!read)
+            {
+                atomicWrite(values, cells.size() > 0);
+            }
+        }
+    }
+
+    //- All members that are kept
+    static void transferAll
+    (
+        const Cloud<ellipsoidParcel>& c,
+        List<cellState>& cells,
+        const IOobject::readOption option
+    )
+    {
+        for (const cellField& field : cellFields)
+        {
+            if (!isKept(field, c.pMesh()))
+            {
+                continue;
+            }
+            switch (field.type)
+            {
+                case labels: transfer<label>(c, field, cells, option); break;
+                case scalars: transfer<scalar>(c, field, cells, option); break;
+                case vectors: transfer<vector>(c, field, cells, option); break;
+            }
         }
     }
 }
@@ -208,80 +209,59 @@ Foam::ellipsoidParcel::ellipsoidParcel
         mesh,
         state.centre() + 1e-6*(mesh.cellCentres()[celli] - state.centre()),
         celli
-    ),
-    state_(state)
-{}
+    )
+{
+    origId() = state.id;
+    origProc() = 0;
+}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 Foam::List<Foam::cellState> Foam::ellipsoidParcel::read(const polyMesh& mesh)
 {
-    const passiveParticleCloud c(mesh, cloudName, false);
+    const Cloud<ellipsoidParcel> c(mesh, cloudName, false);
     List<cellState> cells(c.size(), cellState());
-
-    for (const cellField& field : cellFields)
-    {
-        if (!isKept(field, mesh))
-        {
-            continue;
-        }
-        switch (field.type)
-        {
-            case labels: readMember<label>(c, field, cells); break;
-            case scalars: readMember<scalar>(c, field, cells); break;
-            case vectors: readMember<vector>(c, field, cells); break;
-        }
-    }
+    transferAll(c, cells, IOobject::MUST_READ);
 
     return cells;
 }
 
 
-Foam::IOobject Foam::ellipsoidParcel::fileIn
+void Foam::ellipsoidParcel::write
 (
-    const cloud& c,
-    const word& name,
-    const IOobject::readOption read
+    const Cloud<ellipsoidParcel>& c,
+    List<cellState>& cells
 )
 {
-    return
-        IOobject
-        (
-            name, c.time().timeName(), c, read, IOobject::NO_WRITE, false
-        );
+    c.write();
+    transferAll(c, cells, IOobject::NO_READ);
 }
 
 
 void Foam::ellipsoidParcel::writeFields(const Cloud<ellipsoidParcel>& c)
 {
-    List<cellState> cells(c.size());
+    for
+    (
+        const auto type
+      : {cloud::geometryType::COORDINATES, cloud::geometryType::POSITIONS}
+    )
+    {
+        IOPosition<Cloud<ellipsoidParcel>> places(c, type);
+        atomicWrite(places, c.size() > 0);
+    }
+
+    const auto none = IOobject::NO_READ;
+    IOField<label> ids(c.fieldIOobject("origId", none), c.size());
+    IOField<label> ranks(c.fieldIOobject("origProcId", none), c.size());
     label i = 0;
     for (const ellipsoidParcel& parcel : c)
     {
-        cells[i++] = parcel.state();
+        ids[i] = parcel.origId();
+        ranks[i++] = parcel.origProc();
     }
-
-    labelList ids(cells.size());
-    forAll(ids, k)
-    {
-        ids[k] = cells[k].id;
-    }
-    writePlaces(c, ids);
-
-    for (const cellField& field : cellFields)
-    {
-        if (!isKept(field, c.pMesh()))
-        {
-            continue;
-        }
-        switch (field.type)
-        {
-            case labels: writeMember<label>(c, field, cells); break;
-            case scalars: writeMember<scalar>(c, field, cells); break;
-            case vectors: writeMember<vector>(c, field, cells); break;
-        }
-    }
+    atomicWrite(ids, c.size() > 0);
+    atomicWrite(ranks, c.size() > 0);
 }
 
 

@@ -170,30 +170,11 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     readOptions();
     checkOptions();
     checkPatches(mesh.boundaryMesh());
-    cellPopulation::setting(*this, options_);
+    cellPopulation(*this);
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-bool Foam::ellipsoidProperties::hasSeams
-(
-    const polyBoundaryMesh& patches
-) const
-{
-    const wordRes unreached(this->unreached());
-
-    for (const polyPatch& pp : patches)
-    {
-        if (domainImages::isSeam(pp) && !unreached.match(pp.name()))
-        {
-            return true;
-        }
-    }
-
-    return false;
-}
-
 
 void Foam::ellipsoidProperties::checkKeywords
 (
@@ -260,41 +241,6 @@ Foam::string Foam::entryRange::text(const bool whole) const
         open ? "above " + from
       : (whole ? "a whole number, " : "") + from + " or more";
 }
-
-
-template<class Type>
-Type Foam::ellipsoidProperties::number
-(
-    const dictionary& dict,
-    const word& keyword,
-    const entryRange& allowed
-)
-{
-    const Type value = dict.get<Type>(keyword);
-
-    if (!allowed.contains(value))
-    {
-        const bool whole = std::is_integral<Type>::value;
-        refuse(dict, keyword, keyword, allowed.text(whole));
-    }
-
-    return value;
-}
-
-// What entries are
-template Foam::label Foam::ellipsoidProperties::number
-(
-    const dictionary&,
-    const word&,
-    const entryRange&
-);
-
-template Foam::scalar Foam::ellipsoidProperties::number
-(
-    const dictionary&,
-    const word&,
-    const entryRange&
-);
 
 
 // ************************************************************************* //

@@ -30,14 +30,11 @@ Foam::tmp<Foam::volVectorField> Foam::possibleInflow
 
     tmp<volVectorField> result
     (
-        new volVectorField
+        volVectorField::New
         (
-            IOobject("possibleInflow", mesh.time().timeName(), mesh),
-            mesh,
-            dimensionedVector(dimVelocity, Zero)
+            "possibleInflow", mesh, dimensionedVector(dimVelocity, Zero)
         )
     );
-
     volVectorField::Boundary& inflow = result.ref().boundaryFieldRef();
 
     // Do given velocities push fluid in, or draw it out?

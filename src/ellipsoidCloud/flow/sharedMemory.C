@@ -13,7 +13,6 @@ License
 #include "error.H"
 
 #include <algorithm>
-#include <cstdlib>
 #include <mpi.h>
 
 // * * * * * * * * * * * * * * Private Data Types  * * * * * * * * * * * * * //
@@ -36,13 +35,8 @@ Foam::sharedMemory::sharedMemory(const std::size_t size)
 {
     if (!Pstream::parRun())
     {
-        bytes_ = static_cast<char*>(std::malloc(size));
-        if (!bytes_ && size)
-        {
-            FatalErrorInFunction
-                << "no memory for " << size << " bytes of the frozen flow"
-                << exit(FatalError);
-        }
+        own_.reset(new char[size]);
+        bytes_ = own_.get();
         return;
     }
 
@@ -94,10 +88,6 @@ Foam::sharedMemory::~sharedMemory()
             MPI_Comm_free(&window_->firstRanks);
         }
         MPI_Win_free(&window_->handle);
-    }
-    else
-    {
-        std::free(bytes_);
     }
 }
 

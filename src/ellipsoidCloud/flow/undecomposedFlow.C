@@ -8,7 +8,6 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "undecomposedFlow.H"
-#include "copyValues.H"
 #include "fromRanks.H"
 #include "processorPolyPatch.H"
 #include "surfaceFields.H"
@@ -120,35 +119,20 @@ Foam::undecomposedFlow::gather
 
     autoPtr<fieldType> result
     (
-        new fieldType
+        fieldType::New
         (
-            IOobject
-            (
-                field.name(),
-                mesh().time().timeName(),
-                mesh(),
-                IOobject::NO_READ,
-                IOobject::NO_WRITE,
-                false
-            ),
-            mesh(),
-            dimensioned<Type>("zero", field.dimensions(), Zero),
-            PatchField<Type>::calculatedType()
-        )
+            field.name(), mesh(), dimensioned<Type>(field.dimensions(), Zero)
+        ).ptr()
     );
 
-    const Field<Type>& values = atFaces ? faceValues : cellValues;
-    forAll(*result, i)
-    {
-        (*result)[i] = values[i];
-    }
+    result->primitiveFieldRef() =
+        SubList<Type>(atFaces ? faceValues : cellValues, result->size());
     for (PatchField<Type>& pf : result->boundaryFieldRef())
     {
         // An empty patch has faces but no values
-        forAll(pf, i)
-        {
-            pf[i] = faceValues[pf.patch().start() + i];
-        }
+        const label start = pf.patch().start();
+        static_cast<Field<Type>&>(pf) =
+            SubField<Type>(faceValues, pf.size(), start);
     }
 
     return result;
@@ -199,29 +183,19 @@ Foam::undecomposedFlow::~undecomposedFlow()
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::undecomposedFlow::gather
-(
-    const volVectorField& U,
-    const volScalarField& p,
-    const surfaceScalarField& phi
-)
+void Foam::undecomposedFlow::gather(const solverFields& flow)
 {
-    U_ = gather(U);
-    p_ = gather(p);
-    phi_ = gather(phi);
+    U_ = gather(flow.U);
+    p_ = gather(flow.p);
+    phi_ = gather(flow.phi);
 }
 
 
-void Foam::undecomposedFlow::take
-(
-    const volVectorField& U,
-    const volScalarField& p,
-    const surfaceScalarField& phi
-)
+void Foam::undecomposedFlow::take(const solverFields& flow)
 {
-    copyValues(U, *U_);
-    copyValues(p, *p_);
-    copyValues(phi, *phi_);
+    *U_ == flow.U;
+    *p_ == flow.p;
+    *phi_ == flow.phi;
 }
 
 

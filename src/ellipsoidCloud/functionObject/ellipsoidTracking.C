@@ -13,7 +13,7 @@ License
 #include "calculatedFvPatchFields.H"
 #include "calculatedFvsPatchFields.H"
 #include "caseSummary.H"
-#include "copyValues.H"
+#include "cellPopulation.H"
 #include "ellipsoidCloud.H"
 #include "masterGate.H"
 #include "Time.H"
@@ -39,7 +39,7 @@ namespace functionObjects
 
 namespace Foam
 {
-    //- The same values on the mesh of another clock
+    //- The same values, patches included, on the mesh of another clock
     template<class FieldType>
     static tmp<FieldType> copyOf(const FieldType& host, const fvMesh& mesh)
     {
@@ -47,15 +47,18 @@ namespace Foam
 
         tmp<FieldType> copy
         (
-            new FieldType
+            FieldType::New
             (
-                IOobject(host.name(), mesh.time().timeName(), mesh),
-                mesh,
-                dimensioned<Type>(host.dimensions(), Zero)
+                host.name(), mesh, dimensioned<Type>(host.dimensions(), Zero)
             )
         );
 
-        copyValues(host, copy.ref());
+        copy.ref().primitiveFieldRef() = host.primitiveField();
+        forAll(host.boundaryField(), patchi)
+        {
+            copy.ref().boundaryFieldRef()[patchi] ==
+                host.boundaryField()[patchi];
+        }
 
         return copy;
     }
@@ -116,7 +119,7 @@ void Foam::functionObjects::ellipsoidTracking::check(const fvMesh& mesh) const
 
     if (Pstream::master())
     {
-        reportSize(nMeshCells, mesh.bounds(), properties);
+        reportSize(nMeshCells, mesh.bounds(), cellPopulation(properties));
     }
 }
 
@@ -145,6 +148,17 @@ void Foam::functionObjects::ellipsoidTracking::checkDryRun() const
 }
 
 
+Foam::solverFields Foam::functionObjects::ellipsoidTracking::flow() const
+{
+    return solverFields
+    {
+        mesh_.lookupObject<volVectorField>(U_),
+        mesh_.lookupObject<volScalarField>(p_),
+        mesh_.lookupObject<surfaceScalarField>(phi_)
+    };
+}
+
+
 bool Foam::functionObjects::ellipsoidTracking::begin()
 {
     if (cells_.valid() || !mesh_.foundObject<surfaceScalarField>(phi_))
@@ -153,7 +167,7 @@ bool Foam::functionObjects::ellipsoidTracking::begin()
     }
 
     cells_.reset(new ellipsoidCloud(mesh_, ellipsoidCloud::UNSTEADY));
-    cells_->setFlow(U(), p(), phi());
+    cells_->setFlow(flow());
 
     return true;
 }
@@ -175,9 +189,14 @@ void Foam::functionObjects::ellipsoidTracking::trackThroughEnd() const
     );
 
     ellipsoidCloud cells(mesh, ellipsoidCloud::STEADY);
+    const solverFields host(flow());
     cells.setFlow
     (
-        copyOf(U(), mesh)(), copyOf(p(), mesh)(), copyOf(phi(), mesh)()
+        {
+            copyOf(host.U, mesh)(),
+            copyOf(host.p, mesh)(),
+            copyOf(host.phi, mesh)()
+        }
     );
     cells.track(clock, max(label(1), label(writeInterval_/deltaT_ + 0.5)));
 }
@@ -280,7 +299,7 @@ bool Foam::functionObjects::ellipsoidTracking::execute()
     }
 
     const screenDigits six;
-    cells_->advance(U(), p(), phi());
+    cells_->advance(flow());
 
     return true;
 }

@@ -13,7 +13,7 @@ License
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
 const Foam::Enum<Foam::cellPopulation::distributionType>
-Foam::cellPopulation::distributionNames
+Foam::cellPopulation::distributionNames_
 ({
     { distributionType::dtLogNormal, "logNormal" },
     { distributionType::dtTable, "table" }
@@ -41,151 +41,63 @@ namespace Foam
 }
 
 
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::cellPopulation::setting::setting
-(
-    const dictionary& properties,
-    const ellipsoid_options& options
-)
-:
-    type(dtNone),
-    lengthDeviation(0),
-    widthDeviation(0),
-    truncation(0),
-    values()
+void Foam::cellPopulation::readDistribution(const dictionary& dict)
 {
-    readListed(properties.subOrEmptyDict("injection"), medianSize(options));
-
-    const dictionary& cell = properties.subOrEmptyDict("cell");
-
-    if (!cell.found("sizes"))
-    {
-        checkExtremes(properties, options);
-        return;
-    }
-
-    const dictionary& dict = cell.subDict("sizes");
+    typedef ellipsoidProperties entries;
     const word name(dict.get<word>("type"));
 
-    if (!distributionNames.found(name))
+    if (!distributionNames_.found(name))
     {
         FatalIOErrorInFunction
         (
             dict.lookupEntry("type", keyType::LITERAL).stream()
         )   << "unknown type " << name << " of sizes" << nl
-            << "    allowed: " << flatOutput(distributionNames.names())
+            << "    allowed: " << flatOutput(distributionNames_.names())
             << exit(FatalIOError);
     }
-    type = distributionNames[name];
+    type_ = distributionNames_[name];
 
-    if (type == dtLogNormal)
+    if (type_ == dtLogNormal)
     {
-        typedef ellipsoidProperties entries;
         const entryRange sigma(within(0, 1));
 
-        ellipsoidProperties::checkKeywords
+        entries::checkKeywords
         (
             dict, {"type", "lengthDeviation", "widthDeviation", "truncation"}
         );
-        lengthDeviation = entries::number(dict, "lengthDeviation", sigma, 0.0);
-        widthDeviation = entries::number(dict, "widthDeviation", sigma, 0.0);
-        truncation = entries::number(dict, "truncation", within(1, 5), 3.0);
-    }
-    else
-    {
-        ellipsoidProperties::checkKeywords(dict, {"type", "values"});
-        dict.lookup("values");
-        values = listedSizes(dict, "values", medianSize(options));
-
-        if (values.empty())
-        {
-            FatalIOErrorInFunction(dict)
-                << "values of sizes hold no pair (length width)"
-                << exit(FatalIOError);
-        }
+        lengthDeviation_ = entries::number(dict, "lengthDeviation", sigma, 0.0);
+        widthDeviation_ = entries::number(dict, "widthDeviation", sigma, 0.0);
+        truncation_ = entries::number(dict, "truncation", within(1, 5), 3.0);
+        return;
     }
 
-    checkExtremes(dict, options);
-}
+    entries::checkKeywords(dict, {"type", "values"});
+    dict.lookup("values");
+    values_ = listedSizes(dict, "values");
 
-
-void Foam::cellPopulation::setting::readListed
-(
-    const dictionary& injections,
-    const cellSize& median
-)
-{
-    for (const entry& e : injections)
+    if (values_.empty())
     {
-        const dictionary& dict = e.dict();
-
-        listed.append(listedSizes(dict, "sizes", median));
-        for (const scalar d : dict.getOrDefault<scalarList>("densities", {}))
-        {
-            listed.append(cellSize{median.length, median.width, d});
-        }
+        FatalIOErrorInFunction(dict)
+            << "values of sizes hold no pair (length width)"
+            << exit(FatalIOError);
     }
 }
 
 
-void Foam::cellPopulation::setting::checkExtremes
-(
-    const dictionary& dict,
-    const ellipsoid_options& options
-) const
+Foam::List<Foam::cellSize> Foam::cellPopulation::extremes() const
 {
-    for (const cellSize& size : extremes(options))
+    DynamicList<cellSize> sizes(listed_);
+    sizes.append(values_);
+
+    for (const scalar l : {-truncation_, truncation_})
     {
-        const string complaint
-        (
-            ellipsoidProperties::complaint(optionsOf(options, size))
-        );
-
-        if (!complaint.empty())
+        for (const scalar w : {-truncation_, truncation_})
         {
-            FatalIOErrorInFunction(dict)
-                << "sizes make a cell of length " << Foam::name(size.length)
-                << " m and width " << Foam::name(size.width)
-                << " m, for which " << complaint.c_str() << exit(FatalIOError);
-        }
-    }
-}
-
-
-Foam::cellPopulation::cellPopulation(const ellipsoidProperties& properties)
-:
-    properties_(properties),
-    setting_(properties, properties.options()),
-    median_(modelOf(properties.options()))
-{}
-
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
-(
-    const ellipsoid_options& options
-) const
-{
-    DynamicList<cellSize> sizes(listed);
-    sizes.append(values);
-
-    // The ranges of the core that a size can leave are monotonic in both
-    const cellSize middle(medianSize(options));
-    for (const scalar l : {-truncation, truncation})
-    {
-        for (const scalar w : {-truncation, truncation})
-        {
-            sizes.append
-            (
-                cellSize
-                {
-                    middle.length*exp(l*lengthDeviation),
-                    middle.width*exp(w*widthDeviation),
-                    middle.density
-                }
-            );
+            sizes.append(medianSize());
+            sizes.last().length *= exp(l*lengthDeviation_);
+            sizes.last().width *= exp(w*widthDeviation_);
         }
     }
 
@@ -193,46 +105,83 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::setting::extremes
 }
 
 
-Foam::scalar Foam::cellPopulation::farthestSeen
-(
-    const ellipsoidProperties& properties
-)
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::cellPopulation::cellPopulation(const ellipsoidProperties& properties)
+:
+    properties_(properties),
+    type_(dtNone),
+    lengthDeviation_(0),
+    widthDeviation_(0),
+    truncation_(0),
+    median_(modelOf(properties.options()))
 {
-    const ellipsoid_options& options = properties.options();
-    scalar farthest = 0;
+    const dictionary& cell = properties.section("cell");
 
-    for (const cellSize& size : setting(properties, options).extremes(options))
+    for (const entry& e : properties.section("injection"))
     {
-        const ellipsoid_options own(optionsOf(options, size));
-        const double* a = own.semi_axes;
-        const scalar longest = longestSemiAxis(own);
-        const scalar slimness = longest/min(a[0], min(a[1], a[2]));
+        const dictionary& dict = e.dict();
 
-        // Twice the reach of its beads, as far from all walls; or what gives
-        // it resistance, see wallPlanes.c
-        farthest = max(farthest, 4*(longest + 2*own.bead_radius));
-        if (own.wall_resistance != ELLIPSOID_WALL_RESISTANCE_NONE)
+        listed_.append(listedSizes(dict, "sizes"));
+        for (const scalar d : dict.getOrDefault<scalarList>("densities", {}))
         {
-            farthest = max(farthest, (2 + slimness)*own.wall_range);
+            listed_.append(medianSize());
+            listed_.last().density = d;
         }
     }
+    if (cell.found("sizes"))
+    {
+        readDistribution(cell.subDict("sizes"));
+    }
 
-    return farthest;
+    for (const cellSize& size : extremes())
+    {
+        const string complaint
+        (
+            ellipsoidProperties::complaint(optionsOf(size))
+        );
+
+        if (!complaint.empty())
+        {
+            FatalIOErrorInFunction
+            (
+                type_ == dtNone ? properties : cell.subDict("sizes")
+            )   << "sizes make a cell of length " << Foam::name(size.length)
+                << " m and width " << Foam::name(size.width)
+                << " m, for which " << complaint.c_str() << exit(FatalIOError);
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::scalar Foam::cellPopulation::largest
+(
+    const std::function<scalar(const ellipsoid_options&)>& property
+) const
+{
+    scalar most = 0;
+    for (const cellSize& size : extremes())
+    {
+        most = max(most, property(optionsOf(size)));
+    }
+
+    return most;
 }
 
 
 Foam::List<Foam::cellSize> Foam::cellPopulation::listedSizes
 (
     const dictionary& dict,
-    const word& entry,
-    const cellSize& other
-)
+    const word& entry
+) const
 {
     const List<Pair<scalar>> pairs
     (
         dict.getOrDefault<List<Pair<scalar>>>(entry, {})
     );
-    List<cellSize> sizes(pairs.size(), other);
+    List<cellSize> sizes(pairs.size(), medianSize());
 
     forAll(pairs, i)
     {
@@ -244,15 +193,11 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::listedSizes
 }
 
 
-ellipsoid_options Foam::cellPopulation::optionsOf
-(
-    const ellipsoid_options& options,
-    const cellSize& size
-)
+ellipsoid_options Foam::cellPopulation::optionsOf(const cellSize& size) const
 {
     ellipsoid_options one
     (
-        ellipsoid_options_resized(&options, size.length, size.width)
+        ellipsoid_options_resized(&median_.options, size.length, size.width)
     );
     one.density = size.density;
 
@@ -260,16 +205,14 @@ ellipsoid_options Foam::cellPopulation::optionsOf
 }
 
 
-Foam::cellSize Foam::cellPopulation::medianSize
-(
-    const ellipsoid_options& options
-)
+Foam::cellSize Foam::cellPopulation::medianSize() const
 {
-    return
-        cellSize
-        {
-            2*options.semi_axes[1], 2*options.semi_axes[0], options.density
-        };
+    const ellipsoid_options& options = median_.options;
+
+    return cellSize
+    {
+        2*options.semi_axes[1], 2*options.semi_axes[0], options.density
+    };
 }
 
 
@@ -279,14 +222,14 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
 
     const label seed = properties_.seed();
 
-    if (setting_.type == dtTable)
+    if (type_ == dtTable)
     {
         scalar uniform;
         ellipsoid_random_uniform(seed, id, rsSize, 0, 1, &uniform);
 
-        size = setting_.values[label(uniform*setting_.values.size())];
+        size = values_[label(uniform*values_.size())];
     }
-    else if (setting_.type == dtLogNormal)
+    else if (type_ == dtLogNormal)
     {
         scalar normal[2];
         label attempt = 0;
@@ -294,10 +237,10 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
         {
             ellipsoid_random_normals(seed, id, rsSize, attempt++, 2, normal);
         }
-        while (max(mag(normal[0]), mag(normal[1])) > setting_.truncation);
+        while (max(mag(normal[0]), mag(normal[1])) > truncation_);
 
-        size.length *= exp(setting_.lengthDeviation*normal[0]);
-        size.width *= exp(setting_.widthDeviation*normal[1]);
+        size.length *= exp(lengthDeviation_*normal[0]);
+        size.width *= exp(widthDeviation_*normal[1]);
     }
 
     return size;
@@ -306,7 +249,7 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
 
 ellipsoid_model Foam::cellPopulation::made(const cellSize& size) const
 {
-    return modelOf(optionsOf(median_.options, size));
+    return modelOf(optionsOf(size));
 }
 
 
@@ -314,12 +257,7 @@ void Foam::cellPopulation::take(const label id, const cellSize& size)
 {
     const cellSize middle(medianSize());
 
-    if
-    (
-        size.length != middle.length
-     || size.width != middle.width
-     || size.density != middle.density
-    )
+    if (std::memcmp(&size, &middle, sizeof(cellSize)))
     {
         models_.set(id, new ellipsoid_model(made(size)));
     }

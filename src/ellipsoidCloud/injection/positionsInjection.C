@@ -116,13 +116,7 @@ public:
                     "orientations", {}
                 )
             ),
-            sizes_
-            (
-                cellPopulation::listedSizes
-                (
-                    from_.dict, "sizes", from_.population.medianSize()
-                )
-            ),
+            sizes_(from_.population.listedSizes(from_.dict, "sizes")),
             densities_(from_.dict.getOrDefault<scalarList>("densities", {}))
         {
             check("orientations", orientations_.size());

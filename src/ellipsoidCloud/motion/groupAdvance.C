@@ -20,29 +20,6 @@ namespace Foam
     //- So many cells go together at most: what a group needs grows with their
     //  square, and is 1.3 GB then
     static const label largestGroup = 2000;
-
-    //- Can so many be advanced as one group? If not and the group may not fail,
-    //  the run ends.
-    static bool fits
-    (
-        const List<cellSweep>& cells,
-        const labelUList& group,
-        const bool mayFail
-    )
-    {
-        if (group.size() > largestGroup && !mayFail)
-        {
-            FatalErrorInFunction
-                << group.size() << " cells near one another, cell "
-                << cells[group[0]].state.id
-                << " among them, are one group; at most " << largestGroup
-                << " can be moved together" << nl
-                << "    let fewer enter, or set contact/cells off"
-                << exit(FatalError);
-        }
-
-        return group.size() <= largestGroup;
-    }
 }
 
 
@@ -124,7 +101,7 @@ struct Foam::groupAdvance::member
             cell.state.pass(image, model.options.semi_axes);
             if (image.translates())
             {
-                cell.passed -= image.b();
+                cell.passed -= image.b;
             }
             for (double* force : {contact.force, contact.cell_force})
             {
@@ -458,8 +435,18 @@ bool Foam::groupAdvance::advance
     DynamicList<segment>& path
 )
 {
-    if (!fits(cells, group, mayFail))
+    if (group.size() > largestGroup)
     {
+        if (!mayFail)
+        {
+            FatalErrorInFunction
+                << group.size() << " cells near one another, cell "
+                << cells[group[0]].state.id
+                << " among them, are one group; at most " << largestGroup
+                << " can be moved together" << nl
+                << "    let fewer enter, or set contact/cells off"
+                << exit(FatalError);
+        }
         return false;
     }
 

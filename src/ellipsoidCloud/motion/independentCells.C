@@ -105,7 +105,7 @@ Foam::independentCells::independentCells
     population_(properties),
     domain_
     (
-        properties,
+        population_,
         undecomposed,
         electricField::read(properties.section("forces"), mesh, undecomposed),
         false

@@ -19,64 +19,23 @@ License
 
 namespace Foam
 {
-    //- A cell that was held is in flight
-    static void release(cellState& cell, DynamicList<cellEvent>& events)
-    {
-        if (cell.fate != cellState::inFlight)
-        {
-            cell.fate = cellState::inFlight;
-            events.append(cellEvent{"released", cell});
-            cell.patch = -1;
-        }
-    }
-
-    //- How long cells have been slow: those that are not are in flight
-    static void judgeSpeed
+    //- What holds the cells that have been slow for the hold time
+    static void judgeHeld
     (
-        const UList<cellState>& before,
         List<cellSweep>& moves,
-        const scalar end,
-        const scalar slowSpeed,
+        const scalar holdTime,
+        const labelUList& sieves,
         DynamicList<cellEvent>& events
     )
     {
-        forAll(moves, i)
-        {
-            const cellState& was = before[i];
-            cellState& cell = moves[i].state;
-
-            if (cell.fate == cellState::waiting || moves[i].gone())
-            {
-                continue;
-            }
-
-            const scalar dt = end - was.time;
-
-            if (mag(cell.unfolded() - was.unfolded())/dt < slowSpeed)
-            {
-                cell.slowTime += dt;
-                continue;
-            }
-
-            cell.slowTime = 0;
-            cell.imbalance = 0;
-            release(cell, events);
-        }
-    }
-
-    //- The cells that have been slow for the hold time, and are not yet caught
-    static DynamicList<label> openCells
-    (
-        const UList<cellSweep>& moves,
-        const scalar holdTime
-    )
-    {
+        // Those that have been slow for the hold time, and are not yet caught
         DynamicList<label> open;
-
+        Map<label> indices;
         forAll(moves, i)
         {
             const cellState& cell = moves[i].state;
 
+            indices.insert(cell.id, i);
             if
             (
                 cell.slowTime >= holdTime
@@ -88,77 +47,6 @@ namespace Foam
             {
                 open.append(i);
             }
-        }
-
-        return open;
-    }
-
-    //- How long cells have been confined to their place: one that is as far
-    //  away from it as a length is in flight, and that is its new place
-    static void judgeConfinement
-    (
-        const UList<cellState>& before,
-        List<cellSweep>& moves,
-        const scalar end,
-        const scalar displacement,
-        DynamicList<cellEvent>& events
-    )
-    {
-        forAll(moves, i)
-        {
-            const cellState& was = before[i];
-            cellState& cell = moves[i].state;
-
-            if (cell.fate == cellState::waiting || moves[i].gone())
-            {
-                continue;
-            }
-            if (was.fate == cellState::waiting)
-            {
-                cell.place = was.unfolded();
-            }
-
-            if (mag(cell.unfolded() - cell.place) < displacement)
-            {
-                cell.slowTime += end - was.time;
-                cell.imbalance =
-                    mag(cell.netImpulse)/max(mag(cell.dragImpulse), VSMALL);
-                continue;
-            }
-
-            cell.settleAt(cell.unfolded());
-            release(cell, events);
-        }
-    }
-
-    //- From now on the place of a cell that has been confined for the hold time
-    //  is where it is
-    static void renewPlaces(List<cellSweep>& moves, const scalar holdTime)
-    {
-        for (cellSweep& move : moves)
-        {
-            if (move.state.slowTime >= holdTime)
-            {
-                move.state.slowTime = 0;
-                move.state.place = move.state.unfolded();
-            }
-        }
-    }
-
-    //- What holds the cells that have been slow for the hold time
-    static void judgeHeld
-    (
-        List<cellSweep>& moves,
-        const scalar holdTime,
-        const labelUList& sieves,
-        DynamicList<cellEvent>& events
-    )
-    {
-        const DynamicList<label> open(openCells(moves, holdTime));
-        Map<label> indices;
-        forAll(moves, i)
-        {
-            indices.insert(moves[i].state.id, i);
         }
 
         const auto settle =
@@ -235,16 +123,9 @@ Foam::captureCriterion::captureCriterion
 :
     displacement_
     (
-        dict.found("displacement")
-      ? ellipsoidProperties::number<scalar>(dict, "displacement", above(0))
-      : 0
+        ellipsoidProperties::number(dict, "displacement", above(0), 0.0)
     ),
-    speed_
-    (
-        dict.found("speed")
-      ? ellipsoidProperties::number<scalar>(dict, "speed", above(0))
-      : 0
-    ),
+    speed_(ellipsoidProperties::number(dict, "speed", above(0), 0.0)),
     speedFraction_
     (
         ellipsoidProperties::number(dict, "speedFraction", above(0), 0.01)
@@ -305,6 +186,43 @@ Foam::captureCriterion::captureCriterion
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+bool Foam::captureCriterion::stays
+(
+    const cellState& was,
+    const scalar end,
+    cellState& cell
+) const
+{
+    const scalar dt = end - was.time;
+
+    if (displacement_ > 0)
+    {
+        if (was.fate == cellState::waiting)
+        {
+            cell.place = was.unfolded();
+        }
+        if (mag(cell.unfolded() - cell.place) < displacement_)
+        {
+            cell.slowTime += dt;
+            cell.imbalance =
+                mag(cell.netImpulse)/max(mag(cell.dragImpulse), VSMALL);
+            return true;
+        }
+        cell.settleAt(cell.unfolded());
+        return false;
+    }
+
+    if (mag(cell.unfolded() - was.unfolded())/dt < slowSpeed_)
+    {
+        cell.slowTime += dt;
+        return true;
+    }
+    cell.slowTime = 0;
+    cell.imbalance = 0;
+    return false;
+}
+
+
 void Foam::captureCriterion::judge
 (
     const UList<cellState>& before,
@@ -315,7 +233,7 @@ void Foam::captureCriterion::judge
 {
     forAll(moves, i)
     {
-        const cellState& cell = moves[i].state;
+        cellState& cell = moves[i].state;
         const bool waits = cell.fate == cellState::waiting;
 
         if (before[i].fate == cellState::waiting && !waits)
@@ -330,23 +248,31 @@ void Foam::captureCriterion::judge
             const auto fate = cellState::fateType(cell.fate);
             events.append(cellEvent{cellState::fateNames[fate], cell});
         }
-    }
 
-    if (displacement_ > 0)
-    {
-        judgeConfinement(before, moves, end, displacement_, events);
-    }
-    else
-    {
-        judgeSpeed(before, moves, end, slowSpeed_, events);
+        if
+        (
+            !waits && !moves[i].gone() && !stays(before[i], end, cell)
+         && cell.fate != cellState::inFlight
+        )
+        {
+            cell.fate = cellState::inFlight;
+            events.append(cellEvent{"released", cell});
+            cell.patch = -1;
+        }
     }
 
     judgeHeld(moves, holdTime_, sieves_, events);
 
-    if (displacement_ > 0)
+    // From now on the place of one that was confined for so long is where it is
+    for (cellSweep& move : moves)
     {
-        renewPlaces(moves, holdTime_);
+        if (displacement_ > 0 && move.state.slowTime >= holdTime_)
+        {
+            move.state.slowTime = 0;
+            move.state.place = move.state.unfolded();
+        }
     }
 }
+
 
 // ************************************************************************* //

@@ -37,48 +37,34 @@ void Foam::captureStatistics::writeCells() const
             continue;
         }
 
-        os  << id << ',' << cell.injection.time;
-        for (const scalar x : cell.injection.body.x)
-        {
-            os << ',' << x;
-        }
-        for (const scalar q : cell.injection.body.q)
-        {
-            os << ',' << q;
-        }
-        os  << ',' << cellState::fateNames[fate] << ','
+        os  << id << ',' << cell.injection.time
+            << commas{cell.injection.body.x, 3}
+            << commas{cell.injection.body.q, 4}
+            << ',' << cellState::fateNames[fate] << ','
             << set_.patchName
                (
                    fate == cellState::inFlight ? -1 : cell.last.patch
                )
             << ',' << cell.last.time << ','
             << set_.patchName(cell.firstSieve) << ',';
-
         if (cell.firstSieve >= 0)
         {
             os << cell.firstCatch;
         }
-        os  << ',' << cell.last.deepest << ',' << cell.last.deepestCell
+        os << ',' << cell.last.deepest << ',' << cell.last.deepestCell
             << ',' << cell.planned << ',';
-
         if (fate == cellState::caught)
         {
             os << cell.last.imbalance;
         }
-        for (const scalar x : cell.last.body.x)
-        {
-            os << ',' << x;
-        }
+        os << commas{cell.last.body.x, 3};
         if (sizes)
         {
             os << ',' << cell.last.size.length << ',' << cell.last.size.width;
         }
         if (set_.unfolds)
         {
-            for (const scalar x : cell.last.unfolded().v_)
-            {
-                os << ',' << x;
-            }
+            os << commas{cell.last.unfolded().v_, 3};
         }
         os << '\n';
     }

@@ -69,10 +69,7 @@ void Foam::cellEvent::write(std::ostream& os, const tableSet& set) const
     }
     if (set.unfolds)
     {
-        for (const scalar x : now.unfolded().v_)
-        {
-            os << ',' << x;
-        }
+        os << commas{now.unfolded().v_, 3};
     }
     os << '\n';
 }

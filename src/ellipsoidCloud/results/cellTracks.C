@@ -48,60 +48,6 @@ namespace Foam
         std::copy_n(body.x, 3, cell.lastRow + 1);
         std::copy_n(body.q, 4, cell.lastRow + 4);
     }
-
-    //- Column of the fate, which is a name there and a number here
-    static const label fateColumn = 18;
-
-    //- Columns of tracks.csv that make an array
-    struct trackArray
-    {
-        const char* type;
-        const char* name;
-        label nComponents;
-        label firstColumn;
-    };
-
-    static const trackArray positions = { "Float64", "x", 3, 2 };
-
-    static const trackArray unfolded = { "Float64", "unfolded", 3, 20 };
-
-    static const trackArray pointData[] =
-    {
-        { "Float64", "t", 1, 0 },
-        { "Int32", "id", 1, 1 },
-        { "Float64", "U", 3, 5 },
-        { "Float64", "quaternion", 4, 8 },
-        { "Float64", "omega", 3, 12 },
-        { "Float64", "O", 3, 15 },
-        { "Int32", "fate", 1, fateColumn }
-    };
-
-    //- What an array has of a row of tracks.csv
-    static void writeColumns
-    (
-        std::ostream& os,
-        const std::string& row,
-        const trackArray& array
-    )
-    {
-        const auto fields = stringOps::split(row, ',');
-
-        for (label d = 0; d < array.nComponents; ++d)
-        {
-            const label column = array.firstColumn + d;
-            const std::string text(fields[column].str());
-
-            os << (d ? " " : "");
-            if (column == fateColumn)
-            {
-                os << label(cellState::fateNames[text]);
-            }
-            else
-            {
-                os << text;
-            }
-        }
-    }
 }
 
 
@@ -260,23 +206,13 @@ void Foam::cellTracks::flush()
 
     for (const row& r : rows)
     {
-        os << r[0] << ',' << label(r[1]);
-
-        for (label i = 2; i < 15; ++i)
-        {
-            os << ',' << r[i];
-        }
-
         const vector O(longAxis(&r[8]));
 
-        os  << ',' << O.x() << ',' << O.y() << ',' << O.z()
+        os  << r[0] << ',' << label(r[1]) << commas{&r[2], 13}
+            << commas{O.v_, 3}
             << ',' << cellState::fateNames[cellState::fateType(label(r[15]))]
-            << ',' << set_.patchName(label(r[16]));
-        for (label i = 17; set_.unfolds && i < 20; ++i)
-        {
-            os << ',' << r[i];
-        }
-        os << '\n';
+            << ',' << set_.patchName(label(r[16]))
+            << commas{&r[17], set_.unfolds ? 3 : 0} << '\n';
     }
 
     file.flush();
@@ -309,10 +245,7 @@ void Foam::cellTracks::writeVTP
     {
         const ellipsoid_options options
         (
-            cellPopulation::optionsOf
-            (
-                set_.population.properties().options(), sizeOf(cell.first)
-            )
+            set_.population.optionsOf(sizeOf(cell.first))
         );
         std::ostringstream text;
         text.precision(9);
@@ -330,30 +263,42 @@ void Foam::cellTracks::writeVTP
     std::ofstream os(vtp);
     vtkPolyData polyData(os, "Lines", ends);
 
-    const auto write =
-        [&](const trackArray& array)
+    // Columns of tracks.csv as an array
+    const auto copy =
+        [&](const char* type, const char* name, const label n, const label from)
         {
-            polyData.array
-            (
-                array.type,
-                array.name,
-                array.nComponents,
+            const auto fields =
                 [&](const label i)
                 {
-                    writeColumns(os, rows[i], array);
-                }
-            );
+                    const auto all = stringOps::split(rows[i], ',');
+                    for (label d = 0; d < n; ++d)
+                    {
+                        os  << (d ? " " : "") << all[from + d].str();
+                    }
+                };
+            polyData.array(type, name, n, fields);
         };
 
-    write(positions);
+    copy("Float64", "x", 3, 2);
     polyData.pointData();
-    for (const trackArray& array : pointData)
-    {
-        write(array);
-    }
+    copy("Float64", "t", 1, 0);
+    copy("Int32", "id", 1, 1);
+    copy("Float64", "U", 3, 5);
+    copy("Float64", "quaternion", 4, 8);
+    copy("Float64", "omega", 3, 12);
+    copy("Float64", "O", 3, 15);
+    polyData.array
+    (
+        "Int32", "fate", 1,
+        [&](const label i)
+        {
+            const word name(stringOps::split(rows[i], ',')[18].str());
+            os << label(cellState::fateNames[name]);
+        }
+    );
     if (set_.unfolds)
     {
-        write(unfolded);
+        copy("Float64", "unfolded", 3, 20);
     }
     polyData.array
     (

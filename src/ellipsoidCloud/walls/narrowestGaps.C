@@ -10,9 +10,10 @@ License
 
 #include "narrowestGaps.H"
 #include "domainImages.H"
-#include "DynamicList.H"
+#include "indexedOctree.H"
 #include "polyMesh.H"
 #include "SubField.H"
+#include "treeDataFace.H"
 #include "wallPolyPatch.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -20,76 +21,17 @@ License
 namespace Foam
 {
 
-static labelList wallsAndSeams
+//- From a point on a face to the wall that a unit vector leads to [m], seen
+//  from so far off the face; GREAT if that does not face it
+static scalar widthAlong
 (
-    const polyBoundaryMesh& patches,
-    const domainImages& images
-)
-{
-    DynamicList<label> faces;
-
-    for (const polyPatch& patch : patches)
-    {
-        if (isA<wallPolyPatch>(patch) || images.at(patch.index()))
-        {
-            for (label i = 0; i < patch.size(); ++i)
-            {
-                faces.append(patch.start() + i);
-            }
-        }
-    }
-
-    return labelList(std::move(faces));
-}
-
-
-// A search tree does not bear faces that lie on its boundary
-static treeBoundBox widened(const boundBox& box)
-{
-    treeBoundBox wide(box);
-    wide.min() -= vector::uniform(1e-3*box.mag());
-    wide.max() += vector::uniform(1e-3*box.mag());
-
-    return wide;
-}
-
-} // End namespace Foam
-
-
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
-
-Foam::narrowestGaps::narrowestGaps
-(
+    const indexedOctree<treeDataFace>& faces,
     const polyMesh& mesh,
-    const domainImages& images
-)
-:
-    mesh_(mesh),
-    images_(images),
-    faces_
-    (
-        treeDataFace
-        (
-            false,
-            mesh,
-            wallsAndSeams(mesh.boundaryMesh(), images)
-        ),
-        widened(boundBox(mesh.points(), false)),
-        8,
-        10,
-        3
-    )
-{}
-
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-Foam::scalar Foam::narrowestGaps::widthAlong
-(
+    const domainImages& images,
     point from,
     vector along,
     const scalar off
-) const
+)
 {
     // A wall faces another if their normals are within 60 degrees of opposite:
     // the sides of a corner do not
@@ -97,14 +39,14 @@ Foam::scalar Foam::narrowestGaps::widthAlong
     // Beyond a period of the device walls come again
     const label mostSeams = 4;
 
-    const scalar far = mesh_.bounds().mag();
+    const scalar far = mesh.bounds().mag();
     scalar width = 0;
 
     for (label i = 0; i <= mostSeams; ++i)
     {
         const pointIndexHit hit
         (
-            faces_.findLine(from + off*along, from + far*along)
+            faces.findLine(from + off*along, from + far*along)
         );
 
         if (!hit.hit())
@@ -113,13 +55,13 @@ Foam::scalar Foam::narrowestGaps::widthAlong
         }
         width += mag(hit.hitPoint() - from);
 
-        const label facei = faces_.shapes().faceLabels()[hit.index()];
+        const label facei = faces.shapes().faceLabels()[hit.index()];
         const domainImages::seam* seam =
-            images_.at(mesh_.boundaryMesh().whichPatch(facei));
+            images.at(mesh.boundaryMesh().whichPatch(facei));
 
         if (!seam)
         {
-            const vector& area = mesh_.faceAreas()[facei];
+            const vector& area = mesh.faceAreas()[facei];
 
             return (area & along) > facing*mag(area) ? width : GREAT;
         }
@@ -130,34 +72,67 @@ Foam::scalar Foam::narrowestGaps::widthAlong
     return GREAT;
 }
 
+} // End namespace Foam
 
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::narrowestGaps::gap Foam::narrowestGaps::at(const label patchi) const
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+Foam::List<Foam::narrowGap> Foam::narrowestGaps
+(
+    const polyMesh& mesh,
+    const domainImages& images,
+    const labelUList& patches
+)
 {
-    const polyPatch& patch = mesh_.boundaryMesh()[patchi];
-    const vectorField::subField centres(patch.faceCentres());
-    const vectorField::subField areas(patch.faceAreas());
-
-    gap narrowest{GREAT, Zero, GREAT};
-
-    forAll(patch, i)
+    DynamicList<label> limits;
+    for (const polyPatch& patch : mesh.boundaryMesh())
     {
-        const scalar area = mag(areas[i]);
-        const vector n(areas[i]/area);
-        const scalar width = widthAlong(centres[i], -n, 1e-4*sqrt(area));
-
-        if (width < narrowest.width)
+        if (isA<wallPolyPatch>(patch) || images.at(patch.index()))
         {
-            const label celli = patch.faceCells()[i];
-            const scalar thickness =
-                2*mag((centres[i] - mesh_.cellCentres()[celli]) & n);
-
-            narrowest = gap{width, centres[i] - 0.5*width*n, width/thickness};
+            limits.append(identity(patch.size(), patch.start()));
         }
     }
 
-    return narrowest;
+    // A search tree does not bear faces that lie on its boundary
+    treeBoundBox box(boundBox(mesh.points(), false));
+    box.inflate(1e-3);
+    const indexedOctree<treeDataFace> faces
+    (
+        treeDataFace(false, mesh, limits), box, 8, 10, 3
+    );
+
+    List<narrowGap> gaps(patches.size(), narrowGap{GREAT, Zero, GREAT});
+
+    forAll(patches, k)
+    {
+        const polyPatch& patch = mesh.boundaryMesh()[patches[k]];
+        const vectorField::subField centres(patch.faceCentres());
+        const vectorField::subField areas(patch.faceAreas());
+
+        forAll(patch, i)
+        {
+            const scalar area = mag(areas[i]);
+            const vector n(areas[i]/area);
+            const scalar width = widthAlong
+            (
+                faces, mesh, images, centres[i], -n, 1e-4*sqrt(area)
+            );
+
+            if (width < gaps[k].width)
+            {
+                const label celli = patch.faceCells()[i];
+                const scalar thickness =
+                    2*mag((centres[i] - mesh.cellCentres()[celli]) & n);
+
+                gaps[k] = narrowGap
+                {
+                    width, centres[i] - 0.5*width*n, width/thickness
+                };
+            }
+        }
+    }
+
+    return gaps;
 }
 
 

@@ -156,36 +156,41 @@ Foam::triSurface Foam::wallFacets::made
 {
     const boundBox box(mesh.points(), false);
     const scalar far = known_ + beyond_;
-    const auto isWall =
-        [](const polyPatch& pp) { return isA<wallPolyPatch>(pp); };
-    const auto isMirror =
-        [&](const polyPatch& pp)
+    const auto merged =
+        [&](const triSurface& of)
         {
-            const domainImages::seam* seam = images.at(pp.index());
-            return seam && seam->mirrors();
+            return flatMerged
+            (
+                images.empty() ? of : withImages(of, images, box, far),
+                2*regionSize_
+            );
         };
 
-    const triSurface walls(triangulate(mesh, isWall));
-
-    if (images.empty())
-    {
-        return flatMerged(walls, 2*regionSize_);
-    }
-
-    const triSurface all
+    const triSurface walls
     (
-        flatMerged(withImages(walls, images, box, far), 2*regionSize_)
-    );
-    const triSurface planes(triangulate(mesh, isMirror));
-
-    return
-        mirrors && planes.size()
-      ? both
+        merged
         (
-            all,
-            flatMerged(withImages(planes, images, box, far), 2*regionSize_)
+            triangulate
+            (
+                mesh,
+                [](const polyPatch& pp) { return isA<wallPolyPatch>(pp); }
+            )
         )
-      : all;
+    );
+    const triSurface planes
+    (
+        triangulate
+        (
+            mesh,
+            [&](const polyPatch& pp)
+            {
+                const domainImages::seam* seam = images.at(pp.index());
+                return mirrors && seam && seam->mirrors();
+            }
+        )
+    );
+
+    return planes.size() ? both(walls, merged(planes)) : walls;
 }
 
 

@@ -497,7 +497,7 @@ int main(int argc, char *argv[])
     }
 
     undecomposedFlow undecomposed(mesh);
-    undecomposed.gather(U, p, phi);
+    undecomposed.gather({U, p, phi});
 
     scalar clock = seconds();
     frozenFlow flow

@@ -366,8 +366,8 @@ int main(int argc, char *argv[])
     const cellPopulation population(properties);
 
     undecomposedFlow whole(mesh);
-    whole.gather(U, p, phi);
-    cellDomain domain(properties, whole, autoPtr<volVectorField>(), false);
+    whole.gather({U, p, phi});
+    cellDomain domain(population, whole, autoPtr<volVectorField>(), false);
     domain.flow.renew(whole, properties.options().fluid_density);
     const scalar slowSpeed =
         ellipsoidProperties::number

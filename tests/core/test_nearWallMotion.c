@@ -1,0 +1,126 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    test_nearWallMotion.c - motion with the drag near walls made of facets.
+*/
+#include "nearWallTest.h"
+
+static ellipsoid_facet_cache cache;
+
+/*
+    The paper's cell, weighed down by 2 pN, comes down on a floor in a shear
+    flow, touches it and rolls on: with and without inertia the same way.
+    Inertia acts for 1e-7 s; 2 nm as in the flow without walls
+    (test_inertialess.c).
+*/
+static void test_coming_down(void **unused)
+{
+    wall_mesh mesh;
+    ellipsoid_state end[2];
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_floor(&mesh, 0, 1, 1);
+    wall_mesh_finish(&mesh);
+    for (int n = 0; n < 2; n++)
+    {
+        test_quadratic flow = {.answer = 0};
+        const ellipsoid_surroundings s = around(&mesh, &flow);
+        ellipsoid_options o = near_walls();
+        ellipsoid_state state = {.x = {0, 0, 3e-6}, .q = {0.3, 0.1, 0.2, 0.9}};
+        ellipsoid_controller controller = {0};
+        ellipsoid_statistics statistics = {0};
+        ellipsoid_model model;
+        double t = 0;
+
+        flow.g[1][2] = 20;
+        o.motion =
+            n ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL;
+        o.contact = 1;
+        o.external_force[2] = -2e-12;
+        model = test_model(&o);
+        ellipsoid_normalise(state.q);
+        ellipsoid_facet_cache_clear(&cache);
+        assert_ok(ellipsoid_balance(&model, &s, &state, &cache));
+        assert_ok(ellipsoid_advance(
+            &(ellipsoid_member){&model, &s, &state, &controller, &cache, NULL,
+                                &statistics},
+            &t, 0.5, NULL));
+        print_message("%ld steps, %ld rejected, deepest %.1e m\n",
+                      statistics.accepted, statistics.rejected,
+                      statistics.deepest);
+        assert_true(statistics.deepest > 0);
+        end[n] = state;
+    }
+    assert_near(test_distance(end[0].x, end[1].x, 3), 0, 2e-9);
+    assert_near(test_distance(end[0].q, end[1].q, 4), 0, 1e-3);
+    wall_mesh_free(&mesh);
+}
+
+/* Two cells that overlap by some nanometres near a floor are pushed apart, with
+   and without inertia the same way. Those with inertia start
+   from rest: 1e-7 s at some mm/s, 1 nm of the 20 nm. */
+static void test_two_cells(void **unused)
+{
+    static ellipsoid_facet_cache caches[2];
+    static double memory[200000];
+    ellipsoid_state end[2][2];
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_floor(&mesh, 0, 1, 1);
+    wall_mesh_finish(&mesh);
+    assert_true(ellipsoid_group_size(2) <= sizeof(memory));
+    for (int n = 0; n < 2; n++)
+    {
+        test_quadratic rest = {.answer = 0};
+        ellipsoid_surroundings s[2] = {around(&mesh, &rest),
+                                       around(&mesh, &rest)};
+        ellipsoid_options o = near_walls();
+        ellipsoid_controller controller[2] = {{0}};
+        ellipsoid_statistics statistics[2] = {{0}};
+        ellipsoid_member members[2];
+        ellipsoid_model model;
+        double t = 0;
+        int which;
+
+        o.motion =
+            n ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL;
+        o.contact = 1;
+        model = test_model(&o);
+        for (int i = 0; i < 2; i++)
+        {
+            const ellipsoid_state state = {
+                .x = {i * 0.88e-6, i * 0.2e-6, 0.7e-6}, .q = {0, 0, 0, 1}};
+
+            s[i].id = (uint32_t)i;
+            end[n][i] = state;
+            ellipsoid_facet_cache_clear(&caches[i]);
+            members[i] = (ellipsoid_member){
+                &model,     &s[i], &end[n][i],    &controller[i],
+                &caches[i], NULL,  &statistics[i]};
+        }
+        assert_ok(ellipsoid_advance_group(2, members, &t, 1e-2, NULL, memory,
+                                          &which));
+    }
+    assert_true(end[0][1].x[0] - end[0][0].x[0] > 0.89e-6);
+    for (int i = 0; i < 2; i++)
+    {
+        assert_near(test_distance(end[0][i].x, end[1][i].x, 3), 0, 1e-9);
+        assert_near(test_distance(end[0][i].q, end[1][i].q, 4), 0, 1e-4);
+    }
+    wall_mesh_free(&mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_coming_down),
+        cmocka_unit_test(test_two_cells),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
