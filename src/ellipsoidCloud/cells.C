@@ -37,6 +37,7 @@ Description
 #include "motion/overlapGroups.C"
 
 #include "occupancy/occupancy.C"
+#include "occupancy/occupancyTrials.C"
 
 #include "results/appendedFile.C"
 #include "results/captureCriterion.C"

@@ -45,6 +45,9 @@ struct Foam::groupAdvance::member
     point from;
     scalar since;
 
+    //- It stops so far from there [m]; 0: it does not
+    scalar reach;
+
 
     // Member Functions
 
@@ -88,7 +91,13 @@ struct Foam::groupAdvance::member
             {
                 m.path.append(segment{m.index, *step, tet});
             }
-            return !m.image.isIdentity();
+            return !m.image.isIdentity() || m.isFar();
+        }
+
+        //- Has it come so far that it stops?
+        bool isFar() const
+        {
+            return reach > 0 && mag(cell.state.centre() - from) >= reach;
         }
 
         //- Put a cell that has passed a plane of symmetry or a cyclic patch
@@ -239,6 +248,7 @@ const ellipsoid_model& Foam::groupAdvance::clamped(const label id)
         options.density *= factor;
         options.kinematic_viscosity *= factor;
         options.buoyancy = 0;
+        options.brownian = options.brownian && !onTrial();
 
         autoPtr<ellipsoid_model> model(new ellipsoid_model);
         ellipsoid_model_init(model.get(), &options);
@@ -246,6 +256,31 @@ const ellipsoid_model& Foam::groupAdvance::clamped(const label id)
     }
 
     return *clamped_[id];
+}
+
+
+const ellipsoid_model& Foam::groupAdvance::model(const label id)
+{
+    if (isClamped(id))
+    {
+        return clamped(id);
+    }
+    if (!onTrial() || !population_.model(id).options.brownian)
+    {
+        return population_.model(id);
+    }
+
+    if (!silent_.found(id))
+    {
+        ellipsoid_options options(population_.model(id).options);
+        options.brownian = 0;
+
+        autoPtr<ellipsoid_model> silent(new ellipsoid_model);
+        ellipsoid_model_init(silent.get(), &options);
+        silent_.set(id, silent.ptr());
+    }
+
+    return *silent_[id];
 }
 
 
@@ -302,12 +337,11 @@ void Foam::groupAdvance::enter
             i,
             new member
             {
-                group[i], cell,
-                isClamped(id) ? clamped(id) : population_.model(id), domain_,
-                properties.pushing(), tried < 0, path,
+                group[i], cell, model(id), domain_,
+                properties.pushing() || onTrial(), !onTrial(), path,
                 {domain_, frozenFlow::probe{cell.state.tet, -1}},
                 frozenFlow::pInside, isometry(), ellipsoid_step(),
-                cell.state.centre(), cell.state.time
+                cell.state.centre(), cell.state.time, id == tried ? reach : 0
             }
         );
         if (isClamped(id) || (pull && id == tried))
@@ -371,10 +405,12 @@ bool Foam::groupAdvance::integrate
         }
 
         label nLeft = 0;
+        bool isOver = false;
         forAll(members, i)
         {
             member& m = *static_cast<member*>(members[i].observer_context);
 
+            isOver = isOver || m.isFar();
             m.cell.state.time = t;
             m.cell.state.tet = m.here.home.tet;
 
@@ -400,7 +436,7 @@ bool Foam::groupAdvance::integrate
                 members[nLeft++] = members[i];
             }
         }
-        members.setSize(nLeft);
+        members.setSize(isOver ? 0 : nLeft);
     }
 
     return true;

@@ -1,0 +1,224 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "occupancy.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- In bead radii: cells farther apart do not meet within a hold time, for
+    //  one of them is held and the other in contact with it or slow
+    static const scalar nearGap = 0.5;
+
+    //- What the flow does to a held cell is the same within this part
+    static const scalar sameWrench = 0.05;
+
+    //- Of the hold time: the first part of a trial; each is twice the one
+    //  before, the last what is left
+    static const scalar firstPart = 1./64;
+
+    //- A trial is over when at this times the pace of its last part the cell
+    //  would not come as far as it takes to go
+    static const scalar haste = 2;
+
+    //- How far a cell has come since its sweep began [m]
+    static scalar way(const cellSweep& cell)
+    {
+        return
+            mag(cell.state.centre() + cell.passed - pointOf(cell.start.x));
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+bool Foam::occupancy::isNear(const cellState& a, const cellState& b) const
+{
+    const scalar horizon =
+        nearGap*population_.properties().options().bead_radius;
+
+    return
+        population_.properties().pushing()
+     && b.fate != cellState::waiting
+     && ellipsoid_cell_gap
+        (
+            &population_.model(a.id), a.body.x, a.body.q,
+            &population_.model(b.id), b.body.x, b.body.q,
+            horizon
+        ) < horizon;
+}
+
+
+bool Foam::occupancy::pushed
+(
+    const cellState& cell,
+    const UList<cellState>& cells
+) const
+{
+    for (const cellState& other : cells)
+    {
+        if (!held_.found(other.id) && isNear(cell, other))
+        {
+            return true;
+        }
+    }
+
+    return false;
+}
+
+
+bool Foam::occupancy::moves
+(
+    const cellState& cell,
+    const UList<cellState>& cells,
+    const heldWrench* pull
+)
+{
+    DynamicList<cellSweep> group;
+    label own = 0;
+
+    for (const cellState& other : cells)
+    {
+        if (other.id == cell.id || isNear(cell, other))
+        {
+            own = other.id == cell.id ? group.size() : own;
+            group.append(cellSweep());
+            group.last().state = other;
+        }
+    }
+
+    trials_->tried = cell.id;
+    trials_->pull = pull;
+    trials_->reach = reach();
+
+    scalar part = firstPart;
+    for (scalar left = 1; left > 0; part *= 2)
+    {
+        part = min(part, left);
+        left -= part;
+
+        DynamicList<label> present;
+        DynamicList<groupAdvance::segment> path;
+        forAll(group, i)
+        {
+            if (!group[i].gone())
+            {
+                group[i].begin();
+                present.append(i);
+            }
+        }
+        trials_->advance
+        (
+            group, present, cell.time + (1 - left)*criterion_.holdTime(),
+            false, path
+        );
+
+        const scalar come = mag(group[own].state.centre() - cell.centre());
+        if (group[own].gone() || come >= reach())
+        {
+            return true;
+        }
+
+        scalar farthest = come + haste*way(group[own])*left/part;
+        for (const cellSweep& other : group)
+        {
+            if (!other.gone())
+            {
+                farthest = max(farthest, haste*way(other)*left/part);
+            }
+        }
+        if (farthest < reach())
+        {
+            return false;
+        }
+    }
+
+    return false;
+}
+
+
+bool Foam::occupancy::pulledOff
+(
+    const cellState& cell,
+    const UList<cellState>& cells
+)
+{
+    const heldWrench whole(held_[cell.id]);
+    const auto from = letGo_.cfind(cell.id);
+
+    if (!moves(cell, cells, setting_.flow == SOLVED ? &whole : nullptr))
+    {
+        return false;
+    }
+    if (setting_.flow != SOLVED || !from.found())
+    {
+        return true;
+    }
+
+    const heldWrench& withstood = (*from).pull;
+    const heldWrench excess
+    {
+        whole.force - withstood.force, whole.torque - withstood.torque
+    };
+
+    return moves(cell, cells, &excess);
+}
+
+
+bool Foam::occupancy::hasBorne(const cellState& cell) const
+{
+    const auto before = borne_.cfind(cell.id);
+    if (setting_.flow != SOLVED || !before.found())
+    {
+        return false;
+    }
+
+    const scalar* semiAxes = population_.model(cell.id).options.semi_axes;
+    const scalar arm = max(semiAxes[0], max(semiAxes[1], semiAxes[2]));
+    const heldWrench& now = held_[cell.id];
+    const heldWrench& then = *before;
+
+    return
+        arm*mag(now.force - then.force) + mag(now.torque - then.torque)
+     <= sameWrench*(arm*mag(then.force) + mag(then.torque));
+}
+
+
+bool Foam::occupancy::stays
+(
+    const cellState& cell,
+    const UList<cellState>& cells,
+    const bool afterSolution
+)
+{
+    const bool isPushed = pushed(cell, cells);
+    const bool asked =
+        isPushed
+      ? afterSolution || criterion_.isDue(cell)
+      : afterSolution && !hasBorne(cell);
+
+    if (!asked)
+    {
+        return true;
+    }
+    if (pulledOff(cell, cells))
+    {
+        return false;
+    }
+    if (!isPushed)
+    {
+        borne_.set(cell.id, held_[cell.id]);
+    }
+
+    return true;
+}
+
+
+// ************************************************************************* //
