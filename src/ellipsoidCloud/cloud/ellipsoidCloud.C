@@ -165,19 +165,24 @@ void Foam::ellipsoidCloud::checkImages() const
 
     for (const domainImages::seam& seam : images.seams())
     {
+        const bool unity =
+            properties_.scheme() == frozenFlow::stPartitionOfUnity;
         const char* unable =
-            properties_.section("occupancy").getOrDefault("active", false)
+            unity
+          ? "interpolation is partitionOfUnity"
+          : properties_.section("occupancy").getOrDefault("active", false)
           ? "occupancy is active"
           : properties_.scheme() == frozenFlow::stDivergenceFree
           ? "interpolation is divergenceFree"
           : nullptr;
 
-        if (!seam.mirrors() && unable)
+        if (unable && (unity || !seam.mirrors()))
         {
             const word& name = mesh.boundaryMesh()[seam.patch].name();
 
             FatalIOErrorInFunction(properties_)
-                << "cells pass cyclic patch " << name << ", and " << unable
+                << "cells pass " << (seam.mirrors() ? "symmetry" : "cyclic")
+                << " patch " << name << ", and " << unable
                 << nl << "    Neither held cells nor that velocity know of the"
                 << " other side: set no occupancy and another interpolation;"
                 << " or, if no cell comes there, unreached (" << name << ");"

@@ -26,7 +26,8 @@ const Foam::Enum<Foam::frozenFlow::schemeType> Foam::frozenFlow::schemeNames
 ({
     { schemeType::stCellPoint, "cellPoint" },
     { schemeType::stCellPointQuadratic, "cellPointQuadratic" },
-    { schemeType::stDivergenceFree, "divergenceFree" }
+    { schemeType::stDivergenceFree, "divergenceFree" },
+    { schemeType::stPartitionOfUnity, "partitionOfUnity" }
 });
 
 
@@ -68,6 +69,7 @@ void Foam::frozenFlow::sampleOf
 (
     const UList<flowVertex>& vertices,
     const UList<flowTetExcess>& excess,
+    const UList<quadratic>& fits,
     tetCoordinates& c,
     const bool derivatives,
     ellipsoid_flow_sample& sample
@@ -81,20 +83,45 @@ void Foam::frozenFlow::sampleOf
             return vertices[i].pressureGradient;
         };
 
+    copy(c.back(c.value<vector>(gradp)), sample.pressure_gradient);
+    if (derivatives)
+    {
+        copy(c.back(c.derivatives(gradp)), sample.pressure_jacobian);
+    }
+
+    if (scheme_ == stPartitionOfUnity)
+    {
+        vector value;
+        tensor G;
+        symmTensor curvature[3];
+
+        unityAt(fits, c, value, &G, derivatives ? curvature : nullptr);
+        copy(value, sample.velocity);
+        copy(G, sample.gradient);
+        if (derivatives)
+        {
+            copy(G, sample.velocity_jacobian);
+        }
+        for (direction i = 0; derivatives && i < 3; ++i)
+        {
+            copy(tensor(curvature[i]), sample.gradient_jacobian[i]);
+        }
+        return;
+    }
+
     velocityOf
     (
         vertices,
         excess,
+        fits,
         c,
         sample.velocity,
         derivatives ? sample.velocity_jacobian : nullptr
     );
     copy(c.back(c.value<tensor>(gradient)), sample.gradient);
-    copy(c.back(c.value<vector>(gradp)), sample.pressure_gradient);
 
     if (derivatives)
     {
-        copy(c.back(c.derivatives(gradp)), sample.pressure_jacobian);
         std::fill_n(&sample.gradient_jacobian[0][0][0], 27, scalar(0));
 
         for (int a = 0; a < 4; ++a)
@@ -118,6 +145,7 @@ void Foam::frozenFlow::velocityOf
 (
     const UList<flowVertex>& vertices,
     const UList<flowTetExcess>& excess,
+    const UList<quadratic>& fits,
     tetCoordinates& c,
     scalar velocity[3],
     scalar (*jacobian)[3]
@@ -152,6 +180,20 @@ void Foam::frozenFlow::velocityOf
         return;
     }
 
+    if (scheme_ == stPartitionOfUnity)
+    {
+        vector value;
+        tensor G;
+
+        unityAt(fits, c, value, jacobian ? &G : nullptr, nullptr);
+        copy(value, velocity);
+        if (jacobian)
+        {
+            copy(G, jacobian);
+        }
+        return;
+    }
+
     const auto u =
         [&](const label i) -> const vector& { return vertices[i].u; };
 
@@ -178,6 +220,56 @@ void Foam::frozenFlow::velocityOf
     if (jacobian)
     {
         copy(c.back(derivatives), jacobian);
+    }
+}
+
+
+void Foam::frozenFlow::unityAt
+(
+    const UList<quadratic>& fits,
+    const tetCoordinates& c,
+    vector& velocity,
+    tensor* gradient,
+    symmTensor* curvature
+) const
+{
+    // Beyond an open patch it goes on linearly
+    scalar inside[4];
+    std::copy_n(c.weight, 4, inside);
+    const bool beyond = *std::min_element(inside, inside + 4) < -1e-9;
+    if (beyond)
+    {
+        toFace(inside);
+    }
+
+    point x(Zero);
+    vector past(Zero);
+    for (int a = 0; a < 4; ++a)
+    {
+        const vector d(vertices_[c.vertices[a]].x - c.origin);
+        x += inside[a]*d;
+        past += (c.weight[a] - inside[a])*d;
+    }
+    x += c.origin;
+
+    tensor slope(Zero);
+    const label celli = c.vertices[0];
+    unity_.evaluate
+    (
+        fits, celli, x, velocity, gradient || beyond ? &slope : nullptr,
+        curvature
+    );
+    if (beyond)
+    {
+        velocity += slope & past;
+    }
+    if (gradient)
+    {
+        *gradient = slope;
+    }
+    for (direction i = 0; curvature && beyond && i < 3; ++i)
+    {
+        curvature[i] = Zero;
     }
 }
 
@@ -264,6 +356,7 @@ void Foam::frozenFlow::renew
 {
     vertices_.close();
     excess_.close();
+    fits_.close();
 
     if (Pstream::master())
     {
@@ -274,6 +367,7 @@ void Foam::frozenFlow::renew
 
     vertices_.share();
     excess_.share();
+    fits_.share();
 }
 
 
@@ -289,12 +383,14 @@ void Foam::frozenFlow::advance
     {
         laterVertices_.copy(vertices_);
         laterExcess_.copy(excess_);
+        laterFits_.copy(fits_);
     }
 
     // What was the flow at the start of the last step is that at the end of this
     renew(undecomposed, rho);
     laterVertices_.swap(vertices_);
     laterExcess_.swap(excess_);
+    laterFits_.swap(fits_);
 
     start_ = start;
     end_ = end;
@@ -309,7 +405,7 @@ void Foam::frozenFlow::sample
     ellipsoid_flow_sample& sample
 ) const
 {
-    sampleOf(vertices_, excess_, c, derivatives, sample);
+    sampleOf(vertices_, excess_, fits_, c, derivatives, sample);
 
     if (laterVertices_.empty())
     {
@@ -317,7 +413,10 @@ void Foam::frozenFlow::sample
     }
 
     ellipsoid_flow_sample later = {};
-    sampleOf(laterVertices_, laterExcess_, c, derivatives, later);
+    sampleOf
+    (
+        laterVertices_, laterExcess_, laterFits_, c, derivatives, later
+    );
 
     const auto mix =
         [&](double* value, const double* at, const int n, double* rate)
@@ -365,7 +464,7 @@ void Foam::frozenFlow::velocity
     scalar (*jacobian)[3]
 ) const
 {
-    velocityOf(vertices_, excess_, c, velocity, jacobian);
+    velocityOf(vertices_, excess_, fits_, c, velocity, jacobian);
 
     if (laterVertices_.empty())
     {
@@ -378,6 +477,7 @@ void Foam::frozenFlow::velocity
     (
         laterVertices_,
         laterExcess_,
+        laterFits_,
         c,
         later,
         jacobian ? laterJacobian : nullptr

@@ -507,6 +507,10 @@ void Foam::frozenFlow::setFlow
         matchFluxes(undecomposed);
         makeExcess(undecomposed);
     }
+    else if (scheme_ == stPartitionOfUnity)
+    {
+        unity_.setFits(undecomposed.U(), baffles, fits_);
+    }
 }
 
 
@@ -572,10 +576,23 @@ void Foam::frozenFlow::make
         }
     }
 
+    if (scheme_ == stPartitionOfUnity)
+    {
+        unity_.make
+        (
+            master ? &undecomposed.mesh() : nullptr,
+            baffles.get(),
+            tets_,
+            vertices_
+        );
+        fits_.reset(unity_.nFits());
+    }
+
     cellTets_.share();
     tets_.share();
     vertices_.share();
     excess_.share();
+    fits_.share();
     field_.share();
 }
 

@@ -9,7 +9,6 @@ License
 \*---------------------------------------------------------------------------*/
 #include "vertexFit.H"
 #include "baffleSides.H"
-#include "symmTensorField.H"
 #include "symmetryPlanePolyPatch.H"
 #include "symmetryPolyPatch.H"
 #include "volFields.H"
@@ -21,32 +20,6 @@ License
 
 namespace Foam
 {
-    //- A quadratic polynomial of a vector about a centre
-    struct quadratic
-    {
-        vector value;
-        tensor gradient;            // dv_i/dx_j
-        symmTensor curvature[3];    // d2v_i/dx_j dx_k
-
-        vector at(const vector& d) const
-        {
-            vector v(value + (gradient & d));
-            for (direction i = 0; i < 3; ++i)
-            {
-                v[i] += 0.5*(d & (curvature[i] & d));
-            }
-            return v;
-        }
-
-        tensor gradientAt(const vector& d) const
-        {
-            return gradient + tensor
-            (
-                curvature[0] & d, curvature[1] & d, curvature[2] & d
-            );
-        }
-    };
-
     //- The faces of walls at each vertex that is a point, and what they do
     class wallsAtVertices
     {
@@ -124,39 +97,6 @@ namespace Foam
             gradient = flat ? tensor((slope - n*(n & slope))*n) : tensor(Zero);
         }
     };
-
-    //- Second moments of the cells about their centres by volume [m2]
-    static symmTensorField secondMoments(const polyMesh& mesh)
-    {
-        symmTensorField moments(mesh.nCells(), Zero);
-        scalarField volumes(mesh.nCells(), Zero);
-
-        forAll(mesh.faces(), facei)
-        {
-            const face& f = mesh.faces()[facei];
-            for (label side = 0; side < 1 + mesh.isInternalFace(facei); ++side)
-            {
-                const label celli =
-                    side ? mesh.faceNeighbour()[facei]
-                  : mesh.faceOwner()[facei];
-                const point& c = mesh.cellCentres()[celli];
-
-                for (label i = 1; i < f.size() - 1; ++i)
-                {
-                    const vector a(mesh.points()[f[0]] - c);
-                    const vector b(mesh.points()[f[i]] - c);
-                    const vector d(mesh.points()[f[i + 1]] - c);
-                    const scalar volume = (side ? -1 : 1)*(a & (b ^ d));
-
-                    moments[celli] +=
-                        volume*(sqr(a) + sqr(b) + sqr(d) + sqr(a + b + d))/20;
-                    volumes[celli] += volume;
-                }
-            }
-        }
-
-        return moments/volumes;
-    }
 
     //- Least squares with columns for the three gradients, the six curvatures
     //  and the three components of the velocity
@@ -365,6 +305,51 @@ namespace Foam
 
         return fits;
     }
+}
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+Foam::symmTensorField Foam::secondMoments(const polyMesh& mesh)
+{
+    symmTensorField moments(mesh.nCells(), Zero);
+    scalarField volumes(mesh.nCells(), Zero);
+
+    forAll(mesh.faces(), facei)
+    {
+        const face& f = mesh.faces()[facei];
+        for (label side = 0; side < 1 + mesh.isInternalFace(facei); ++side)
+        {
+            const label celli =
+                side ? mesh.faceNeighbour()[facei]
+              : mesh.faceOwner()[facei];
+            const point& c = mesh.cellCentres()[celli];
+
+            for (label i = 1; i < f.size() - 1; ++i)
+            {
+                const vector a(mesh.points()[f[0]] - c);
+                const vector b(mesh.points()[f[i]] - c);
+                const vector d(mesh.points()[f[i + 1]] - c);
+                const scalar volume = (side ? -1 : 1)*(a & (b ^ d));
+
+                moments[celli] +=
+                    volume*(sqr(a) + sqr(b) + sqr(d) + sqr(a + b + d))/20;
+                volumes[celli] += volume;
+            }
+        }
+    }
+
+    return moments/volumes;
+}
+
+
+Foam::List<Foam::quadratic> Foam::cellFits
+(
+    const volVectorField& U,
+    const baffleSides& baffles
+)
+{
+    return fitCells(U, baffles, wallsAtVertices(U, baffles));
 }
 
 

@@ -271,8 +271,8 @@ figures summed(const std::vector<taken>& steps, const kindType kind)
         }
     }
     sum.median = medianOf(costs);
-    sum.mean = cost/sum.steps;
-    sum.perMs = cost/sum.span;
+    sum.mean = sum.steps ? cost/sum.steps : 0;
+    sum.perMs = sum.span > 0 ? cost/sum.span : 0;
     return sum;
 }
 
@@ -287,10 +287,8 @@ void print(const std::vector<std::vector<figures>>& repeats)
             std::vector<scalar> values;
             for (const std::vector<figures>& all : repeats)
             {
-                values.push_back
-                (
-                    all[kind].*figure/(ratio ? all[BULK].*figure : 1)
-                );
+                const scalar unit = ratio ? all[BULK].*figure : 1;
+                values.push_back(unit > 0 ? all[kind].*figure/unit : 0);
             }
             return medianOf(values);
         };
@@ -310,7 +308,7 @@ void print(const std::vector<std::vector<figures>>& repeats)
         std::printf
         (
             "%-20s %8ld %7.1f%% %8.0f", kindNames[kind], one.steps,
-            100.0*one.rejected/attempts, one.span
+            attempts ? 100.0*one.rejected/attempts : 0, one.span
         );
         for (const auto figure :
             {&figures::median, &figures::mean, &figures::perMs})
