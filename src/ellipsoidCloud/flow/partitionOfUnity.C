@@ -188,6 +188,7 @@ Foam::DynamicList<Foam::wallTriangle> Foam::partitionOfUnity::findTriangles
                     t.normal & (t.corners[0] - mesh.cellCentres()[celli]);
                 t.inverseSquare = 1/max(sqr(h), ROOTVSMALL);
                 t.cell = celli;
+                t.fit = celli;
                 triangles.append(t);
                 faces.append(facei);
             }
