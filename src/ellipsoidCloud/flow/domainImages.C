@@ -52,8 +52,8 @@ namespace Foam
     )
     {
         return
-            mag(a.A - b.A) < offness
-         && mag(a.b - b.b) < offness*size;
+            mag(a.A() - b.A()) < offness
+         && mag(a.b() - b.b()) < offness*size;
     }
 }
 
@@ -219,11 +219,11 @@ Foam::List<Foam::vector> Foam::domainImages::periods() const
 
         for (label i = 0; i < n; ++i)
         {
-            const vector sum(sums[i] + s.inward.b);
+            const vector sum(sums[i] + s.inward.b());
             bool isNew = true;
             for (const vector& known : sums)
             {
-                isNew = isNew && mag(sum - known) > offness*mag(s.inward.b);
+                isNew = isNew && mag(sum - known) > offness*mag(s.inward.b());
             }
             if (isNew)
             {

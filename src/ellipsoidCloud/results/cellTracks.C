@@ -48,6 +48,25 @@ namespace Foam
         std::copy_n(body.x, 3, cell.lastRow + 1);
         std::copy_n(body.q, 4, cell.lastRow + 4);
     }
+
+    //- The rows of each cell in a table
+    static std::map<label, std::vector<std::string>> rowsOf
+    (
+        const fileName& table
+    )
+    {
+        std::map<label, std::vector<std::string>> cells;
+        std::ifstream is(table);
+        std::string line;
+        std::getline(is, line);
+
+        while (std::getline(is, line))
+        {
+            cells[std::stol(line.substr(line.find(',') + 1))].push_back(line);
+        }
+
+        return cells;
+    }
 }
 
 
@@ -224,24 +243,12 @@ void Foam::cellTracks::writeVTP
     const std::function<cellSize(const label)>& sizeOf
 ) const
 {
-    // The rows of each cell
-    std::map<label, std::vector<std::string>> cells;
-
     const fileName vtp(set_.folder/"tracks.vtp");
-    std::ifstream is(file.name());
-    std::string line;
-    std::getline(is, line);
-
-    while (std::getline(is, line))
-    {
-        cells[std::stol(line.substr(line.find(',') + 1))].push_back(line);
-    }
-
     DynamicList<label> ends;
     DynamicList<string> rows;
     DynamicList<string> axes;
 
-    for (const auto& cell : cells)
+    for (const auto& cell : rowsOf(file.name()))
     {
         const ellipsoid_options options
         (
