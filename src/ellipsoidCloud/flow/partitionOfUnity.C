@@ -12,6 +12,7 @@ License
 #include "baffleSides.H"
 #include "frozenFlow.H"
 #include "bitSet.H"
+#include "undecomposedFlow.H"
 #include "volFields.H"
 #include "wallPolyPatch.H"
 
@@ -317,6 +318,8 @@ void Foam::partitionOfUnity::make
 
     if (mesh)
     {
+        const undecomposedFlow::serialScope serial;
+
         moments_ = secondMoments(*mesh);
         nFits_ = mesh->nCells();
         triangles = findTriangles(*mesh, tets, vertices);

@@ -412,7 +412,7 @@ int Foam::wallFacets::list
     {
         list.reach = GREAT;
     }
-    else if (!span_.contains(c) || reach > known_)
+    else if (!reaches(c) || reach > known_)
     {
         return 1;
     }
