@@ -12,6 +12,7 @@ License
 #include "atomicWrite.H"
 #include "cellPoses.H"
 #include "ellipsoidParcel.H"
+#include "foamVersions.H"
 #include "frozenFlow.H"
 #include "IOField.H"
 #include "polyMesh.H"
@@ -49,7 +50,7 @@ namespace Foam
         {
             IOField<Type> field
             (
-                c.fieldIOobject(name, IOobject::NO_READ), values
+                fieldFile(c, name, IOobject::NO_READ), values
             );
             atomicWrite(field, values.size() > 0);
         }

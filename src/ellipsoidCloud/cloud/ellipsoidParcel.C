@@ -10,6 +10,7 @@ License
 #include "ellipsoidParcel.H"
 #include "atomicWrite.H"
 #include "domainImages.H"
+#include "foamVersions.H"
 #include "IOField.H"
 #include "IOPosition.H"
 
@@ -141,7 +142,7 @@ namespace Foam
         {
             IOField<Type> values
             (
-                c.fieldIOobject(fileOf(field, d), option), cells.size() > 0
+                fieldFile(c, fileOf(field, d), option), cells.size() > 0
             );
             const bool read = option == IOobject::MUST_READ;
             if (read)
@@ -252,8 +253,8 @@ void Foam::ellipsoidParcel::writeFields(const Cloud<ellipsoidParcel>& c)
     }
 
     const auto none = IOobject::NO_READ;
-    IOField<label> ids(c.fieldIOobject("origId", none), c.size());
-    IOField<label> ranks(c.fieldIOobject("origProcId", none), c.size());
+    IOField<label> ids(fieldFile(c, "origId", none), c.size());
+    IOField<label> ranks(fieldFile(c, "origProcId", none), c.size());
     label i = 0;
     for (const ellipsoidParcel& parcel : c)
     {
