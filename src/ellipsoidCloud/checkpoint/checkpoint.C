@@ -61,8 +61,15 @@ namespace Foam
     static bool fromLatestTime(const argList& args)
     {
         // What is wrong with the file the Time will say
-        const fileName path(args.rootPath()/args.globalCaseName()/"system");
-        const string text(fromAllRanks(string(textOf(path/"controlDict")))[0]);
+        string text;
+        if (Pstream::master())
+        {
+            text = textOf
+            (
+                args.rootPath()/args.globalCaseName()/"system"/"controlDict"
+            );
+        }
+        broadcast(text);
 
         return
             !text.empty()
