@@ -14,6 +14,7 @@ Description
 
 \*---------------------------------------------------------------------------*/
 #include "flow/baffleSides.C"
+#include "flow/cyclicPoints.C"
 #include "flow/domainImages.C"
 #include "flow/electricField.C"
 #include "flow/frozenFlow.C"
