@@ -146,6 +146,29 @@ namespace Foam
         return flux;
     }
 
+    //- The flux that is missing in the tetrahedra of a cell, from a first on
+    static scalarField missingIn
+    (
+        const scalarField& volumes,
+        const UList<FixedList<scalar, 4>>& fluxes,
+        const UList<flowTetExcess>& excess,
+        const label first
+    )
+    {
+        scalarField missing(volumes.size());
+
+        forAll(missing, i)
+        {
+            const FixedList<scalar, 4>& flux = fluxes[first + i];
+            missing[i] =
+                -excess[first + i].flux[0]
+              - flux[0] - flux[1] - flux[2] - flux[3];
+        }
+
+        // A flow that is not free of divergence has it everywhere in the cell
+        return missing - sum(missing)/sum(volumes)*volumes;
+    }
+
     //- Spread the flux that is missing in the tetrahedra of a cell by the least
     //  fluxes through the faces between them and the least change of velocity
     //  and gradient at its centre, which makes smaller kinks
@@ -505,17 +528,10 @@ void Foam::frozenFlow::makeExcess
         const label first = cellTets_[celli];
         const label n = cellTets_[celli + 1] - first;
         const scalarField cellVolumes(SubField<scalar>(volumes, n, first));
-        scalarField missing(n);
-
-        forAll(missing, i)
-        {
-            const FixedList<scalar, 4>& flux = fluxes[first + i];
-            missing[i] =
-                -excess_[first + i].flux[0]
-              - flux[0] - flux[1] - flux[2] - flux[3];
-        }
-        // A flow that is not free of divergence has it everywhere in the cell
-        missing -= sum(missing)/sum(cellVolumes)*cellVolumes;
+        const scalarField missing
+        (
+            missingIn(cellVolumes, fluxes, excess_, first)
+        );
 
         spread
         (
