@@ -282,6 +282,8 @@ typedef struct ellipsoid_facet_cache
     double clearance;   /* [m] > 0: no facet while the centre moves less */
     const ellipsoid_facet *facets;
     double nearest[ELLIPSOID_MAX_BEADS]; /* [m] no facet nearer to a centre */
+    double nearest_of_all;                 /* [m] the least of these */
+    int bead_count, bead[ELLIPSOID_MAX_BEADS]; /* with facets, ascending */
     int first[ELLIPSOID_MAX_BEADS + 1];  /* bead b: first[b] to first[b+1] of */
     int facet[ELLIPSOID_MAX_PAIRS];      /* facets, ascending for each bead */
     int near_count;   /* of facets within the wall_range; -1: not looked up */

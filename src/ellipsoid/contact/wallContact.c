@@ -63,45 +63,70 @@ static ellipsoid_bead bead_of(const ellipsoid_wall_contact *at, int b)
     return bead;
 }
 
+static void look_at_bead(ellipsoid_wall_contact *at,
+                         const ellipsoid_facet_cache *cache, int b)
+{
+    const ellipsoid_bead bead = bead_of(at, b);
+    const ellipsoid_candidates from = {cache->facets,
+                                       cache->facet + cache->first[b],
+                                       cache->first[b + 1] - cache->first[b]};
+    ellipsoid_bead_forces forces;
+
+    if (ellipsoid_bead_contact(&bead, &from, &at->contact->gap,
+                               at->jacobian != NULL, &forces, at->contact)
+        > 0)
+    {
+        add_bead(at, at->model->bead[b], &forces);
+    }
+}
+
 /*
     A bead that has moved less than its distance from all facets needs no
     evaluation. The first pass is over the beads that may be in range of a law,
-    in their order; if none overlaps, the second finds the gap.
+    in their order; if none overlaps, the others find the gap, which does not
+    depend on their order: so the nearest comes first.
 */
 static void add_beads(ellipsoid_wall_contact *at,
                       const ellipsoid_facet_cache *cache, double moved)
 {
-    const ellipsoid_model *model = at->model;
+    const double radius = at->model->options.bead_radius;
     /* the bounds are rounded, too */
-    const double bound = moved + 1e-9 * model->options.bead_radius;
+    const double bound = moved + 1e-9 * radius;
     ellipsoid_contact *contact = at->contact;
-    const double range = at->laws.range;
-    ellipsoid_bead_forces forces;
+    int nearest = -1;
+    double least = HUGE_VAL;
 
-    for (int pass = 0; pass < 2 && contact->gap > 0; pass++)
+    ellipsoid_wall_laws_set(&at->laws, &at->model->options);
+    ellipsoid_rotation_inline(at->state->q, at->r);
+    for (int n = 0; n < cache->bead_count; n++)
     {
-        for (int b = 0; b < model->bead_count; b++)
+        const int b = cache->bead[n];
+        const double clear = cache->nearest[b] - bound - radius;
+
+        if (clear <= at->laws.range)
         {
-            const double clear =
-                cache->nearest[b] - bound - model->options.bead_radius;
-            const ellipsoid_candidates from = {
-                cache->facets, cache->facet + cache->first[b],
-                cache->first[b + 1] - cache->first[b]};
+            look_at_bead(at, cache, b);
+        }
+        else if (clear < least)
+        {
+            least = clear;
+            nearest = b;
+        }
+    }
+    if (least < contact->gap && contact->gap > 0)
+    {
+        look_at_bead(at, cache, nearest);
+    }
+    for (int n = 0; n < cache->bead_count && least < contact->gap
+                    && contact->gap > 0;
+         n++)
+    {
+        const int b = cache->bead[n];
+        const double clear = cache->nearest[b] - bound - radius;
 
-            if (pass == 0 ? clear > range
-                          : clear <= range || clear >= contact->gap)
-            {
-                continue;
-            }
-
-            const ellipsoid_bead bead = bead_of(at, b);
-
-            if (ellipsoid_bead_contact(&bead, &from, &contact->gap,
-                                       at->jacobian != NULL, &forces, contact)
-                > 0)
-            {
-                add_bead(at, model->bead[b], &forces);
-            }
+        if (b != nearest && clear > at->laws.range && clear < contact->gap)
+        {
+            look_at_bead(at, cache, b);
         }
     }
     contact->deepest = fmax(0, -contact->gap);
@@ -142,15 +167,15 @@ ellipsoid_status ellipsoid_contact_evaluate(
     const ellipsoid_status status = ellipsoid_facet_cache_update(
         cache, model, surroundings, state->x, state->q, contact->gap, &moved);
 
-    if (status == ELLIPSOID_OK && cache->clearance <= 0)
+    if (status == ELLIPSOID_OK && cache->clearance <= 0
+        && cache->nearest_of_all - moved
+               < model->options.bead_radius * (2 + 1e-8))
     {
         ellipsoid_wall_contact at = {.model = model,
                                      .state = state,
                                      .contact = contact,
                                      .jacobian = jacobian};
 
-        ellipsoid_wall_laws_set(&at.laws, &model->options);
-        ellipsoid_rotation_inline(state->q, at.r);
         add_beads(&at, cache, moved);
     }
     return status;

@@ -189,8 +189,16 @@ static int search_beads(const ellipsoid_facet_list *list, const bead_set *beads,
 
     /* from ascending by facet to bead by bead */
     cache->first[0] = 0;
+    cache->bead_count = 0;
+    cache->nearest_of_all = HUGE_VAL;
     for (int b = 0; b < beads->count; b++)
     {
+        if (next[b] > 0)
+        {
+            cache->bead[cache->bead_count++] = b;
+            cache->nearest_of_all =
+                fmin(cache->nearest_of_all, cache->nearest[b]);
+        }
         cache->first[b + 1] = cache->first[b] + next[b];
         next[b] = cache->first[b];
     }

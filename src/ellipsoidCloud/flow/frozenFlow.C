@@ -69,7 +69,7 @@ void Foam::frozenFlow::sampleOf
 (
     const UList<flowVertex>& vertices,
     const UList<flowTetExcess>& excess,
-    const UList<quadratic>& fits,
+    const UList<quadraticTerms>& fits,
     tetCoordinates& c,
     const bool derivatives,
     ellipsoid_flow_sample& sample
@@ -145,7 +145,7 @@ void Foam::frozenFlow::velocityOf
 (
     const UList<flowVertex>& vertices,
     const UList<flowTetExcess>& excess,
-    const UList<quadratic>& fits,
+    const UList<quadraticTerms>& fits,
     tetCoordinates& c,
     scalar velocity[3],
     scalar (*jacobian)[3]
@@ -226,7 +226,7 @@ void Foam::frozenFlow::velocityOf
 
 void Foam::frozenFlow::unityAt
 (
-    const UList<quadratic>& fits,
+    const UList<quadraticTerms>& fits,
     const tetCoordinates& c,
     vector& velocity,
     tensor* gradient,

@@ -488,7 +488,15 @@ void Foam::frozenFlow::makeExcess
 
         tetCoordinates c;
         setCoordinates(teti, vertices_[tet.vertices[0]].x, c);
-        const tetFlow& flow = flowIn(vertices_, excess_, c);
+        tetFlow flow;
+        flow.setQuadratic
+        (
+            [&](const int a) -> const flowVertex&
+            {
+                return vertices_[tet.vertices[a]];
+            },
+            excess_[teti].straight
+        );
         volumes[teti] = flow.volume();
 
         for (label i = 0; i < 4; ++i)

@@ -22,7 +22,7 @@ Description
 #include "volPointInterpolation.H"
 #include "fvcGrad.H"
 #include "wallPolyPatch.H"
-#include "EdgeMap.H"
+#include "DynamicList.H"
 #include "transform.H"
 
 #include <cmath>
@@ -216,8 +216,9 @@ namespace Foam
     )
     {
         // The tetrahedron, and its face, at each edge of the cell's surface
-        // until the one on the other side is there
-        EdgeMap<labelPair> open(4*mesh.cells()[celli].size());
+        // until the one on the other side is there: few at a time
+        struct openEdge { edge at; label tet; label face; };
+        DynamicList<openEdge> open;
 
         for (const label facei : mesh.cells()[celli])
         {
@@ -249,14 +250,21 @@ namespace Foam
                         mesh.nCells() + baffles.vertex(corners[i], celli);
 
                     const edge e(corners[(i + 1) % 3], corners[(i + 2) % 3]);
-
-                    if (!open.insert(e, labelPair(teti, i + 1)))
+                    label k = open.size() - 1;
+                    while (k >= 0 && open[k].at != e)
                     {
-                        const labelPair other(open[e]);
-                        tet.neighbours[i + 1] = other.first();
-                        tets[other.first()].neighbours[other.second()] = teti;
-                        open.erase(e);
+                        --k;
                     }
+
+                    if (k < 0)
+                    {
+                        open.append(openEdge{e, teti, i + 1});
+                        continue;
+                    }
+                    tet.neighbours[i + 1] = open[k].tet;
+                    tets[open[k].tet].neighbours[open[k].face] = teti;
+                    open[k] = open.last();
+                    open.remove();
                 }
             }
         }
@@ -372,13 +380,14 @@ namespace Foam
         }
     }
 
-    //- Set the flow at the vertices
+    //- Set the flow at the vertices, the gradient only if it is interpolated
     static void setVertices
     (
         const undecomposedFlow& undecomposed,
         const scalar rho,
         const domainImages& images,
         const baffleSides& baffles,
+        const bool interpolated,
         UList<flowVertex>& vertices
     )
     {
@@ -386,7 +395,12 @@ namespace Foam
         const volVectorField& flow = undecomposed.U();
         const label nCells = mesh.nCells();
         const vectorField U(atVertices(flow, images, baffles));
-        const tensorField gradU(atVertices(fvc::grad(flow)(), images, baffles));
+        const tensorField gradU
+        (
+            interpolated
+          ? atVertices(fvc::grad(flow)(), images, baffles)
+          : tensorField(U.size(), Zero)
+        );
         const vectorField gradp
         (
             atVertices((rho*fvc::grad(undecomposed.p()))(), images, baffles)
@@ -435,7 +449,15 @@ void Foam::frozenFlow::setFlow
     const baffleSides& baffles
 )
 {
-    setVertices(undecomposed, rho, images_, baffles, vertices_);
+    setVertices
+    (
+        undecomposed,
+        rho,
+        images_,
+        baffles,
+        scheme_ == stCellPoint || scheme_ == stCellPointQuadratic,
+        vertices_
+    );
 
     if (scheme_ == stDivergenceFree)
     {

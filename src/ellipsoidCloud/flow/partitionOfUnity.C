@@ -95,38 +95,196 @@ namespace Foam
         return p;
     }
 
-    //- Add the mesh cells that share a vertex with one, unless listed for it
-    static void appendAround
+    //- The mesh cells that share a vertex with each, from the first of each on
+    static void findAround
     (
         const polyMesh& mesh,
         const baffleSides& baffles,
-        const label celli,
-        const label listedFor,
-        labelList& listed,
-        DynamicList<label>& cells
+        labelList& start,
+        DynamicList<label>& around
     )
     {
         const bool split = baffles.sides().size();
+        const labelListList& cellPoints = mesh.cellPoints();
+        const labelListList& pointCells = mesh.pointCells();
+        labelList listed(mesh.nCells(), -1);
 
-        for (const label pointi : mesh.cellPoints()[celli])
+        around.reserve(30*mesh.nCells());
+        start.setSize(mesh.nCells() + 1);
+        forAll(cellPoints, celli)
         {
-            for (const label other : mesh.pointCells()[pointi])
+            start[celli] = around.size();
+            listed[celli] = celli;
+
+            for (const label pointi : cellPoints[celli])
             {
-                if
-                (
-                    listed[other] != listedFor
-                 && (
-                        !split
-                     || baffles.vertex(pointi, other)
-                     == baffles.vertex(pointi, celli)
-                    )
-                )
+                for (const label other : pointCells[pointi])
                 {
-                    listed[other] = listedFor;
-                    cells.append(other);
+                    if
+                    (
+                        listed[other] != celli
+                     && (
+                            !split
+                         || baffles.vertex(pointi, other)
+                         == baffles.vertex(pointi, celli)
+                        )
+                    )
+                    {
+                        listed[other] = celli;
+                        around.append(other);
+                    }
                 }
             }
         }
+        start[mesh.nCells()] = around.size();
+    }
+
+    //- A mesh cell as seen from its centre: its points, the largest distance,
+    //  and the lower and upper ends of its box, a little wider
+    class extentOf
+    {
+    public:
+
+        DynamicList<vector> points;
+        scalar size;
+        vector ends[2];
+
+        void set
+        (
+            const UList<point>& all,
+            const UList<label>& labels,
+            const point& centre
+        )
+        {
+            points.clear();
+            size = 0;
+            ends[0] = ends[1] = Zero;
+            for (const label pointi : labels)
+            {
+                const vector r(all[pointi] - centre);
+                points.append(r);
+                size = max(size, mag(r));
+                ends[0] = min(ends[0], r);
+                ends[1] = max(ends[1], r);
+            }
+            ends[0] -= 1e-6*size*vector::one;
+            ends[1] += 1e-6*size*vector::one;
+        }
+
+        //- The octants that a box comes nearer to than a distance, where
+        //  squares of differences count by factors
+        unsigned octants
+        (
+            const vector& low,
+            const vector& high,
+            const vector& factor,
+            const scalar farthest
+        ) const
+        {
+            scalar square[2][3];
+            for (direction i = 0; i < 3; ++i)
+            {
+                const scalar below = max(low[i], scalar(0));
+                const scalar past = max(ends[0][i] - high[i], scalar(0));
+                const scalar above = max(low[i] - ends[1][i], scalar(0));
+                const scalar before = max(-high[i], scalar(0));
+                const scalar lower = max(below, past);
+                const scalar upper = max(above, before);
+                square[0][i] = factor[i]*lower*lower;
+                square[1][i] = factor[i]*upper*upper;
+            }
+
+            unsigned found = 0;
+            for (unsigned o = 0; o < 8; ++o)
+            {
+                found |=
+                    unsigned
+                    (
+                        square[o & 1][0] + square[o >> 1 & 1][1]
+                      + square[o >> 2][2] < farthest
+                    ) << o;
+            }
+            return found;
+        }
+
+        //- Does the support of a mesh cell with its centre at d reach here, as
+        //  far as a triangle inequality tells?
+        bool reached(const weightSupport& support, const vector& d) const
+        {
+            const symmTensor& M = support.metric;
+            if (magSqr(d) >= sqr(Foam::sqrt(support.farthest) + size))
+            {
+                return false;
+            }
+
+            const scalar distance = d & (M & d);
+            if (distance < 1)
+            {
+                return true;
+            }
+            const vector e(max(-ends[0], ends[1]));
+            const scalar most =
+                mag(M.xx())*sqr(e.x()) + mag(M.yy())*sqr(e.y())
+              + mag(M.zz())*sqr(e.z())
+              + 2*(
+                    mag(M.xy())*e.x()*e.y() + mag(M.xz())*e.x()*e.z()
+                  + mag(M.yz())*e.y()*e.z()
+                );
+            const scalar past = Foam::sqrt(distance) - 1;
+            if (sqr(past) > most)
+            {
+                return false;
+            }
+
+            scalar radius = 0;
+            for (const vector& r : points)
+            {
+                radius = max(radius, r & (M & r));
+            }
+            return Foam::sqrt(distance) < 1 + Foam::sqrt(radius);
+        }
+    };
+
+    //- Factors of squares of differences, the sum of which is no more than the
+    //  form of a metric
+    static vector diagonalBelow(const symmTensor& M)
+    {
+        const vector d(M.xx(), M.yy(), M.zz());
+        const scalar xy = mag(M.xy())/Foam::sqrt(d.x()*d.y());
+        const scalar xz = mag(M.xz())/Foam::sqrt(d.x()*d.z());
+        const scalar yz = mag(M.yz())/Foam::sqrt(d.y()*d.z());
+
+        return max(1 - max(xy + xz, max(xy + yz, xz + yz)), scalar(0))*d;
+    }
+
+    //- Note the octants in which the next source of a mesh cell has a weight
+    static void note
+    (
+        weightsNear& near,
+        const label source,
+        const unsigned octants,
+        DynamicList<label>& sources,
+        DynamicList<uint64_t>& masks
+    )
+    {
+        if (!octants)
+        {
+            return;
+        }
+        if (near.n % 64 == 0)
+        {
+            for (unsigned o = 0; o < 8; ++o)
+            {
+                masks.append(uint64_t(0));
+            }
+        }
+        for (unsigned o = 0; o < 8; ++o)
+        {
+            masks[near.firstMask + 8*(near.n/64) + o] |=
+                uint64_t(octants >> o & 1) << near.n % 64;
+        }
+        sources.append(source);
+        ++near.n;
     }
 
     //- Make a shared list of what the master has; collective
@@ -221,8 +379,8 @@ void Foam::partitionOfUnity::findNear
     const polyMesh& mesh,
     const baffleSides& baffles,
     const UList<wallTriangle>& triangles,
-    DynamicList<label>& cells,
-    DynamicList<label>& trianglesNear
+    DynamicList<label>& sources,
+    DynamicList<uint64_t>& masks
 )
 {
     labelList firstOf(mesh.nCells() + 1, triangles.size());
@@ -235,68 +393,92 @@ void Foam::partitionOfUnity::findNear
         firstOf[celli] = i;
     }
 
+    labelList aroundStart;
+    DynamicList<label> around;
+    findAround(mesh, baffles, aroundStart, around);
+
+    vectorField factors(mesh.nCells());
+    forAll(factors, celli)
+    {
+        factors[celli] = diagonalBelow(supports_[celli].metric);
+    }
+
+    const labelListList& cellPoints = mesh.cellPoints();
+    const pointField& points = mesh.points();
     labelList listed(mesh.nCells(), -1);
     DynamicList<label> found;
+    DynamicList<label> reaching;
+    extentOf extent;
 
-    forAll(mesh.cells(), celli)
+    forAll(cellPoints, celli)
     {
-        const point& x = mesh.cellCentres()[celli];
-        scalar size = 0;
-        for (const label pointi : mesh.cellPoints()[celli])
-        {
-            size = max(size, mag(mesh.points()[pointi] - x));
-        }
+        const point& x = supports_[celli].x;
+        extent.set(points, cellPoints[celli], x);
 
-        cellStart_[celli] = cells.size();
+        weightsNear& near = near_[celli];
+        near = weightsNear{sources.size(), 0, 0, masks.size()};
+        reaching.clear();
         found.clear();
         found.append(celli);
         listed[celli] = celli;
 
         for (label i = 0; i < found.size(); ++i)
         {
-            const weightSupport& support = supports_[found[i]];
-            const vector d(x - support.x);
-            if (mag(d) >= Foam::sqrt(support.farthest) + size)
+            const label other = found[i];
+            const weightSupport& support = supports_[other];
+            const vector d(support.x - x);
+            if (!extent.reached(support, d))
             {
                 continue;
             }
 
-            scalar radius = 0;
-            for (const label pointi : mesh.cellPoints()[celli])
-            {
-                const vector r(mesh.points()[pointi] - x);
-                radius = max(radius, r & (support.metric & r));
-            }
-            if
+            reaching.append(other);
+            note
             (
-                Foam::sqrt(d & (support.metric & d)) < 1 + Foam::sqrt(radius)
-            )
+                near,
+                other,
+                extent.octants(d, d, vector::one, support.farthest)
+              & extent.octants(d, d, factors[other], 1),
+                sources,
+                masks
+            );
+            for (label j = aroundStart[other]; j < aroundStart[other + 1]; ++j)
             {
-                cells.append(found[i]);
-                appendAround(mesh, baffles, found[i], celli, listed, found);
-            }
-        }
-
-        triangleStart_[celli] = trianglesNear.size();
-        for (label j = cellStart_[celli]; j < cells.size(); ++j)
-        {
-            for (label i = firstOf[cells[j]]; i < firstOf[cells[j] + 1]; ++i)
-            {
-                const wallTriangle& t = triangles[i];
-                if
-                (
-                    mag(fromTriangle(t, x, nullptr))
-                  < size + 1/Foam::sqrt(t.inverseSquare)
-                )
+                if (listed[around[j]] != celli)
                 {
-                    trianglesNear.append(i);
+                    listed[around[j]] = celli;
+                    found.append(around[j]);
                 }
             }
         }
-    }
 
-    cellStart_[mesh.nCells()] = cells.size();
-    triangleStart_[mesh.nCells()] = trianglesNear.size();
+        near.nCells = near.n;
+        for (const label other : reaching)
+        {
+            for (label i = firstOf[other]; i < firstOf[other + 1]; ++i)
+            {
+                const wallTriangle& t = triangles[i];
+                const vector a(t.corners[0] - x);
+                const vector b(t.corners[1] - x);
+                const vector c(t.corners[2] - x);
+
+                note
+                (
+                    near,
+                    i,
+                    extent.octants
+                    (
+                        min(a, min(b, c)),
+                        max(a, max(b, c)),
+                        vector::one,
+                        (1 + 1e-9)/t.inverseSquare
+                    ),
+                    sources,
+                    masks
+                );
+            }
+        }
+    }
 }
 
 
@@ -311,12 +493,11 @@ void Foam::partitionOfUnity::make
 )
 {
     DynamicList<wallTriangle> triangles;
-    DynamicList<label> cells;
-    DynamicList<label> trianglesNear;
+    DynamicList<label> sources;
+    DynamicList<uint64_t> masks;
 
     supports_.reset(mesh ? mesh->nCells() : 0);
-    cellStart_.reset(mesh ? mesh->nCells() + 1 : 0);
-    triangleStart_.reset(mesh ? mesh->nCells() + 1 : 0);
+    near_.reset(mesh ? mesh->nCells() : 0);
 
     if (mesh)
     {
@@ -337,16 +518,15 @@ void Foam::partitionOfUnity::make
             support.farthest =
                 12*sqr(supportRadius)*cmptMax(eigenValues(M));
         }
-        findNear(*mesh, *baffles, triangles, cells, trianglesNear);
+        findNear(*mesh, *baffles, triangles, sources, masks);
     }
 
     broadcast(nFits_);
     fill(triangles_, triangles);
-    fill(cells_, cells);
-    fill(trianglesNear_, trianglesNear);
+    fill(sources_, sources);
+    fill(masks_, masks);
     supports_.share();
-    cellStart_.share();
-    triangleStart_.share();
+    near_.share();
 }
 
 
@@ -354,7 +534,7 @@ void Foam::partitionOfUnity::setFits
 (
     const volVectorField& U,
     const baffleSides& baffles,
-    UList<quadratic>& fits
+    UList<quadraticTerms>& fits
 ) const
 {
     const polyMesh& mesh = U.mesh();
@@ -363,8 +543,9 @@ void Foam::partitionOfUnity::setFits
 
     forAll(ofCells, celli)
     {
-        fits[celli] = ofCells[celli];
-        removeDivergence(moments_[celli], fits[celli]);
+        quadratic fit(ofCells[celli]);
+        removeDivergence(moments_[celli], fit);
+        fits[celli] = termsOf(fit);
     }
 
     forAll(triangles_, i)
@@ -377,22 +558,77 @@ void Foam::partitionOfUnity::setFits
         quadratic fit(ofCells[t.cell]);
         removeDivergence(moments_[t.cell], fit);
 
-        fits[t.fit] = fitAtWall
+        fits[t.fit] = termsOf
         (
-            fit,
-            moments_[t.cell],
-            U[t.cell],
-            U.boundaryField()[patchi][facei - start],
-            t.normal,
-            t.normal & (t.corners[0] - supports_[t.cell].x)
+            fitAtWall
+            (
+                fit,
+                moments_[t.cell],
+                U[t.cell],
+                U.boundaryField()[patchi][facei - start],
+                t.normal,
+                t.normal & (t.corners[0] - supports_[t.cell].x)
+            )
         );
     }
 }
 
 
+template<int order>
+Foam::weightedSums Foam::partitionOfUnity::sumsAt
+(
+    const UList<quadraticTerms>& fits,
+    const label celli,
+    const point& x
+) const
+{
+    const weightsNear& near = near_[celli];
+    const label* sources = sources_.cdata() + near.first;
+    const vector r(x - supports_[celli].x);
+    const int octant = (r.x() >= 0) + 2*(r.y() >= 0) + 4*(r.z() >= 0);
+    const uint64_t* mask = masks_.cdata() + near.firstMask + octant;
+    weightedSums sums = {};
+    weightAt w;
+
+    for (label from = 0; from < near.n; from += 64, mask += 8)
+    {
+        for (uint64_t left = *mask; left; left &= left - 1)
+        {
+            const label k = from + __builtin_ctzll(left);
+            const label i = sources[k];
+
+            if (k < near.nCells)
+            {
+                const weightSupport& support = supports_[i];
+                const vector d(x - support.x);
+                if (weightOf<order>(support, d, w))
+                {
+                    sums.add<order>(fits[i], d, w);
+                }
+                continue;
+            }
+
+            const wallTriangle& t = triangles_[i];
+            if (weightOf<order>(t, x, w))
+            {
+                sums.add<order>(fits[t.fit], x - supports_[t.cell].x, w);
+            }
+        }
+    }
+    if (!(sums.w > 0))
+    {
+        // Beyond all weights, in a corner of a mesh cell that is far from a box
+        w = weightAt{1, vector(Zero), symmTensor(Zero)};
+        sums.add<order>(fits[celli], r, w);
+    }
+
+    return sums;
+}
+
+
 void Foam::partitionOfUnity::evaluate
 (
-    const UList<quadratic>& fits,
+    const UList<quadraticTerms>& fits,
     const label celli,
     const point& x,
     vector& u,
@@ -400,46 +636,39 @@ void Foam::partitionOfUnity::evaluate
     symmTensor* curvature
 ) const
 {
-    const int order = curvature ? 2 : gradient ? 1 : 0;
-    weightedSums sums;
-    weightAt w;
+    const weightedSums sums
+    (
+        curvature ? sumsAt<2>(fits, celli, x)
+      : gradient ? sumsAt<1>(fits, celli, x)
+      : sumsAt<0>(fits, celli, x)
+    );
 
-    for (label i = cellStart_[celli]; i < cellStart_[celli + 1]; ++i)
+    for (direction i = 0; i < 3; ++i)
     {
-        const weightSupport& support = supports_[cells_[i]];
-        const vector d(x - support.x);
-        if (weightOf(support, d, order, w))
+        u[i] = component(sums.u, i)/sums.w;
+        if (!gradient)
         {
-            sums.add(fits[cells_[i]], d, order, w);
+            continue;
         }
-    }
-    for (label i = triangleStart_[celli]; i < triangleStart_[celli + 1]; ++i)
-    {
-        const wallTriangle& t = triangles_[trianglesNear_[i]];
-        if (weightOf(t, x, order, w))
-        {
-            sums.add(fits[t.fit], x - supports_[t.cell].x, order, w);
-        }
-    }
-    if (!(sums.w > 0))
-    {
-        // Beyond all weights, in a corner of a mesh cell that is far from a box
-        w = weightAt{1, vector(Zero), symmTensor(Zero)};
-        sums.add(fits[celli], x - supports_[celli].x, order, w);
-    }
 
-    u = sums.u/sums.w;
-    if (order > 0)
-    {
-        *gradient = (sums.uSlope - u*sums.wSlope)/sums.w;
-    }
-    for (direction i = 0; order > 1 && i < 3; ++i)
-    {
-        curvature[i] =
-            (
-                sums.uCurvature[i] - u[i]*sums.wCurvature
-              - twoSymm(weightedSums::row(*gradient, i)*sums.wSlope)
-            )/sums.w;
+        vector slope;
+        for (direction j = 0; j < 3; ++j)
+        {
+            slope[j] =
+                (component(sums.uSlope[j], i) - u[i]*sums.wSlope[j])/sums.w;
+            (*gradient)[3*i + j] = slope[j];
+        }
+
+        for (direction k = 0; curvature && k < 6; ++k)
+        {
+            curvature[i][k] =
+                component(sums.uCurvature[k], i) - u[i]*sums.wCurvature[k];
+        }
+        if (curvature)
+        {
+            curvature[i] =
+                (curvature[i] - twoSymm(slope*sums.wSlope))/sums.w;
+        }
     }
 }
 

@@ -166,21 +166,7 @@ namespace Foam
                 }
             }
 
-            for (direction j = 0; j < nUnknowns; ++j)
-            {
-                scalar norm = 0;
-                for (const auto& row : rows_)
-                {
-                    norm += sqr(row[j]);
-                }
-
-                kept[j] = norm > 1e-4*before[j] && norm > VSMALL;
-                std::fill_n(R[j], nColumns, scalar(0));
-                if (kept[j])
-                {
-                    takeAlong(j, 1/Foam::sqrt(norm), R[j]);
-                }
-            }
+            reduce(before, std::integral_constant<direction, 0>(), R, kept);
 
             vector x[nUnknowns];
             for (direction j = nUnknowns; j-- > 0;)
@@ -212,15 +198,50 @@ namespace Foam
 
     private:
 
-        //- Normalise a column and take the later ones' parts along it away.
-        //  In the place of a part along itself is the inverse norm.
-        void takeAlong
+        //- All columns from one on, a constant so that loops vectorise
+        template<direction j>
+        void reduce
         (
-            const direction along,
-            const scalar inverseNorm,
-            scalar parts[nColumns]
+            const FixedList<scalar, nColumns>& before,
+            const std::integral_constant<direction, j>,
+            scalar R[nUnknowns][nColumns],
+            bool kept[nUnknowns]
         )
         {
+            scalar norm = 0;
+            for (const auto& row : rows_)
+            {
+                norm += sqr(row[j]);
+            }
+
+            kept[j] = norm > 1e-4*before[j] && norm > VSMALL;
+            std::fill_n(R[j], nColumns, scalar(0));
+            if (kept[j])
+            {
+                takeAlong<j>(1/Foam::sqrt(norm), R[j]);
+            }
+            reduce
+            (
+                before, std::integral_constant<direction, j + 1>(), R, kept
+            );
+        }
+
+        void reduce
+        (
+            const FixedList<scalar, nColumns>&,
+            const std::integral_constant<direction, nUnknowns>,
+            scalar (*)[nColumns],
+            bool*
+        )
+        {}
+
+        //- Normalise a column and take the later ones' parts along it away.
+        //  In the place of a part along itself is the inverse norm.
+        template<direction along>
+        void takeAlong(const scalar inverseNorm, scalar to[nColumns])
+        {
+            scalar parts[nColumns] = {};
+
             for (auto& row : rows_)
             {
                 row[along] *= inverseNorm;
@@ -236,7 +257,8 @@ namespace Foam
                     row[k] -= parts[k]*row[along];
                 }
             }
-            parts[along] = inverseNorm;
+            std::copy_n(parts, nColumns, to);
+            to[along] = inverseNorm;
         }
     };
 

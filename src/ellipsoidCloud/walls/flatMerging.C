@@ -152,8 +152,13 @@ class flatMerging
         }
 
         //- Longest edge if the point is moved to another, or GREAT if the
-        //  surface would not stay what it is
-        scalar cost(const label pointi, const label target) const
+        //  surface would not stay what it is or that is no less than another
+        scalar cost
+        (
+            const label pointi,
+            const label target,
+            const scalar other
+        ) const
         {
             scalar longest = 0;
             label nShared = 0;
@@ -168,6 +173,10 @@ class flatMerging
                 else
                 {
                     longest = max(longest, movedEdge(trii, pointi, target));
+                }
+                if (longest >= other)
+                {
+                    return GREAT;
                 }
             }
 
@@ -275,7 +284,7 @@ public:
 
                 for (const label target : targets(pointi))
                 {
-                    const scalar c = cost(pointi, target);
+                    const scalar c = cost(pointi, target, best);
 
                     if (c < best)
                     {

@@ -223,6 +223,14 @@ void Foam::wallFacets::setFacets(const domainImages& images)
         f.mirror = seam && seam->mirrors();
         spheres_[faceti] = sphere{pointOf(f.middle), f.radius};
     }
+
+    boxes_.setSize((spheres_.size() + boxed - 1)/boxed);
+    forAll(spheres_, i)
+    {
+        const vector r(spheres_[i].radius*vector::one);
+        boxes_[i/boxed].add(spheres_[i].centre - r);
+        boxes_[i/boxed].add(spheres_[i].centre + r);
+    }
 }
 
 
@@ -307,17 +315,32 @@ const Foam::wallFacets::region& Foam::wallFacets::regionAt
     if (here.reach < reach)
     {
         const point corner(regionSize_*vector(key[0], key[1], key[2]));
-        const vector margin(reach*vector::one);
+        const vector half(0.5*regionSize_*vector::one);
+        const vector margin((reach + 1e-6*regionSize_)*vector::one);
+        const boundBox cube(corner, corner + 2*half);
+        const boundBox about(cube.min() - margin, cube.max() + margin);
+        DynamicList<label> facets;
+
+        forAll(boxes_, boxi)
+        {
+            const label end = min((boxi + 1)*boxed, spheres_.size());
+            const label first = boxes_[boxi].overlaps(about) ? boxi*boxed : end;
+
+            for (label i = first; i < end; ++i)
+            {
+                const sphere& s = spheres_[i];
+                const vector off(cmptMag(s.centre - corner - half) - half);
+                const scalar far = margin.x() + s.radius;
+
+                if (magSqr(max(off, vector::zero)) < sqr(far))
+                {
+                    facets.append(i);
+                }
+            }
+        }
 
         here.reach = reach;
-        here.facets = tree_->findBox
-        (
-            treeBoundBox
-            (
-                corner - margin, corner + regionSize_*vector::one + margin
-            )
-        );
-        std::sort(here.facets.begin(), here.facets.end());
+        here.facets = facets;
     }
 
     return here;
