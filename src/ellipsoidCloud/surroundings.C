@@ -22,6 +22,8 @@ Description
 #include "flow/frozenFlowTets.C"
 #include "flow/frozenFlowWalk.C"
 #include "flow/inletFlux.C"
+#include "flow/partitionCells.C"
+#include "flow/partitionNeighbours.C"
 #include "flow/partitionOfUnity.C"
 #include "flow/possibleInflow.C"
 #include "flow/readViscosity.C"

@@ -165,26 +165,20 @@ void Foam::ellipsoidCloud::checkImages() const
 
     for (const domainImages::seam& seam : images.seams())
     {
-        const bool unity =
-            properties_.scheme() == frozenFlow::stPartitionOfUnity;
-        const char* unable =
-            unity
-          ? "interpolation is partitionOfUnity"
-          : properties_.section("occupancy").getOrDefault("active", false)
-          ? "occupancy is active"
-          : nullptr;
-
-        if (unable && (unity || !seam.mirrors()))
+        if
+        (
+            !seam.mirrors()
+         && properties_.section("occupancy").getOrDefault("active", false)
+        )
         {
             const word& name = mesh.boundaryMesh()[seam.patch].name();
 
             FatalIOErrorInFunction(properties_)
-                << "cells pass " << (seam.mirrors() ? "symmetry" : "cyclic")
-                << " patch " << name << ", and " << unable
-                << nl << "    Neither held cells nor that velocity know of the"
-                << " other side: set no occupancy and another interpolation;"
-                << " or, if no cell comes there, unreached (" << name << ");"
-                << exit(FatalIOError);
+                << "cells pass cyclic patch " << name
+                << ", and occupancy is active" << nl
+                << "    Held cells do not know of the other side: set"
+                << " occupancy/active no; or, if no cell comes there,"
+                << " unreached (" << name << ");" << exit(FatalIOError);
         }
     }
 

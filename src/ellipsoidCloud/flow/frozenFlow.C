@@ -271,6 +271,21 @@ void Foam::frozenFlow::unityAt
     {
         curvature[i] = Zero;
     }
+
+    if (c.turned)
+    {
+        const tensor back(c.turn.T());
+
+        velocity = back & velocity;
+        if (gradient)
+        {
+            *gradient = back & slope & c.turn;
+        }
+        if (curvature)
+        {
+            turnCurvature(back, curvature);
+        }
+    }
 }
 
 

@@ -449,6 +449,7 @@ void Foam::frozenFlow::setFlow
     const baffleSides& baffles
 )
 {
+    const cyclicPoints cyclics(undecomposed.mesh(), images_);
     setVertices
     (
         undecomposed,
@@ -461,7 +462,6 @@ void Foam::frozenFlow::setFlow
 
     if (scheme_ == stDivergenceFree)
     {
-        const cyclicPoints cyclics(undecomposed.mesh(), images_);
         const vertexFit fit(undecomposed.U(), baffles, cyclics);
 
         forAll(vertices_, i)
@@ -474,7 +474,7 @@ void Foam::frozenFlow::setFlow
     }
     else if (scheme_ == stPartitionOfUnity)
     {
-        unity_.setFits(undecomposed.U(), baffles, fits_);
+        unity_.setFits(undecomposed.U(), baffles, cyclics, fits_);
     }
 }
 
@@ -547,6 +547,7 @@ void Foam::frozenFlow::make
         (
             master ? &undecomposed.mesh() : nullptr,
             baffles.get(),
+            images_,
             tets_,
             vertices_
         );

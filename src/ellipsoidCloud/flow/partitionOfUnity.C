@@ -13,7 +13,6 @@ License
 #include "cyclicPoints.H"
 #include "domainImages.H"
 #include "frozenFlow.H"
-#include "bitSet.H"
 #include "undecomposedFlow.H"
 #include "volFields.H"
 #include "wallPolyPatch.H"
@@ -95,196 +94,14 @@ namespace Foam
         return p;
     }
 
-    //- The mesh cells that share a vertex with each, from the first of each on
-    static void findAround
-    (
-        const polyMesh& mesh,
-        const baffleSides& baffles,
-        labelList& start,
-        DynamicList<label>& around
-    )
+    //- A polynomial of the image
+    static quadratic turned(const quadratic& p, const tensor& T)
     {
-        const bool split = baffles.sides().size();
-        const labelListList& cellPoints = mesh.cellPoints();
-        const labelListList& pointCells = mesh.pointCells();
-        labelList listed(mesh.nCells(), -1);
-
-        around.reserve(30*mesh.nCells());
-        start.setSize(mesh.nCells() + 1);
-        forAll(cellPoints, celli)
-        {
-            start[celli] = around.size();
-            listed[celli] = celli;
-
-            for (const label pointi : cellPoints[celli])
-            {
-                for (const label other : pointCells[pointi])
-                {
-                    if
-                    (
-                        listed[other] != celli
-                     && (
-                            !split
-                         || baffles.vertex(pointi, other)
-                         == baffles.vertex(pointi, celli)
-                        )
-                    )
-                    {
-                        listed[other] = celli;
-                        around.append(other);
-                    }
-                }
-            }
-        }
-        start[mesh.nCells()] = around.size();
-    }
-
-    //- A mesh cell as seen from its centre: its points, the largest distance,
-    //  and the lower and upper ends of its box, a little wider
-    class extentOf
-    {
-    public:
-
-        DynamicList<vector> points;
-        scalar size;
-        vector ends[2];
-
-        void set
-        (
-            const UList<point>& all,
-            const UList<label>& labels,
-            const point& centre
-        )
-        {
-            points.clear();
-            size = 0;
-            ends[0] = ends[1] = Zero;
-            for (const label pointi : labels)
-            {
-                const vector r(all[pointi] - centre);
-                points.append(r);
-                size = max(size, mag(r));
-                ends[0] = min(ends[0], r);
-                ends[1] = max(ends[1], r);
-            }
-            ends[0] -= 1e-6*size*vector::one;
-            ends[1] += 1e-6*size*vector::one;
-        }
-
-        //- The octants that a box comes nearer to than a distance, where
-        //  squares of differences count by factors
-        unsigned octants
-        (
-            const vector& low,
-            const vector& high,
-            const vector& factor,
-            const scalar farthest
-        ) const
-        {
-            scalar square[2][3];
-            for (direction i = 0; i < 3; ++i)
-            {
-                const scalar below = max(low[i], scalar(0));
-                const scalar past = max(ends[0][i] - high[i], scalar(0));
-                const scalar above = max(low[i] - ends[1][i], scalar(0));
-                const scalar before = max(-high[i], scalar(0));
-                const scalar lower = max(below, past);
-                const scalar upper = max(above, before);
-                square[0][i] = factor[i]*lower*lower;
-                square[1][i] = factor[i]*upper*upper;
-            }
-
-            unsigned found = 0;
-            for (unsigned o = 0; o < 8; ++o)
-            {
-                found |=
-                    unsigned
-                    (
-                        square[o & 1][0] + square[o >> 1 & 1][1]
-                      + square[o >> 2][2] < farthest
-                    ) << o;
-            }
-            return found;
-        }
-
-        //- Does the support of a mesh cell with its centre at d reach here, as
-        //  far as a triangle inequality tells?
-        bool reached(const weightSupport& support, const vector& d) const
-        {
-            const symmTensor& M = support.metric;
-            if (magSqr(d) >= sqr(Foam::sqrt(support.farthest) + size))
-            {
-                return false;
-            }
-
-            const scalar distance = d & (M & d);
-            if (distance < 1)
-            {
-                return true;
-            }
-            const vector e(max(-ends[0], ends[1]));
-            const scalar most =
-                mag(M.xx())*sqr(e.x()) + mag(M.yy())*sqr(e.y())
-              + mag(M.zz())*sqr(e.z())
-              + 2*(
-                    mag(M.xy())*e.x()*e.y() + mag(M.xz())*e.x()*e.z()
-                  + mag(M.yz())*e.y()*e.z()
-                );
-            const scalar past = Foam::sqrt(distance) - 1;
-            if (sqr(past) > most)
-            {
-                return false;
-            }
-
-            scalar radius = 0;
-            for (const vector& r : points)
-            {
-                radius = max(radius, r & (M & r));
-            }
-            return Foam::sqrt(distance) < 1 + Foam::sqrt(radius);
-        }
-    };
-
-    //- Factors of squares of differences, the sum of which is no more than the
-    //  form of a metric
-    static vector diagonalBelow(const symmTensor& M)
-    {
-        const vector d(M.xx(), M.yy(), M.zz());
-        const scalar xy = mag(M.xy())/Foam::sqrt(d.x()*d.y());
-        const scalar xz = mag(M.xz())/Foam::sqrt(d.x()*d.z());
-        const scalar yz = mag(M.yz())/Foam::sqrt(d.y()*d.z());
-
-        return max(1 - max(xy + xz, max(xy + yz, xz + yz)), scalar(0))*d;
-    }
-
-    //- Note the octants in which the next source of a mesh cell has a weight
-    static void note
-    (
-        weightsNear& near,
-        const label source,
-        const unsigned octants,
-        DynamicList<label>& sources,
-        DynamicList<uint64_t>& masks
-    )
-    {
-        if (!octants)
-        {
-            return;
-        }
-        if (near.n % 64 == 0)
-        {
-            for (unsigned o = 0; o < 8; ++o)
-            {
-                masks.append(uint64_t(0));
-            }
-        }
-        for (unsigned o = 0; o < 8; ++o)
-        {
-            masks[near.firstMask + 8*(near.n/64) + o] |=
-                uint64_t(octants >> o & 1) << near.n % 64;
-        }
-        sources.append(source);
-        ++near.n;
+        quadratic result(p);
+        result.value = T & p.value;
+        result.gradient = T & p.gradient & T.T();
+        turnCurvature(T, result.curvature);
+        return result;
     }
 
     //- Make a shared list of what the master has; collective
@@ -374,111 +191,84 @@ Foam::DynamicList<Foam::wallTriangle> Foam::partitionOfUnity::findTriangles
 }
 
 
-void Foam::partitionOfUnity::findNear
-(
-    const polyMesh& mesh,
-    const baffleSides& baffles,
-    const UList<wallTriangle>& triangles,
-    DynamicList<label>& sources,
-    DynamicList<uint64_t>& masks
-)
+void Foam::partitionOfUnity::addImages(DynamicList<wallTriangle>& triangles)
 {
-    labelList firstOf(mesh.nCells() + 1, triangles.size());
-    for (label i = triangles.size(), celli = mesh.nCells(); celli-- > 0;)
+    const label nCells = moments_.size();
+    const labelList firstOf(firstTriangles(nCells, triangles));
+
+    forAll(images_, i)
     {
-        while (i > 0 && triangles[i - 1].cell == celli)
+        const imageCell& image = images_[i];
+        const bool mirrors = image.image.mirrors();
+
+        for
+        (
+            label of = firstOf[image.cell];
+            of < firstOf[image.cell + 1];
+            ++of
+        )
         {
-            --i;
-        }
-        firstOf[celli] = i;
-    }
-
-    labelList aroundStart;
-    DynamicList<label> around;
-    findAround(mesh, baffles, aroundStart, around);
-
-    vectorField factors(mesh.nCells());
-    forAll(factors, celli)
-    {
-        factors[celli] = diagonalBelow(supports_[celli].metric);
-    }
-
-    const labelListList& cellPoints = mesh.cellPoints();
-    const pointField& points = mesh.points();
-    labelList listed(mesh.nCells(), -1);
-    DynamicList<label> found;
-    DynamicList<label> reaching;
-    extentOf extent;
-
-    forAll(cellPoints, celli)
-    {
-        const point& x = supports_[celli].x;
-        extent.set(points, cellPoints[celli], x);
-
-        weightsNear& near = near_[celli];
-        near = weightsNear{sources.size(), 0, 0, masks.size()};
-        reaching.clear();
-        found.clear();
-        found.append(celli);
-        listed[celli] = celli;
-
-        for (label i = 0; i < found.size(); ++i)
-        {
-            const label other = found[i];
-            const weightSupport& support = supports_[other];
-            const vector d(support.x - x);
-            if (!extent.reached(support, d))
+            wallTriangle t(triangles[of]);
+            for (label k = 0; k < 3; ++k)
             {
-                continue;
+                t.corners[k] =
+                    image.image(triangles[of].corners[mirrors ? 2 - k : k]);
             }
-
-            reaching.append(other);
-            note
-            (
-                near,
-                other,
-                extent.octants(d, d, vector::one, support.farthest)
-              & extent.octants(d, d, factors[other], 1),
-                sources,
-                masks
-            );
-            for (label j = aroundStart[other]; j < aroundStart[other + 1]; ++j)
-            {
-                if (listed[around[j]] != celli)
-                {
-                    listed[around[j]] = celli;
-                    found.append(around[j]);
-                }
-            }
-        }
-
-        near.nCells = near.n;
-        for (const label other : reaching)
-        {
-            for (label i = firstOf[other]; i < firstOf[other + 1]; ++i)
-            {
-                const wallTriangle& t = triangles[i];
-                const vector a(t.corners[0] - x);
-                const vector b(t.corners[1] - x);
-                const vector c(t.corners[2] - x);
-
-                note
-                (
-                    near,
-                    i,
-                    extent.octants
-                    (
-                        min(a, min(b, c)),
-                        max(a, max(b, c)),
-                        vector::one,
-                        (1 + 1e-9)/t.inverseSquare
-                    ),
-                    sources,
-                    masks
-                );
-            }
+            t.normal = image.image.turn() & t.normal;
+            t.cell = nCells + i;
+            t.fit = t.fit == image.cell ? t.cell : nFits_++;
+            triangles.append(t);
+            imagesOf_.append(of);
         }
     }
+}
+
+
+void Foam::partitionOfUnity::setSupports(const polyMesh& mesh)
+{
+    forAll(supports_, i)
+    {
+        const label imagei = i - mesh.nCells();
+        const label celli = imagei < 0 ? i : images_[imagei].cell;
+
+        // A mesh cell of edges a has moments of a2/12
+        const symmTensor& M = moments_[celli];
+        weightSupport& support = supports_[i];
+
+        support.x = mesh.cellCentres()[celli];
+        support.metric = inv(M)/(12*sqr(supportRadius));
+        support.farthest = 12*sqr(supportRadius)*cmptMax(eigenValues(M));
+
+        if (imagei >= 0)
+        {
+            const isometry& image = images_[imagei].image;
+            support.x = image(support.x);
+            support.metric = transform(image.turn(), support.metric);
+        }
+    }
+}
+
+
+Foam::quadratic Foam::partitionOfUnity::fitOf
+(
+    const wallTriangle& t,
+    const label facei,
+    const volVectorField& U,
+    const UList<quadratic>& ofCells
+) const
+{
+    const polyBoundaryMesh& patches = U.mesh().boundaryMesh();
+    const label patchi = patches.whichPatch(facei);
+
+    return fitAtWall
+    (
+        ofCells[t.cell],
+        moments_[t.cell],
+        U[t.cell],
+        U.boundaryField()[patchi][facei - patches[patchi].start()],
+        t.normal,
+        t.normal & (t.corners[0] - supports_[t.cell].x)
+    );
 }
 
 
@@ -488,6 +278,7 @@ void Foam::partitionOfUnity::make
 (
     const polyMesh* mesh,
     const baffleSides* baffles,
+    const domainImages& images,
     const UList<flowTet>& tets,
     const UList<flowVertex>& vertices
 )
@@ -495,8 +286,14 @@ void Foam::partitionOfUnity::make
     DynamicList<wallTriangle> triangles;
     DynamicList<label> sources;
     DynamicList<uint64_t> masks;
+    autoPtr<partitionCells> cells;
 
-    supports_.reset(mesh ? mesh->nCells() : 0);
+    if (mesh)
+    {
+        const undecomposedFlow::serialScope serial;
+        cells.reset(new partitionCells(*mesh, *baffles, images));
+    }
+    supports_.reset(mesh ? cells->size() : 0);
     near_.reset(mesh ? mesh->nCells() : 0);
 
     if (mesh)
@@ -504,21 +301,12 @@ void Foam::partitionOfUnity::make
         const undecomposedFlow::serialScope serial;
 
         moments_ = secondMoments(*mesh);
-        nFits_ = mesh->nCells();
+        images_ = cells->images();
+        nFits_ = cells->size();
         triangles = findTriangles(*mesh, tets, vertices);
-
-        forAll(moments_, celli)
-        {
-            // A mesh cell of edges a has moments of a2/12
-            const symmTensor& M = moments_[celli];
-            weightSupport& support = supports_[celli];
-
-            support.x = mesh->cellCentres()[celli];
-            support.metric = inv(M)/(12*sqr(supportRadius));
-            support.farthest =
-                12*sqr(supportRadius)*cmptMax(eigenValues(M));
-        }
-        findNear(*mesh, *baffles, triangles, sources, masks);
+        addImages(triangles);
+        setSupports(*mesh);
+        findNear(*mesh, *cells, triangles, sources, masks);
     }
 
     broadcast(nFits_);
@@ -534,40 +322,41 @@ void Foam::partitionOfUnity::setFits
 (
     const volVectorField& U,
     const baffleSides& baffles,
+    const cyclicPoints& cyclics,
     UList<quadraticTerms>& fits
 ) const
 {
-    const polyMesh& mesh = U.mesh();
-    const cyclicPoints none(mesh, domainImages());
-    const List<quadratic> ofCells(cellFits(U, baffles, none));
+    const label nCells = moments_.size();
+    List<quadratic> ofCells(cellFits(U, baffles, cyclics));
 
     forAll(ofCells, celli)
     {
-        quadratic fit(ofCells[celli]);
-        removeDivergence(moments_[celli], fit);
-        fits[celli] = termsOf(fit);
+        removeDivergence(moments_[celli], ofCells[celli]);
+        fits[celli] = termsOf(ofCells[celli]);
+    }
+    forAll(images_, i)
+    {
+        const imageCell& image = images_[i];
+        fits[nCells + i] =
+            termsOf(turned(ofCells[image.cell], image.image.turn()));
     }
 
-    forAll(triangles_, i)
+    forAll(faces_, i)
     {
         const wallTriangle& t = triangles_[i];
-        const label facei = faces_[i];
-        const label patchi = mesh.boundaryMesh().whichPatch(facei);
-        const label start = mesh.boundaryMesh()[patchi].start();
-
-        quadratic fit(ofCells[t.cell]);
-        removeDivergence(moments_[t.cell], fit);
+        fits[t.fit] = termsOf(fitOf(t, faces_[i], U, ofCells));
+    }
+    forAll(imagesOf_, i)
+    {
+        const wallTriangle& t = triangles_[faces_.size() + i];
+        const label of = imagesOf_[i];
 
         fits[t.fit] = termsOf
         (
-            fitAtWall
+            turned
             (
-                fit,
-                moments_[t.cell],
-                U[t.cell],
-                U.boundaryField()[patchi][facei - start],
-                t.normal,
-                t.normal & (t.corners[0] - supports_[t.cell].x)
+                fitOf(triangles_[of], faces_[of], U, ofCells),
+                images_[t.cell - nCells].image.turn()
             )
         );
     }
