@@ -14,7 +14,7 @@ Description
 
 \*---------------------------------------------------------------------------*/
 #include "flow/baffleSides.C"
-#include "flow/cyclicPoints.C"
+#include "flow/cellFits.C"
 #include "flow/domainImages.C"
 #include "flow/electricField.C"
 #include "flow/frozenFlow.C"
@@ -25,6 +25,7 @@ Description
 #include "flow/partitionCells.C"
 #include "flow/partitionNeighbours.C"
 #include "flow/partitionOfUnity.C"
+#include "flow/pointImages.C"
 #include "flow/possibleInflow.C"
 #include "flow/readViscosity.C"
 #include "flow/sharedMemory.C"

@@ -42,19 +42,6 @@ namespace Foam
             << "    " << advice << "; or, if no cell comes there, say so: "
             << "unreached (" << pp.name() << ");" << exit(FatalError);
     }
-
-    //- Are two the same, for lengths of a mesh of this size?
-    static bool alike
-    (
-        const isometry& a,
-        const isometry& b,
-        const scalar size
-    )
-    {
-        return
-            mag(a.A() - b.A()) < offness
-         && mag(a.b() - b.b()) < offness*size;
-    }
 }
 
 
@@ -264,7 +251,7 @@ Foam::DynamicList<Foam::isometry> Foam::domainImages::near
             bool isNew = image.overlaps(wide);
             for (const isometry& known : found)
             {
-                isNew = isNew && !alike(next, known, box.mag());
+                isNew = isNew && !next.alike(known, box.mag());
             }
             if (isNew)
             {

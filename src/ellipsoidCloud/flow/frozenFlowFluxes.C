@@ -15,7 +15,7 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "frozenFlow.H"
-#include "cyclicPoints.H"
+#include "pointImages.H"
 #include "cyclicPolyPatch.H"
 #include "tetFlow.H"
 #include "undecomposedFlow.H"
@@ -34,7 +34,7 @@ namespace Foam
     (
         const polyMesh& mesh,
         const UList<flowTet>& tets,
-        const cyclicPoints& cyclics
+        const pointImages& images
     )
     {
         HashSet<edge, Hash<edge>> edges;
@@ -45,8 +45,8 @@ namespace Foam
 
                 const label nCells = mesh.nCells();
                 const pointField& x = mesh.points();
-                const labelUList with(cyclics.with(b - nCells));
-                for (const label p : cyclics.with(a - nCells))
+                const labelUList with(images.with(b - nCells));
+                for (const label p : images.with(a - nCells))
                 {
                     const point end(x[p] + x[b - nCells] - x[a - nCells]);
                     for (const label q : with)
@@ -268,7 +268,7 @@ namespace Foam
     (
         const polyMesh& mesh,
         const UList<flowTet>& tets,
-        const cyclicPoints& cyclics,
+        const pointImages& images,
         const label nVertices
     )
     {
@@ -290,7 +290,7 @@ namespace Foam
                 {
                     const label pointi = tet.vertices[i] - mesh.nCells();
                     fixed.set(tet.vertices[i]);
-                    for (const label other : cyclics.with(pointi))
+                    for (const label other : images.with(pointi))
                     {
                         fixed.set(mesh.nCells() + other);
                     }
@@ -386,7 +386,7 @@ namespace Foam
 void Foam::frozenFlow::matchFluxes
 (
     const undecomposedFlow& undecomposed,
-    const cyclicPoints& cyclics
+    const pointImages& images
 )
 {
     const polyMesh& mesh = undecomposed.mesh();
@@ -442,12 +442,12 @@ void Foam::frozenFlow::matchFluxes
             }
         };
     forFaces(mesh, cellTets_, compare);
-    cyclics.add(normals, mesh.nCells());
-    cyclics.add(missing, mesh.nCells());
+    images.add(normals, mesh.nCells());
+    images.add(missing, mesh.nCells());
 
     const bitSet fixed
     (
-        fixedVertices(mesh, tets_, cyclics, vertices_.size())
+        fixedVertices(mesh, tets_, images, vertices_.size())
     );
 
     forAll(vertices_, i)
@@ -466,14 +466,14 @@ void Foam::frozenFlow::matchFluxes
 void Foam::frozenFlow::makeExcess
 (
     const undecomposedFlow& undecomposed,
-    const cyclicPoints& cyclics
+    const pointImages& images
 )
 {
     const polyMesh& mesh = undecomposed.mesh();
-    const auto edges = wallEdges(mesh, tets_, cyclics);
+    const auto edges = wallEdges(mesh, tets_, images);
     const bitSet fixed
     (
-        fixedVertices(mesh, tets_, cyclics, vertices_.size())
+        fixedVertices(mesh, tets_, images, vertices_.size())
     );
 
     List<FixedList<scalar, 4>> areas(tets_.size());
@@ -536,17 +536,13 @@ void Foam::frozenFlow::makeExcess
         const label first = cellTets_[celli];
         const label n = cellTets_[celli + 1] - first;
         const scalarField cellVolumes(SubField<scalar>(volumes, n, first));
-        const scalarField missing
-        (
-            missingIn(cellVolumes, fluxes, excess_, first)
-        );
 
         spread
         (
             tets_,
             SubList<FixedList<scalar, 4>>(areas, n, first),
             cellVolumes,
-            missing,
+            missingIn(cellVolumes, fluxes, excess_, first),
             first,
             excess_,
             vertices_

@@ -17,7 +17,7 @@ Description
 #include "undecomposedFlow.H"
 #include "vertexFit.H"
 #include "bitSet.H"
-#include "cyclicPoints.H"
+#include "pointImages.H"
 #include "cyclicPolyPatch.H"
 #include "volPointInterpolation.H"
 #include "fvcGrad.H"
@@ -449,7 +449,7 @@ void Foam::frozenFlow::setFlow
     const baffleSides& baffles
 )
 {
-    const cyclicPoints cyclics(undecomposed.mesh(), images_);
+    const pointImages images(undecomposed.mesh(), images_);
     setVertices
     (
         undecomposed,
@@ -462,19 +462,19 @@ void Foam::frozenFlow::setFlow
 
     if (scheme_ == stDivergenceFree)
     {
-        const vertexFit fit(undecomposed.U(), baffles, cyclics);
+        const vertexFit fit(undecomposed.U(), baffles, images);
 
         forAll(vertices_, i)
         {
             vertices_[i].u = fit.u[i];
             vertices_[i].gradient = fit.gradient[i];
         }
-        matchFluxes(undecomposed, cyclics);
-        makeExcess(undecomposed, cyclics);
+        matchFluxes(undecomposed, images);
+        makeExcess(undecomposed, images);
     }
     else if (scheme_ == stPartitionOfUnity)
     {
-        unity_.setFits(undecomposed.U(), baffles, cyclics, fits_);
+        unity_.setFits(undecomposed.U(), baffles, images, fits_);
     }
 }
 

@@ -87,11 +87,7 @@ namespace Foam
 
             forAll(ways_, i)
             {
-                if
-                (
-                    mag(way.A() - ways_[i].A()) < 1e-4
-                 && mag(way.b() - ways_[i].b()) < 1e-4*size_
-                )
+                if (way.alike(ways_[i], size_))
                 {
                     return i;
                 }

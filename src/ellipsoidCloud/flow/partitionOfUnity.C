@@ -10,7 +10,7 @@ License
 #include "partitionOfUnity.H"
 #include "partitionWeights.H"
 #include "baffleSides.H"
-#include "cyclicPoints.H"
+#include "pointImages.H"
 #include "domainImages.H"
 #include "frozenFlow.H"
 #include "undecomposedFlow.H"
@@ -322,12 +322,12 @@ void Foam::partitionOfUnity::setFits
 (
     const volVectorField& U,
     const baffleSides& baffles,
-    const cyclicPoints& cyclics,
+    const pointImages& images,
     UList<quadraticTerms>& fits
 ) const
 {
     const label nCells = moments_.size();
-    List<quadratic> ofCells(cellFits(U, baffles, cyclics));
+    List<quadratic> ofCells(cellFits(U, baffles, images));
 
     forAll(ofCells, celli)
     {

@@ -1,0 +1,429 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+Description
+    The quadratic polynomials of the mesh cells (vertexFit.H).
+
+\*---------------------------------------------------------------------------*/
+#include "vertexFit.H"
+#include "wallsAtVertices.H"
+#include "Tuple2.H"
+
+#include <algorithm>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- Least squares with columns for the three gradients, the six curvatures
+    //  and the three components of the velocity
+    class leastSquares
+    {
+        static const direction nUnknowns = 9;
+        static const direction nColumns = 12;
+
+        DynamicList<FixedList<scalar, nColumns>> rows_;
+
+    public:
+
+        void clear()
+        {
+            rows_.clear();
+        }
+
+        //- That the velocity differs by du where d is, and the second moments
+        //  by M; lengths by that of the mesh cell
+        void append(const vector& d, const symmTensor& M, const vector& du)
+        {
+            const scalar w = 1/mag(d);
+            const symmTensor dd(sqr(d) + M);
+
+            rows_.append
+            (
+                FixedList<scalar, nColumns>
+                ({
+                    w*d.x(), w*d.y(), w*d.z(),
+                    w*dd.xx()/2, w*dd.yy()/2, w*dd.zz()/2,
+                    w*dd.xy(), w*dd.xz(), w*dd.yz(),
+                    w*du.x(), w*du.y(), w*du.z()
+                })
+            );
+        }
+
+        //- Solve by Gram and Schmidt. An unknown that the others determine
+        //  already, as in a mesh one cell thick, is 0.
+        void solve(quadratic& p)
+        {
+            scalar R[nUnknowns][nColumns];
+            bool kept[nUnknowns];
+
+            FixedList<scalar, nColumns> before(0.0);
+            for (const auto& row : rows_)
+            {
+                for (direction j = 0; j < nUnknowns; ++j)
+                {
+                    before[j] += sqr(row[j]);
+                }
+            }
+
+            reduce(before, std::integral_constant<direction, 0>(), R, kept);
+
+            vector x[nUnknowns];
+            for (direction j = nUnknowns; j-- > 0;)
+            {
+                x[j] = Zero;
+                if (kept[j])
+                {
+                    x[j] = vector(R[j][9], R[j][10], R[j][11]);
+                    for (direction k = j + 1; k < nUnknowns; ++k)
+                    {
+                        x[j] -= kept[k] ? R[j][k]*x[k] : vector::zero;
+                    }
+                    x[j] *= R[j][j];
+                }
+            }
+
+            for (direction i = 0; i < 3; ++i)
+            {
+                for (direction j = 0; j < 3; ++j)
+                {
+                    p.gradient[3*i + j] = x[j][i];
+                }
+                p.curvature[i] = symmTensor
+                (
+                    x[3][i], x[6][i], x[7][i], x[4][i], x[8][i], x[5][i]
+                );
+            }
+        }
+
+    private:
+
+        //- All columns from one on, a constant so that loops vectorise
+        template<direction j>
+        void reduce
+        (
+            const FixedList<scalar, nColumns>& before,
+            const std::integral_constant<direction, j>,
+            scalar R[nUnknowns][nColumns],
+            bool kept[nUnknowns]
+        )
+        {
+            scalar norm = 0;
+            for (const auto& row : rows_)
+            {
+                norm += sqr(row[j]);
+            }
+
+            kept[j] = norm > 1e-4*before[j] && norm > VSMALL;
+            std::fill_n(R[j], nColumns, scalar(0));
+            if (kept[j])
+            {
+                takeAlong<j>(1/Foam::sqrt(norm), R[j]);
+            }
+            reduce
+            (
+                before, std::integral_constant<direction, j + 1>(), R, kept
+            );
+        }
+
+        void reduce
+        (
+            const FixedList<scalar, nColumns>&,
+            const std::integral_constant<direction, nUnknowns>,
+            scalar (*)[nColumns],
+            bool*
+        )
+        {}
+
+        //- Normalise a column and take the later ones' parts along it away.
+        //  In the place of a part along itself is the inverse norm.
+        template<direction along>
+        void takeAlong(const scalar inverseNorm, scalar to[nColumns])
+        {
+            scalar parts[nColumns] = {};
+
+            for (auto& row : rows_)
+            {
+                row[along] *= inverseNorm;
+                for (direction k = along + 1; k < nColumns; ++k)
+                {
+                    parts[k] += row[along]*row[k];
+                }
+            }
+            for (auto& row : rows_)
+            {
+                for (direction k = along + 1; k < nColumns; ++k)
+                {
+                    row[k] -= parts[k]*row[along];
+                }
+            }
+            std::copy_n(parts, nColumns, to);
+            to[along] = inverseNorm;
+        }
+    };
+
+    //- What has been taken for a mesh cell already: in the mesh by labels, of
+    //  images by where they are, too
+    class takenOnce
+    {
+        label celli_;
+        scalar length_;
+        labelList takenFor_;
+        DynamicList<Tuple2<label, point>> beyond_;
+
+    public:
+
+        explicit takenOnce(const label n)
+        :
+            celli_(-1),
+            length_(0),
+            takenFor_(n, -1)
+        {}
+
+        void start(const label celli, const scalar length)
+        {
+            celli_ = celli;
+            length_ = length;
+            beyond_.clear();
+        }
+
+        //- Take one, unless it has been
+        bool take(const label i)
+        {
+            const bool isNew = takenFor_[i] != celli_;
+            takenFor_[i] = celli_;
+            return isNew;
+        }
+
+        //- Take the image at x of one
+        bool take(const label i, const point& x)
+        {
+            for (const Tuple2<label, point>& known : beyond_)
+            {
+                if
+                (
+                    known.first() == i
+                 && mag(known.second() - x) < 1e-6*length_
+                )
+                {
+                    return false;
+                }
+            }
+            beyond_.append(Tuple2<label, point>(i, x));
+            return true;
+        }
+    };
+
+    //- What polynomials are fitted to
+    class cellFitter
+    {
+        const volVectorField& U_;
+        const polyMesh& mesh_;
+        const baffleSides& baffles_;
+        const pointImages& images_;
+        const wallsAtVertices& walls_;
+        const symmTensorField M_;
+
+        //- For one mesh cell and its size [m]
+        label celli_;
+        scalar length_;
+        leastSquares equations_;
+        takenOnce cells_;
+        takenOnce faces_;
+
+        void add(const point& x, const symmTensor& m, const vector& u)
+        {
+            equations_.append
+            (
+                (x - mesh_.cellCentres()[celli_])/length_,
+                (m - M_[celli_])/sqr(length_),
+                u - U_[celli_]
+            );
+        }
+
+        //- The second moments of a face of a wall, as wide as its cell
+        symmTensor momentsOf(const label facei) const
+        {
+            const vector& S = mesh_.faceAreas()[facei];
+            const symmTensor along(I - sqr(S/mag(S)));
+            return symm(along & M_[mesh_.faceOwner()[facei]] & along);
+        }
+
+        //- Mesh cells and walls at a point
+        void addAt(const label pointi)
+        {
+            const label vertexi = baffles_.vertex(pointi, celli_);
+
+            for (const label other : mesh_.pointCells()[pointi])
+            {
+                if
+                (
+                    baffles_.vertex(pointi, other) == vertexi
+                 && cells_.take(other)
+                )
+                {
+                    add(mesh_.cellCentres()[other], M_[other], U_[other]);
+                }
+            }
+            for (const label facei : walls_.faces(vertexi))
+            {
+                if (faces_.take(facei))
+                {
+                    add
+                    (
+                        mesh_.faceCentres()[facei],
+                        momentsOf(facei),
+                        walls_.velocity(facei)
+                    );
+                }
+            }
+        }
+
+        //- And their image
+        void addImage(const pointImage& from)
+        {
+            const tensor T(from.image.turn());
+
+            for (const label other : mesh_.pointCells()[from.point])
+            {
+                const point x(from.image(mesh_.cellCentres()[other]));
+                if
+                (
+                    baffles_.vertex(from.point, other) == from.point
+                 && cells_.take(other, x)
+                )
+                {
+                    add(x, transform(T, M_[other]), T & U_[other]);
+                }
+            }
+            for (const label facei : walls_.faces(from.point))
+            {
+                const point x(from.image(mesh_.faceCentres()[facei]));
+                if (faces_.take(facei, x))
+                {
+                    add
+                    (
+                        x,
+                        transform(T, momentsOf(facei)),
+                        T & walls_.velocity(facei)
+                    );
+                }
+            }
+        }
+
+    public:
+
+        cellFitter
+        (
+            const volVectorField& U,
+            const baffleSides& baffles,
+            const pointImages& images,
+            const wallsAtVertices& walls
+        )
+        :
+            U_(U),
+            mesh_(U.mesh()),
+            baffles_(baffles),
+            images_(images),
+            walls_(walls),
+            M_(secondMoments(mesh_)),
+            celli_(-1),
+            length_(0),
+            cells_(mesh_.nCells()),
+            faces_(mesh_.nFaces())
+        {}
+
+        //- The polynomial of a mesh cell
+        quadratic fit(const label celli)
+        {
+            celli_ = celli;
+            length_ = Foam::sqrt(tr(M_[celli]));
+            equations_.clear();
+            cells_.start(celli, length_);
+            faces_.start(celli, length_);
+            cells_.take(celli);
+
+            for (const label pointi : mesh_.cellPoints()[celli])
+            {
+                addAt(pointi);
+                for (const pointImage& from : images_.at(pointi))
+                {
+                    addImage(from);
+                }
+            }
+
+            quadratic p;
+            equations_.solve(p);
+            p.gradient /= length_;
+            p.value = U_[celli];
+            for (direction i = 0; i < 3; ++i)
+            {
+                p.curvature[i] /= sqr(length_);
+                p.value[i] -= 0.5*(p.curvature[i] && M_[celli]);
+            }
+            return p;
+        }
+    };
+}
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+Foam::symmTensorField Foam::secondMoments(const polyMesh& mesh)
+{
+    symmTensorField moments(mesh.nCells(), Zero);
+    scalarField volumes(mesh.nCells(), Zero);
+
+    forAll(mesh.faces(), facei)
+    {
+        const face& f = mesh.faces()[facei];
+        for (label side = 0; side < 1 + mesh.isInternalFace(facei); ++side)
+        {
+            const label celli =
+                side ? mesh.faceNeighbour()[facei]
+              : mesh.faceOwner()[facei];
+            const point& c = mesh.cellCentres()[celli];
+
+            for (label i = 1; i < f.size() - 1; ++i)
+            {
+                const vector a(mesh.points()[f[0]] - c);
+                const vector b(mesh.points()[f[i]] - c);
+                const vector d(mesh.points()[f[i + 1]] - c);
+                const scalar volume = (side ? -1 : 1)*(a & (b ^ d));
+
+                moments[celli] +=
+                    volume*(sqr(a) + sqr(b) + sqr(d) + sqr(a + b + d))/20;
+                volumes[celli] += volume;
+            }
+        }
+    }
+
+    return moments/volumes;
+}
+
+
+Foam::List<Foam::quadratic> Foam::cellFits
+(
+    const volVectorField& U,
+    const baffleSides& baffles,
+    const pointImages& images
+)
+{
+    const wallsAtVertices walls(U, baffles, images);
+    cellFitter fitter(U, baffles, images, walls);
+    List<quadratic> fits(U.mesh().nCells());
+
+    forAll(fits, celli)
+    {
+        fits[celli] = fitter.fit(celli);
+    }
+    return fits;
+}
+
+
+// ************************************************************************* //

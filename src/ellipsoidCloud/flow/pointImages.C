@@ -1,0 +1,135 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "pointImages.H"
+#include "cyclicPolyPatch.H"
+#include "domainImages.H"
+#include "polyMesh.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::pointImages::findImages
+(
+    const polyMesh& mesh,
+    const domainImages& images,
+    const UList<label>& cyclics
+)
+{
+    const pointField& x = mesh.points();
+    const scalar size = boundBox(x, false).mag();
+    Map<DynamicList<isometry>> mirrors;
+
+    for (const domainImages::seam& seam : images.seams())
+    {
+        const polyPatch& pp = mesh.boundaryMesh()[seam.patch];
+        for (label i = 0; seam.mirrors() && i < pp.nPoints(); ++i)
+        {
+            mirrors(pp.meshPoints()[i]).append(seam.inward);
+            imagesAt_(pp.meshPoints()[i]);
+        }
+    }
+    for (const label pointi : cyclics)
+    {
+        imagesAt_(pointi);
+    }
+
+    for (const label pointi : imagesAt_.sortedToc())
+    {
+        DynamicList<pointImage> list;
+        list.append(pointImage{pointi, isometry()});
+        const auto add =
+            [&](const label other, const isometry& image)
+            {
+                bool isNew = true;
+                for (const pointImage& known : list)
+                {
+                    isNew = isNew && !image.alike(known.image, size);
+                }
+                if (isNew)
+                {
+                    list.append(pointImage{other, image});
+                }
+            };
+
+        for (label i = 0; i < list.size(); ++i)
+        {
+            const pointImage from(list[i]);
+            for (const label other : with(from.point))
+            {
+                const vector shift(x[from.point] - x[other]);
+                add(other, from.image.after(isometry::translation(shift)));
+            }
+            const auto found = mirrors.cfind(from.point);
+            const label n = found.found() ? (*found).size() : 0;
+            for (label k = 0; k < n; ++k)
+            {
+                add(from.point, from.image.after((*found)[k]));
+            }
+        }
+
+        // Without the mesh itself
+        imagesAt_[pointi] = SubList<pointImage>(list, list.size() - 1, 1);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::pointImages::pointImages
+(
+    const polyMesh& mesh,
+    const domainImages& images
+)
+{
+    Map<DynamicList<label>> across;
+    for (const domainImages::seam& seam : images.seams())
+    {
+        if (seam.mirrors())
+        {
+            continue;
+        }
+        const cyclicPolyPatch& half =
+            refCast<const cyclicPolyPatch>(mesh.boundaryMesh()[seam.patch]);
+
+        for (const edge& pair : half.coupledPoints())
+        {
+            across(half.meshPoints()[pair.first()])
+                .append(half.neighbPatch().meshPoints()[pair.second()]);
+        }
+    }
+
+    // At an edge of two cyclic patches four are one
+    for (const label pointi : across.sortedToc())
+    {
+        if (!listOf_.found(pointi))
+        {
+            DynamicList<label> points;
+            points.append(pointi);
+            listOf_.insert(pointi, same_.size());
+
+            for (label i = 0; i < points.size(); ++i)
+            {
+                for (const label other : across[points[i]])
+                {
+                    if (listOf_.insert(other, same_.size()))
+                    {
+                        points.append(other);
+                    }
+                }
+            }
+            sort(points);
+            same_.append(labelList(points));
+        }
+    }
+
+    findImages(mesh, images, across.sortedToc());
+}
+
+
+// ************************************************************************* //
