@@ -21,6 +21,7 @@ Description
 #include "flow/frozenFlowTets.C"
 #include "flow/frozenFlowWalk.C"
 #include "flow/inletFlux.C"
+#include "flow/partitionNeighbours.C"
 #include "flow/partitionOfUnity.C"
 #include "flow/possibleInflow.C"
 #include "flow/readViscosity.C"
