@@ -73,6 +73,9 @@ namespace Foam
         scalar size;
         vector ends[2];
 
+        //- The larger of each
+        vector half;
+
         void set
         (
             const UList<point>& all,
@@ -93,6 +96,7 @@ namespace Foam
             }
             ends[0] -= 1e-6*size*vector::one;
             ends[1] += 1e-6*size*vector::one;
+            half = max(-ends[0], ends[1]);
         }
 
         //- The octants that a box comes nearer to than a distance, where
@@ -141,7 +145,12 @@ namespace Foam
                 return true;
             }
 
+            // No point has more than the corner of the box
             const scalar past = sqr(Foam::sqrt(distance) - 1);
+            if (past > (half & (cmptMag(metric) & half)))
+            {
+                return false;
+            }
             for (const vector& r : points)
             {
                 if (past < (r & (metric & r)))
