@@ -334,6 +334,26 @@ namespace Foam
         return values.size() ? values[facei - patches[patchi].start()] : 0;
     }
 
+    //- The velocity in a tetrahedron as it is without bubbles
+    static tetFlow quadraticIn
+    (
+        const flowTet& tet,
+        const UList<flowVertex>& vertices,
+        const flowTetExcess& excess
+    )
+    {
+        tetFlow flow;
+        flow.setQuadratic
+        (
+            [&](const int a) -> const flowVertex&
+            {
+                return vertices[tet.vertices[a]];
+            },
+            excess.straight
+        );
+        return flow;
+    }
+
     //- Mean over a triangle of the velocity that is quadratic on its edges
     static vector meanVelocity
     (
@@ -488,15 +508,7 @@ void Foam::frozenFlow::makeExcess
 
         tetCoordinates c;
         setCoordinates(teti, vertices_[tet.vertices[0]].x, c);
-        tetFlow flow;
-        flow.setQuadratic
-        (
-            [&](const int a) -> const flowVertex&
-            {
-                return vertices_[tet.vertices[a]];
-            },
-            excess_[teti].straight
-        );
+        const tetFlow flow(quadraticIn(tet, vertices_, excess_[teti]));
         volumes[teti] = flow.volume();
 
         for (label i = 0; i < 4; ++i)

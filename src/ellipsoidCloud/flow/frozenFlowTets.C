@@ -450,15 +450,9 @@ void Foam::frozenFlow::setFlow
 )
 {
     const pointImages images(undecomposed.mesh(), images_);
-    setVertices
-    (
-        undecomposed,
-        rho,
-        images_,
-        baffles,
-        scheme_ == stCellPoint || scheme_ == stCellPointQuadratic,
-        vertices_
-    );
+    const bool interpolated =
+        scheme_ == stCellPoint || scheme_ == stCellPointQuadratic;
+    setVertices(undecomposed, rho, images_, baffles, interpolated, vertices_);
 
     if (scheme_ == stDivergenceFree)
     {

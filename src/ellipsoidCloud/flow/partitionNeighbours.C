@@ -29,6 +29,9 @@ namespace Foam
         scalar size;
         vector ends[2];
 
+        //- The larger of each
+        vector half;
+
         void set
         (
             const UList<point>& all,
@@ -49,6 +52,7 @@ namespace Foam
             }
             ends[0] -= 1e-6*size*vector::one;
             ends[1] += 1e-6*size*vector::one;
+            half = max(-ends[0], ends[1]);
         }
 
         //- The octants that a box comes nearer to than a distance, where
@@ -87,26 +91,22 @@ namespace Foam
             return found;
         }
 
-        //- Does the support of a mesh cell with its centre at d, within a
-        //  radius, reach here, as far as a triangle inequality tells?
-        bool reached
-        (
-            const symmTensor& metric,
-            const scalar radius,
-            const vector& d
-        ) const
+        //- Does the support of a mesh cell with its centre at d reach here, as
+        //  far as a triangle inequality tells?
+        bool reached(const symmTensor& metric, const vector& d) const
         {
-            if (magSqr(d) >= sqr(radius + size))
-            {
-                return false;
-            }
             const scalar distance = d & (metric & d);
             if (distance < 1)
             {
                 return true;
             }
 
+            // No point has more than the corner of the box
             const scalar past = sqr(Foam::sqrt(distance) - 1);
+            if (past > (half & (cmptMag(metric) & half)))
+            {
+                return false;
+            }
             for (const vector& r : points)
             {
                 if (past < (r & (metric & r)))
@@ -134,6 +134,29 @@ namespace Foam
 
         return
             cmptProduct(diagonal) > cmptProduct(sphere) ? diagonal : sphere;
+    }
+
+    //- What a support lies within, close together in memory
+    struct supportBounds
+    {
+        point x;
+        scalar radius;
+        vector form;
+    };
+
+    static List<supportBounds> boundsOf(const UList<weightSupport>& supports)
+    {
+        List<supportBounds> bounds(supports.size());
+        forAll(bounds, i)
+        {
+            bounds[i] = supportBounds
+            {
+                supports[i].x,
+                Foam::sqrt(supports[i].farthest),
+                formBelow(supports[i])
+            };
+        }
+        return bounds;
     }
 
     //- Note the octants in which the next source of a mesh cell has a weight
@@ -220,15 +243,7 @@ void Foam::partitionOfUnity::findNear
 )
 {
     const labelList firstOf(firstTriangles(cells.size(), triangles));
-
-    vectorField factors(cells.size());
-    scalarField radii(cells.size());
-    forAll(factors, i)
-    {
-        factors[i] = formBelow(supports_[i]);
-        radii[i] = Foam::sqrt(supports_[i].farthest);
-    }
-
+    const List<supportBounds> bounds(boundsOf(supports_));
     const labelListList& cellPoints = mesh.cellPoints();
     const pointField& points = mesh.points();
     labelList listed(cells.size(), -1);
@@ -251,22 +266,21 @@ void Foam::partitionOfUnity::findNear
         for (label i = 0; i < found.size(); ++i)
         {
             const label other = found[i];
-            const weightSupport& support = supports_[other];
-            const vector d(support.x - x);
-            if (!extent.reached(support.metric, radii[other], d))
+            const vector d(bounds[other].x - x);
+            if
+            (
+                magSqr(d) >= sqr(bounds[other].radius + extent.size)
+             || !extent.reached(supports_[other].metric, d)
+            )
             {
                 continue;
             }
 
             reaching.append(other);
-            note
-            (
-                near,
-                other,
-                extent.octants(d, d, factors[other], 1),
-                sources,
-                masks
-            );
+            const unsigned octants =
+                extent.octants(d, d, bounds[other].form, 1);
+            note(near, other, octants, sources, masks);
+
             for (const label next : cells.around(other))
             {
                 if (listed[next] != celli)

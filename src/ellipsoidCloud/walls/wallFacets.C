@@ -124,6 +124,17 @@ namespace Foam
         return triSurface(List<labelledTri>(triangles), mesh.points());
     }
 
+    //- The cube of space that holds a point
+    static FixedList<label, 3> cubeAt(const point& x, const scalar size)
+    {
+        return FixedList<label, 3>
+        ({
+            label(std::floor(x.x()/size)),
+            label(std::floor(x.y()/size)),
+            label(std::floor(x.z()/size))
+        });
+    }
+
     //- Two surfaces that share no points
     static triSurface both(const triSurface& a, const triSurface& b)
     {
@@ -224,12 +235,20 @@ void Foam::wallFacets::setFacets(const domainImages& images)
         spheres_[faceti] = sphere{pointOf(f.middle), f.radius};
     }
 
-    boxes_.setSize((spheres_.size() + boxed - 1)/boxed);
-    forAll(spheres_, i)
+    // By wide cubes of space, so that those of a box are near one another
+    List<FixedList<label, 3>> cubes(spheres_.size());
+    forAll(cubes, i)
     {
-        const vector r(spheres_[i].radius*vector::one);
-        boxes_[i/boxed].add(spheres_[i].centre - r);
-        boxes_[i/boxed].add(spheres_[i].centre + r);
+        cubes[i] = cubeAt(spheres_[i].centre, 4*regionSize_);
+    }
+    sortedOrder(cubes, inBoxes_);
+
+    boxes_.setSize((spheres_.size() + boxed - 1)/boxed);
+    forAll(inBoxes_, i)
+    {
+        const sphere& s = spheres_[inBoxes_[i]];
+        boxes_[i/boxed].add(s.centre - s.radius*vector::one);
+        boxes_[i/boxed].add(s.centre + s.radius*vector::one);
     }
 }
 
@@ -303,12 +322,7 @@ const Foam::wallFacets::region& Foam::wallFacets::regionAt
     const scalar reach
 ) const
 {
-    const FixedList<label, 3> key
-    ({
-        label(std::floor(x.x()/regionSize_)),
-        label(std::floor(x.y()/regionSize_)),
-        label(std::floor(x.z()/regionSize_))
-    });
+    const FixedList<label, 3> key(cubeAt(x, regionSize_));
 
     region& here = regions_(key, region{-1, labelList()});
 
@@ -328,19 +342,20 @@ const Foam::wallFacets::region& Foam::wallFacets::regionAt
 
             for (label i = first; i < end; ++i)
             {
-                const sphere& s = spheres_[i];
+                const sphere& s = spheres_[inBoxes_[i]];
                 const vector off(cmptMag(s.centre - corner - half) - half);
                 const scalar far = margin.x() + s.radius;
 
                 if (magSqr(max(off, vector::zero)) < sqr(far))
                 {
-                    facets.append(i);
+                    facets.append(inBoxes_[i]);
                 }
             }
         }
 
         here.reach = reach;
         here.facets = facets;
+        std::sort(here.facets.begin(), here.facets.end());
     }
 
     return here;
