@@ -33,7 +33,6 @@ Description
 
 #include "motion/groupAdvance.C"
 #include "motion/groupScheduler.C"
-#include "motion/independentCells.C"
 #include "motion/overlapGroups.C"
 
 #include "occupancy/occupancy.C"

@@ -35,15 +35,6 @@ static string um(const vector& v)
 }
 
 
-//- Width of a cell: twice its shortest semi-axis
-static scalar widthOf(const ellipsoid_options& options)
-{
-    const double* a = options.semi_axes;
-
-    return 2*min(a[0], min(a[1], a[2]));
-}
-
-
 static void reportMesh
 (
     const label nMeshCells,
@@ -167,7 +158,7 @@ void Foam::reportSize
     (
         nMeshCells,
         bounds.span(),
-        population.largest(widthOf),
+        2*population.largest(shortestSemiAxis),
         2*population.largest(longestSemiAxis)
     );
     reportCell(population.properties().options());
@@ -178,19 +169,12 @@ void Foam::reportCapture
 (
     const fvMesh& mesh,
     const Time& clock,
-    const cellPopulation& population,
+    const domainImages& images,
+    const scalar width,
     const captureCriterion& criterion
 )
 {
-    const ellipsoidProperties& properties = population.properties();
-
-    reportSieves
-    (
-        mesh,
-        criterion,
-        domainImages(mesh, properties.unreached()),
-        widthOf(properties.options())
-    );
+    reportSieves(mesh, criterion, images, width);
 
     const scalar deltaT = clock.deltaTValue();
     const scalar end = clock.endTime().value();

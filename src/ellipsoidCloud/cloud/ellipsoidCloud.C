@@ -158,11 +158,8 @@ void Foam::ellipsoidCloud::checkClock() const
 }
 
 
-void Foam::ellipsoidCloud::checkImages() const
+void Foam::ellipsoidCloud::checkImages(const domainImages& images) const
 {
-    const polyMesh& mesh = undecomposed_->mesh();
-    const domainImages images(mesh, properties_.unreached());
-
     for (const domainImages::seam& seam : images.seams())
     {
         const bool unity =
@@ -178,8 +175,8 @@ void Foam::ellipsoidCloud::checkImages() const
 
         if (unable && (unity || !seam.mirrors()))
         {
-            const word& name = mesh.boundaryMesh()[seam.patch].name();
-
+            const word& name =
+                undecomposedMesh().boundaryMesh()[seam.patch].name();
             FatalIOErrorInFunction(properties_)
                 << "cells pass " << (seam.mirrors() ? "symmetry" : "cyclic")
                 << " patch " << name << ", and " << unable
@@ -277,23 +274,25 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
     mesh_(mesh),
     flowType_(type),
     properties_(mesh),
+    population_(properties_),
     earlier_(mesh.time()),
     undecomposed_(new undecomposedFlow(mesh)),
     field_
     (
         electricField::read(properties_.section("forces"), mesh, *undecomposed_)
     ),
-    population_(properties_),
     criterion_(properties_.section("capture"), mesh.boundaryMesh()),
     time_(presentTime(mesh.time())),
     firstTime_(mesh.time().timeName())
 {
+    domainImages images;
     {
         const masterGate once;
 
         if (Pstream::master())
         {
-            checkImages();
+            images = domainImages(undecomposedMesh(), properties_.unreached());
+            checkImages(images);
             meshNotes_ = checkpoint::notesOf(undecomposed_->mesh());
             earlier_.checkMesh(meshNotes_);
         }
@@ -308,14 +307,14 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
 
         if (Pstream::master())
         {
-            const fvMesh& whole = undecomposed_->mesh();
-
+            const fvMesh& whole = undecomposedMesh();
+            const scalar width = 2*shortestSemiAxis(properties_.options());
             // The function object has told it before the solver began
             if (flowType_ != STEADY)
             {
                 reportSize(whole.nCells(), whole.bounds(), population_);
             }
-            reportCapture(whole, mesh.time(), population_, criterion_);
+            reportCapture(whole, mesh.time(), images, width, criterion_);
         }
     }
     if (earlier_.found())

@@ -170,7 +170,6 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     readOptions();
     checkOptions();
     checkPatches(mesh.boundaryMesh());
-    cellPopulation(*this);
 }
 
 
