@@ -177,6 +177,7 @@ void Foam::ellipsoidCloud::checkImages(const domainImages& images) const
         {
             const word& name =
                 undecomposedMesh().boundaryMesh()[seam.patch].name();
+
             FatalIOErrorInFunction(properties_)
                 << "cells pass " << (seam.mirrors() ? "symmetry" : "cyclic")
                 << " patch " << name << ", and " << unable
@@ -309,6 +310,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
         {
             const fvMesh& whole = undecomposedMesh();
             const scalar width = 2*shortestSemiAxis(properties_.options());
+
             // The function object has told it before the solver began
             if (flowType_ != STEADY)
             {
@@ -323,6 +325,9 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
         checkCells();
     }
 }
+
+
+Foam::ellipsoidCloud::~ellipsoidCloud() = default;
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //

@@ -269,6 +269,7 @@ void Foam::ellipsoidCloud::write()
     tracks_->flush();
     particles_->writeFiles(statistics_->size());
     writePoses(tracks_->set(), cells_, time.timeName());
+
     dictionary tables;
     tables.add("events", statistics_->log.notes());
     tables.add("tracks", tracks_->file.notes());

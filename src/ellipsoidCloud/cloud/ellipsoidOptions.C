@@ -217,6 +217,7 @@ void Foam::ellipsoidProperties::readOptions()
 
     // The default is of cells as wide as the paper's
     const scalar shortest = shortestSemiAxis(options_);
+
     if
     (
         !section("contact").found("beadRadius")

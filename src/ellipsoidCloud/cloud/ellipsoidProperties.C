@@ -175,6 +175,12 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+Foam::wordRes Foam::ellipsoidProperties::unreached() const
+{
+    return getOrDefault("unreached", wordRes());
+}
+
+
 void Foam::ellipsoidProperties::checkKeywords
 (
     const dictionary& dict,

@@ -21,8 +21,6 @@ Foam::cellPopulation::distributionNames_
 });
 
 
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::cellPopulation::readDistribution(const dictionary& dict)

@@ -325,14 +325,12 @@ void Foam::groupAdvance::enter
                 cell.state.centre(), cell.state.time, id == tried ? reach : 0
             }
         );
-        if (isClamped(id) || (pull && id == tried))
+        const heldWrench* given = id == tried ? pull : nullptr;
+        if (given || isClamped(id))
         {
-            own[i].here.setStill();
+            own[i].here.setStill(given);
         }
-        if (pull && id == tried)
-        {
-            own[i].here.setPull(*pull);
-        }
+
         own[i].here.repeat =
             reinterpret_cast<const scalar(*)[3]>(periods_.cdata());
         own[i].here.repeat_count = periods_.size();
