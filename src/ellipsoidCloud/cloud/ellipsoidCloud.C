@@ -169,8 +169,6 @@ void Foam::ellipsoidCloud::checkImages(const domainImages& images) const
           ? "interpolation is partitionOfUnity"
           : properties_.section("occupancy").getOrDefault("active", false)
           ? "occupancy is active"
-          : properties_.scheme() == frozenFlow::stDivergenceFree
-          ? "interpolation is divergenceFree"
           : nullptr;
 
         if (unable && (unity || !seam.mirrors()))

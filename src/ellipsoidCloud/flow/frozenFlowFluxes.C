@@ -15,6 +15,8 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "frozenFlow.H"
+#include "cyclicPoints.H"
+#include "cyclicPolyPatch.H"
 #include "tetFlow.H"
 #include "undecomposedFlow.H"
 #include "LLTMatrix.H"
@@ -27,14 +29,35 @@ Description
 
 namespace Foam
 {
-    //- Edges of triangles on walls, by vertices
+    //- Edges of triangles on walls, by vertices, and those that are one with them
     static HashSet<edge, Hash<edge>> wallEdges
     (
         const polyMesh& mesh,
-        const UList<flowTet>& tets
+        const UList<flowTet>& tets,
+        const cyclicPoints& cyclics
     )
     {
         HashSet<edge, Hash<edge>> edges;
+        const auto insert =
+            [&](const label a, const label b)
+            {
+                edges.insert(edge(a, b));
+
+                const label nCells = mesh.nCells();
+                const pointField& x = mesh.points();
+                const labelUList with(cyclics.with(b - nCells));
+                for (const label p : cyclics.with(a - nCells))
+                {
+                    const point end(x[p] + x[b - nCells] - x[a - nCells]);
+                    for (const label q : with)
+                    {
+                        if (mag(x[q] - end) < 1e-6*mag(x[q] - x[p]))
+                        {
+                            edges.insert(edge(nCells + p, nCells + q));
+                        }
+                    }
+                }
+            };
 
         for (const flowTet& tet : tets)
         {
@@ -44,10 +67,7 @@ namespace Foam
             {
                 for (label i = 1; i < 4; ++i)
                 {
-                    edges.insert
-                    (
-                        edge(tet.vertices[i], tet.vertices[i % 3 + 1])
-                    );
+                    insert(tet.vertices[i], tet.vertices[i % 3 + 1]);
                 }
             }
         }
@@ -124,6 +144,29 @@ namespace Foam
             flux[3 + k] = byGradient[k];
         }
         return flux;
+    }
+
+    //- The flux that is missing in the tetrahedra of a cell, from a first on
+    static scalarField missingIn
+    (
+        const scalarField& volumes,
+        const UList<FixedList<scalar, 4>>& fluxes,
+        const UList<flowTetExcess>& excess,
+        const label first
+    )
+    {
+        scalarField missing(volumes.size());
+
+        forAll(missing, i)
+        {
+            const FixedList<scalar, 4>& flux = fluxes[first + i];
+            missing[i] =
+                -excess[first + i].flux[0]
+              - flux[0] - flux[1] - flux[2] - flux[3];
+        }
+
+        // A flow that is not free of divergence has it everywhere in the cell
+        return missing - sum(missing)/sum(volumes)*volumes;
     }
 
     //- Spread the flux that is missing in the tetrahedra of a cell by the least
@@ -225,6 +268,7 @@ namespace Foam
     (
         const polyMesh& mesh,
         const UList<flowTet>& tets,
+        const cyclicPoints& cyclics,
         const label nVertices
     )
     {
@@ -244,12 +288,32 @@ namespace Foam
             {
                 for (label i = 1; i < 4; ++i)
                 {
+                    const label pointi = tet.vertices[i] - mesh.nCells();
                     fixed.set(tet.vertices[i]);
+                    for (const label other : cyclics.with(pointi))
+                    {
+                        fixed.set(mesh.nCells() + other);
+                    }
                 }
             }
         }
 
         return fixed;
+    }
+
+    //- Is a patch the second half of a cyclic one, whose faces and points are
+    //  one with those of the first?
+    static bool isSecondHalf
+    (
+        const polyMesh& mesh,
+        const domainImages& images,
+        const label patchi
+    )
+    {
+        const domainImages::seam* seam = patchi < 0 ? nullptr : images.at(patchi);
+        return
+            seam && !seam->mirrors()
+         && !refCast<const cyclicPolyPatch>(mesh.boundaryMesh()[patchi]).owner();
     }
 
     //- The flux through a face of the mesh; none through one of an empty patch
@@ -319,7 +383,11 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::frozenFlow::matchFluxes(const undecomposedFlow& undecomposed)
+void Foam::frozenFlow::matchFluxes
+(
+    const undecomposedFlow& undecomposed,
+    const cyclicPoints& cyclics
+)
 {
     const polyMesh& mesh = undecomposed.mesh();
     const surfaceScalarField& phi = undecomposed.phi();
@@ -334,6 +402,7 @@ void Foam::frozenFlow::matchFluxes(const undecomposedFlow& undecomposed)
         [&](const label facei, const label first, const label end)
         {
             const label patchi = mesh.boundaryMesh().whichPatch(facei);
+            const bool second = isSecondHalf(mesh, images_, patchi);
             scalar flux = fluxThrough(phi, facei);
             vector area(Zero);
 
@@ -354,7 +423,7 @@ void Foam::frozenFlow::matchFluxes(const undecomposedFlow& undecomposed)
 
                 flux -= meanVelocity(a, b, c) & S;
                 area += S;
-                for (label a = teti == first ? 1 : 3; a < 4; ++a)
+                for (label a = teti == first ? 1 : 3; a < 4 && !second; ++a)
                 {
                     corners.append(v[a]);
                 }
@@ -373,8 +442,13 @@ void Foam::frozenFlow::matchFluxes(const undecomposedFlow& undecomposed)
             }
         };
     forFaces(mesh, cellTets_, compare);
+    cyclics.add(normals, mesh.nCells());
+    cyclics.add(missing, mesh.nCells());
 
-    const bitSet fixed(fixedVertices(mesh, tets_, vertices_.size()));
+    const bitSet fixed
+    (
+        fixedVertices(mesh, tets_, cyclics, vertices_.size())
+    );
 
     forAll(vertices_, i)
     {
@@ -389,11 +463,18 @@ void Foam::frozenFlow::matchFluxes(const undecomposedFlow& undecomposed)
 }
 
 
-void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
+void Foam::frozenFlow::makeExcess
+(
+    const undecomposedFlow& undecomposed,
+    const cyclicPoints& cyclics
+)
 {
     const polyMesh& mesh = undecomposed.mesh();
-    const auto edges = wallEdges(mesh, tets_);
-    const bitSet fixed(fixedVertices(mesh, tets_, vertices_.size()));
+    const auto edges = wallEdges(mesh, tets_, cyclics);
+    const bitSet fixed
+    (
+        fixedVertices(mesh, tets_, cyclics, vertices_.size())
+    );
 
     List<FixedList<scalar, 4>> areas(tets_.size());
     List<FixedList<scalar, 4>> fluxes(tets_.size());
@@ -447,17 +528,10 @@ void Foam::frozenFlow::makeExcess(const undecomposedFlow& undecomposed)
         const label first = cellTets_[celli];
         const label n = cellTets_[celli + 1] - first;
         const scalarField cellVolumes(SubField<scalar>(volumes, n, first));
-        scalarField missing(n);
-
-        forAll(missing, i)
-        {
-            const FixedList<scalar, 4>& flux = fluxes[first + i];
-            missing[i] =
-                -excess_[first + i].flux[0]
-              - flux[0] - flux[1] - flux[2] - flux[3];
-        }
-        // A flow that is not free of divergence has it everywhere in the cell
-        missing -= sum(missing)/sum(cellVolumes)*cellVolumes;
+        const scalarField missing
+        (
+            missingIn(cellVolumes, fluxes, excess_, first)
+        );
 
         spread
         (

@@ -17,6 +17,7 @@ Description
 #include "undecomposedFlow.H"
 #include "vertexFit.H"
 #include "bitSet.H"
+#include "cyclicPoints.H"
 #include "cyclicPolyPatch.H"
 #include "volPointInterpolation.H"
 #include "fvcGrad.H"
@@ -316,6 +317,26 @@ namespace Foam
               : max(bases[facei], label(0));
         }
 
+        // Both halves of a cyclic patch alike: faces begin with the same point
+        // and go round in opposite senses
+        for (const polyPatch& pp : mesh.boundaryMesh())
+        {
+            if (!isA<cyclicPolyPatch>(pp))
+            {
+                continue;
+            }
+            const cyclicPolyPatch& half = refCast<const cyclicPolyPatch>(pp);
+            forAll(half, i)
+            {
+                const label n = half[i].size();
+                if (half.owner())
+                {
+                    bases[half.neighbPatch().start() + i] =
+                        (n - bases[half.start() + i]) % n;
+                }
+            }
+        }
+
         forAll(mesh.cells(), celli)
         {
             splitCell
@@ -407,85 +428,6 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::frozenFlow::findAcross(const polyMesh& mesh)
-{
-    for (const domainImages::seam& seam : images_.seams())
-    {
-        if (seam.mirrors())
-        {
-            continue;
-        }
-
-        const cyclicPolyPatch& half =
-            refCast<const cyclicPolyPatch>(mesh.boundaryMesh()[seam.patch]);
-        const cyclicPolyPatch& other = half.neighbPatch();
-
-        forAll(half, i)
-        {
-            // Of the other side's tetrahedra at this face the nearest; those of
-            // a face are cut alike unless rounding has it otherwise
-            const auto tetsAt =
-                [&](const polyPatch& pp)
-                {
-                    DynamicList<label> found;
-                    const label celli = pp.faceCells()[i];
-                    for
-                    (
-                        label teti = cellTets_[celli];
-                        teti < cellTets_[celli + 1];
-                        ++teti
-                    )
-                    {
-                        const flowTet& tet = tets_[teti];
-                        bool atFace = tet.neighbours[0] == -1 - pp.index();
-                        for (label k = 1; k < 4 && atFace; ++k)
-                        {
-                            const label pointi =
-                                tet.vertices[k] - mesh.nCells();
-                            atFace =
-                                pointi >= mesh.nPoints()
-                             || pp[i].found(pointi);
-                        }
-                        if (atFace)
-                        {
-                            found.append(teti);
-                        }
-                    }
-                    return found;
-                };
-            const auto middle =
-                [&](const label teti)
-                {
-                    const label* v = tets_[teti].vertices;
-                    return
-                        (vertices_[v[1]].x + vertices_[v[2]].x
-                      + vertices_[v[3]].x)/3;
-                };
-
-            const DynamicList<label> there(tetsAt(other));
-            for (const label teti : tetsAt(half))
-            {
-                const point x(seam.inward(middle(teti)));
-                label nearest = -1;
-                for (const label candidate : there)
-                {
-                    if
-                    (
-                        nearest < 0
-                     || magSqr(middle(candidate) - x)
-                      < magSqr(middle(nearest) - x)
-                    )
-                    {
-                        nearest = candidate;
-                    }
-                }
-                tetAcross_.set(teti, nearest);
-            }
-        }
-    }
-}
-
-
 void Foam::frozenFlow::setFlow
 (
     const undecomposedFlow& undecomposed,
@@ -497,15 +439,16 @@ void Foam::frozenFlow::setFlow
 
     if (scheme_ == stDivergenceFree)
     {
-        const vertexFit fit(undecomposed.U(), baffles);
+        const cyclicPoints cyclics(undecomposed.mesh(), images_);
+        const vertexFit fit(undecomposed.U(), baffles, cyclics);
 
         forAll(vertices_, i)
         {
             vertices_[i].u = fit.u[i];
             vertices_[i].gradient = fit.gradient[i];
         }
-        matchFluxes(undecomposed);
-        makeExcess(undecomposed);
+        matchFluxes(undecomposed, cyclics);
+        makeExcess(undecomposed, cyclics);
     }
     else if (scheme_ == stPartitionOfUnity)
     {

@@ -8,10 +8,90 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "frozenFlow.H"
+#include "cyclicPolyPatch.H"
 #include "indexedOctree.H"
 #include "treeDataPoint.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::frozenFlow::findAcross(const polyMesh& mesh)
+{
+    for (const domainImages::seam& seam : images_.seams())
+    {
+        if (seam.mirrors())
+        {
+            continue;
+        }
+
+        const cyclicPolyPatch& half =
+            refCast<const cyclicPolyPatch>(mesh.boundaryMesh()[seam.patch]);
+        const cyclicPolyPatch& other = half.neighbPatch();
+
+        forAll(half, i)
+        {
+            // Of the other side's tetrahedra at this face the nearest; those of
+            // a face are cut alike unless rounding has it otherwise
+            const auto tetsAt =
+                [&](const polyPatch& pp)
+                {
+                    DynamicList<label> found;
+                    const label celli = pp.faceCells()[i];
+                    for
+                    (
+                        label teti = cellTets_[celli];
+                        teti < cellTets_[celli + 1];
+                        ++teti
+                    )
+                    {
+                        const flowTet& tet = tets_[teti];
+                        bool atFace = tet.neighbours[0] == -1 - pp.index();
+                        for (label k = 1; k < 4 && atFace; ++k)
+                        {
+                            const label pointi =
+                                tet.vertices[k] - mesh.nCells();
+                            atFace =
+                                pointi >= mesh.nPoints()
+                             || pp[i].found(pointi);
+                        }
+                        if (atFace)
+                        {
+                            found.append(teti);
+                        }
+                    }
+                    return found;
+                };
+            const auto middle =
+                [&](const label teti)
+                {
+                    const label* v = tets_[teti].vertices;
+                    return
+                        (vertices_[v[1]].x + vertices_[v[2]].x
+                      + vertices_[v[3]].x)/3;
+                };
+
+            const DynamicList<label> there(tetsAt(other));
+            for (const label teti : tetsAt(half))
+            {
+                const point x(seam.inward(middle(teti)));
+                label nearest = -1;
+                for (const label candidate : there)
+                {
+                    if
+                    (
+                        nearest < 0
+                     || magSqr(middle(candidate) - x)
+                      < magSqr(middle(nearest) - x)
+                    )
+                    {
+                        nearest = candidate;
+                    }
+                }
+                tetAcross_.set(teti, nearest);
+            }
+        }
+    }
+}
+
 
 void Foam::frozenFlow::setCoordinates
 (

@@ -10,6 +10,8 @@ License
 #include "partitionOfUnity.H"
 #include "partitionWeights.H"
 #include "baffleSides.H"
+#include "cyclicPoints.H"
+#include "domainImages.H"
 #include "frozenFlow.H"
 #include "bitSet.H"
 #include "undecomposedFlow.H"
@@ -356,7 +358,8 @@ void Foam::partitionOfUnity::setFits
 ) const
 {
     const polyMesh& mesh = U.mesh();
-    const List<quadratic> ofCells(cellFits(U, baffles));
+    const cyclicPoints none(mesh, domainImages());
+    const List<quadratic> ofCells(cellFits(U, baffles, none));
 
     forAll(ofCells, celli)
     {

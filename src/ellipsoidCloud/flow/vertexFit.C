@@ -9,8 +9,10 @@ License
 \*---------------------------------------------------------------------------*/
 #include "vertexFit.H"
 #include "baffleSides.H"
+#include "cyclicPoints.H"
 #include "symmetryPlanePolyPatch.H"
 #include "symmetryPolyPatch.H"
+#include "Tuple2.H"
 #include "volFields.H"
 #include "wallPolyPatch.H"
 
@@ -24,13 +26,20 @@ namespace Foam
     class wallsAtVertices
     {
         const volVectorField& U_;
+        const cyclicPoints& cyclics_;
         List<DynamicList<label>> faces_;
 
     public:
 
-        wallsAtVertices(const volVectorField& U, const baffleSides& baffles)
+        wallsAtVertices
+        (
+            const volVectorField& U,
+            const baffleSides& baffles,
+            const cyclicPoints& cyclics
+        )
         :
             U_(U),
+            cyclics_(cyclics),
             faces_(U.mesh().nPoints() + baffles.sides().size())
         {
             for (const polyPatch& pp : U.mesh().boundaryMesh())
@@ -65,7 +74,15 @@ namespace Foam
         //  agrees with them
         void impose(const label vertexi, vector& u, tensor& gradient) const
         {
-            const UList<label>& faces = faces_[vertexi];
+            DynamicList<label> faces;
+            for (const label pointi : cyclics_.with(vertexi))
+            {
+                faces.append(faces_[pointi]);
+            }
+            if (faces.empty())
+            {
+                faces = faces_[vertexi];
+            }
             if (faces.empty())
             {
                 return;
@@ -223,11 +240,60 @@ namespace Foam
         }
     };
 
+    //- What has been taken for a mesh cell already, in the mesh or, moved by a
+    //  shift, beyond a cyclic patch
+    class takenOnce
+    {
+        label celli_;
+        labelList takenFor_;
+        DynamicList<Tuple2<label, vector>> beyond_;
+
+    public:
+
+        explicit takenOnce(const label n)
+        :
+            celli_(-1),
+            takenFor_(n, -1)
+        {}
+
+        void start(const label celli)
+        {
+            celli_ = celli;
+            beyond_.clear();
+        }
+
+        //- Take one, unless it has been
+        bool take(const label i, const vector& shift)
+        {
+            if (shift == vector::zero)
+            {
+                const bool isNew = takenFor_[i] != celli_;
+                takenFor_[i] = celli_;
+                return isNew;
+            }
+
+            for (const Tuple2<label, vector>& known : beyond_)
+            {
+                if
+                (
+                    known.first() == i
+                 && mag(known.second() - shift) < 1e-6*mag(shift)
+                )
+                {
+                    return false;
+                }
+            }
+            beyond_.append(Tuple2<label, vector>(i, shift));
+            return true;
+        }
+    };
+
     //- The polynomials of all cells
     static List<quadratic> fitCells
     (
         const volVectorField& U,
         const baffleSides& baffles,
+        const cyclicPoints& cyclics,
         const wallsAtVertices& walls
     )
     {
@@ -237,8 +303,8 @@ namespace Foam
         List<quadratic> fits(mesh.nCells());
 
         leastSquares equations;
-        labelList usedFor(mesh.nCells(), -1);
-        labelList usedFaceFor(mesh.nFaces(), -1);
+        takenOnce cells(mesh.nCells());
+        takenOnce faces(mesh.nFaces());
 
         forAll(fits, celli)
         {
@@ -254,40 +320,56 @@ namespace Foam
                     );
                 };
 
+            // The mesh cells and walls at a point, all moved by a shift
+            const auto addThoseAt =
+                [&](const label pointi, const label vertexi, const vector& shift)
+                {
+                    for (const label other : mesh.pointCells()[pointi])
+                    {
+                        if
+                        (
+                            baffles.vertex(pointi, other) == vertexi
+                         && cells.take(other, shift)
+                        )
+                        {
+                            add(centres[other] + shift, M[other], U[other]);
+                        }
+                    }
+                    for (const label facei : walls.faces(vertexi))
+                    {
+                        if (faces.take(facei, shift))
+                        {
+                            // The mean over the face, as wide as its cell
+                            const vector& S = mesh.faceAreas()[facei];
+                            const symmTensor along(I - sqr(S/mag(S)));
+                            add
+                            (
+                                mesh.faceCentres()[facei] + shift,
+                                symm
+                                (
+                                    along & M[mesh.faceOwner()[facei]] & along
+                                ),
+                                walls.velocity(facei)
+                            );
+                        }
+                    }
+                };
+
             equations.clear();
-            usedFor[celli] = celli;
+            cells.start(celli);
+            faces.start(celli);
+            cells.take(celli, Zero);
 
             for (const label pointi : mesh.cellPoints()[celli])
             {
-                const label vertexi = baffles.vertex(pointi, celli);
+                addThoseAt(pointi, baffles.vertex(pointi, celli), Zero);
 
-                for (const label other : mesh.pointCells()[pointi])
+                for (const label other : cyclics.with(pointi))
                 {
-                    if
-                    (
-                        usedFor[other] != celli
-                     && baffles.vertex(pointi, other) == vertexi
-                    )
+                    if (other != pointi)
                     {
-                        usedFor[other] = celli;
-                        add(centres[other], M[other], U[other]);
-                    }
-                }
-                for (const label facei : walls.faces(vertexi))
-                {
-                    if (usedFaceFor[facei] != celli)
-                    {
-                        usedFaceFor[facei] = celli;
-
-                        // The mean over the face, as wide as its cell
-                        const vector& S = mesh.faceAreas()[facei];
-                        const symmTensor along(I - sqr(S/mag(S)));
-                        add
-                        (
-                            mesh.faceCentres()[facei],
-                            symm(along & M[mesh.faceOwner()[facei]] & along),
-                            walls.velocity(facei)
-                        );
+                        const pointField& x = mesh.points();
+                        addThoseAt(other, other, x[pointi] - x[other]);
                     }
                 }
             }
@@ -346,10 +428,12 @@ Foam::symmTensorField Foam::secondMoments(const polyMesh& mesh)
 Foam::List<Foam::quadratic> Foam::cellFits
 (
     const volVectorField& U,
-    const baffleSides& baffles
+    const baffleSides& baffles,
+    const cyclicPoints& cyclics
 )
 {
-    return fitCells(U, baffles, wallsAtVertices(U, baffles));
+    return
+        fitCells(U, baffles, cyclics, wallsAtVertices(U, baffles, cyclics));
 }
 
 
@@ -358,13 +442,14 @@ Foam::List<Foam::quadratic> Foam::cellFits
 Foam::vertexFit::vertexFit
 (
     const volVectorField& U,
-    const baffleSides& baffles
+    const baffleSides& baffles,
+    const cyclicPoints& cyclics
 )
 {
     const polyMesh& mesh = U.mesh();
     const label nCells = mesh.nCells();
-    const wallsAtVertices walls(U, baffles);
-    const List<quadratic> fits(fitCells(U, baffles, walls));
+    const wallsAtVertices walls(U, baffles, cyclics);
+    const List<quadratic> fits(fitCells(U, baffles, cyclics, walls));
 
     u.setSize(nCells + mesh.nPoints() + baffles.sides().size(), Zero);
     gradient.setSize(u.size(), Zero);
@@ -387,6 +472,10 @@ Foam::vertexFit::vertexFit
             weights[vertexi] += w;
         }
     }
+
+    cyclics.add(u, nCells);
+    cyclics.add(gradient, nCells);
+    cyclics.add(weights, nCells);
 
     // A point of a baffle is of no cell but as its sides
     weights = max(weights, VSMALL);
