@@ -7,18 +7,25 @@ License
     See COPYING at the top of the source tree.
 
 Description
-    The program but for the coupled solution of the flow. Compiled with -O1
-    (Make/options), which takes half the time.
+    All files of the program.
 
     One translation unit for all of them: OpenFOAM's templates are instantiated and
     optimised once, which takes a third of the time that a unit for each file takes.
 
 \*---------------------------------------------------------------------------*/
+#include "coupled/aggregationMultigrid.C"
+#include "coupled/cellHalo.C"
+#include "coupled/coupledFlow.C"
 #include "flowConvergence.C"
 #include "flowFields.C"
+#include "coupled/sparseRows.C"
 #include "occupiedFlow.C"
 #include "solidBodies.C"
 #include "steadyFlow.C"
 #include "steadyFlowEquations.C"
 #include "superposedFlow.C"
+#include "coupled/stokesCoefficients.C"
+#include "coupled/stokesGMRES.C"
+#include "coupled/stokesOperator.C"
+#include "coupled/stokesPreconditioner.C"
 #include "ellipsoidTrapFoam.C"
