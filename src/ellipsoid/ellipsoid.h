@@ -157,7 +157,9 @@ typedef struct ellipsoid_facet_list
     Lists all facets nearer than `reach` [m] to `centre` [m, lab]. The list's
     memory is the callee's and stays valid until its next call. Walls stand
     still: a cache keeps facets from one time t [s] to others, and is to be
-    cleared when the facets change.
+    cleared when the facets change. Whether this is called depends on what the
+    cache holds, and steps must not: it may refuse by the centre alone, and where
+    it does the flow must refuse, too.
     Returns 0; > 0: shorten the step; < 0: give up.
 */
 typedef int (*ellipsoid_walls_function)(void *context,

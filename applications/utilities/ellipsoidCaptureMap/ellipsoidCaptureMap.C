@@ -26,6 +26,7 @@ SourceFiles
     ellipsoidCaptureMap.C
     captureMap.C
     captureMapTables.C
+    independentCells.C
     inletPlane.C
 
 \*---------------------------------------------------------------------------*/

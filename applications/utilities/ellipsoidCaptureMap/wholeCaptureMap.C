@@ -15,5 +15,6 @@ Description
 \*---------------------------------------------------------------------------*/
 #include "captureMap.C"
 #include "captureMapTables.C"
+#include "independentCells.C"
 #include "inletPlane.C"
 #include "ellipsoidCaptureMap.C"

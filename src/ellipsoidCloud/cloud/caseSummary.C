@@ -35,76 +35,6 @@ static string um(const vector& v)
 }
 
 
-//- Width of a cell: twice its shortest semi-axis
-static scalar widthOf(const ellipsoid_options& options)
-{
-    const double* a = options.semi_axes;
-
-    return 2*min(a[0], min(a[1], a[2]));
-}
-
-
-static void reportMesh
-(
-    const label nMeshCells,
-    const vector& span,
-    const scalar width,
-    const scalar length
-)
-{
-    // A chip is smaller
-    const scalar largest = 1;
-
-    Info<< "case: mesh of " << nMeshCells << " cells, " << um(span).c_str()
-        << endl;
-
-    if (cmptMax(span) > largest)
-    {
-        Warning
-            << "The mesh is " << cmptMax(span) << " m long. If it is in"
-            << " micrometres: transformPoints -scale 1e-6" << nl << endl;
-    }
-    else if (cmptMin(span) < width)
-    {
-        FatalErrorInFunction
-            << "A cell is " << um(width) << " um wide, the device only "
-            << um(cmptMin(span)) << " um. Entries are in metres: semiAxes"
-            << " (0.5e-6 2e-6 0.5e-6)" << exit(FatalError);
-    }
-    else if (cmptMin(span) < length)
-    {
-        Warning
-            << "A cell is " << um(length) << " um long, the device only "
-            << um(cmptMin(span)) << " um: is there room for it to enter?" << nl
-            << endl;
-    }
-}
-
-
-static void reportCell(const ellipsoid_options& options)
-{
-    Info<< "case: cells of " << um(2*pointOf(options.semi_axes)).c_str()
-        << " along their axes" << endl;
-
-    const scalar ratio = options.density/options.fluid_density;
-
-    // Of bubbles in a liquid or drops in a gas, but not of cells
-    if (max(ratio, 1/ratio) > 100)
-    {
-        Warning
-            << "cell/density " << options.density << " and fluid/density "
-            << options.fluid_density << " differ by much: both are in kg/m3"
-            << nl << endl;
-    }
-    if (options.brownian && options.temperature < 200)
-    {
-        Warning
-            << "brownian/temperature " << options.temperature
-            << " is that of no liquid: it is in K" << nl << endl;
-    }
-}
-
-
 static void reportSieves
 (
     const fvMesh& mesh,
@@ -163,14 +93,58 @@ void Foam::reportSize
     const cellPopulation& population
 )
 {
-    reportMesh
-    (
-        nMeshCells,
-        bounds.span(),
-        population.largest(widthOf),
-        2*population.largest(longestSemiAxis)
-    );
-    reportCell(population.properties().options());
+    const vector span(bounds.span());
+    const scalar width = 2*population.largest(shortestSemiAxis);
+    const scalar length = 2*population.largest(longestSemiAxis);
+
+    // A chip is smaller
+    const scalar largest = 1;
+
+    Info<< "case: mesh of " << nMeshCells << " cells, " << um(span).c_str()
+        << endl;
+
+    if (cmptMax(span) > largest)
+    {
+        Warning
+            << "The mesh is " << cmptMax(span) << " m long. If it is in"
+            << " micrometres: transformPoints -scale 1e-6" << nl << endl;
+    }
+    else if (cmptMin(span) < width)
+    {
+        FatalErrorInFunction
+            << "A cell is " << um(width) << " um wide, the device only "
+            << um(cmptMin(span)) << " um. Entries are in metres: semiAxes"
+            << " (0.5e-6 2e-6 0.5e-6)" << exit(FatalError);
+    }
+    else if (cmptMin(span) < length)
+    {
+        Warning
+            << "A cell is " << um(length) << " um long, the device only "
+            << um(cmptMin(span)) << " um: is there room for it to enter?" << nl
+            << endl;
+    }
+
+    const ellipsoid_options& options = population.properties().options();
+
+    Info<< "case: cells of " << um(2*pointOf(options.semi_axes)).c_str()
+        << " along their axes" << endl;
+
+    const scalar ratio = options.density/options.fluid_density;
+
+    // Of bubbles in a liquid or drops in a gas, but not of cells
+    if (max(ratio, 1/ratio) > 100)
+    {
+        Warning
+            << "cell/density " << options.density << " and fluid/density "
+            << options.fluid_density << " differ by much: both are in kg/m3"
+            << nl << endl;
+    }
+    if (options.brownian && options.temperature < 200)
+    {
+        Warning
+            << "brownian/temperature " << options.temperature
+            << " is that of no liquid: it is in K" << nl << endl;
+    }
 }
 
 
@@ -178,19 +152,12 @@ void Foam::reportCapture
 (
     const fvMesh& mesh,
     const Time& clock,
-    const cellPopulation& population,
+    const domainImages& images,
+    const scalar width,
     const captureCriterion& criterion
 )
 {
-    const ellipsoidProperties& properties = population.properties();
-
-    reportSieves
-    (
-        mesh,
-        criterion,
-        domainImages(mesh, properties.unreached()),
-        widthOf(properties.options())
-    );
+    reportSieves(mesh, criterion, images, width);
 
     const scalar deltaT = clock.deltaTValue();
     const scalar end = clock.endTime().value();

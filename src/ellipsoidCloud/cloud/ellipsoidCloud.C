@@ -158,11 +158,8 @@ void Foam::ellipsoidCloud::checkClock() const
 }
 
 
-void Foam::ellipsoidCloud::checkImages() const
+void Foam::ellipsoidCloud::checkImages(const domainImages& images) const
 {
-    const polyMesh& mesh = undecomposed_->mesh();
-    const domainImages images(mesh, properties_.unreached());
-
     for (const domainImages::seam& seam : images.seams())
     {
         if
@@ -171,7 +168,8 @@ void Foam::ellipsoidCloud::checkImages() const
          && properties_.section("occupancy").getOrDefault("active", false)
         )
         {
-            const word& name = mesh.boundaryMesh()[seam.patch].name();
+            const word& name =
+                undecomposedMesh().boundaryMesh()[seam.patch].name();
 
             FatalIOErrorInFunction(properties_)
                 << "cells pass cyclic patch " << name
@@ -269,23 +267,25 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
     mesh_(mesh),
     flowType_(type),
     properties_(mesh),
+    population_(properties_),
     earlier_(mesh.time()),
     undecomposed_(new undecomposedFlow(mesh)),
     field_
     (
         electricField::read(properties_.section("forces"), mesh, *undecomposed_)
     ),
-    population_(properties_),
     criterion_(properties_.section("capture"), mesh.boundaryMesh()),
     time_(presentTime(mesh.time())),
     firstTime_(mesh.time().timeName())
 {
+    domainImages images;
     {
         const masterGate once;
 
         if (Pstream::master())
         {
-            checkImages();
+            images = domainImages(undecomposedMesh(), properties_.unreached());
+            checkImages(images);
             meshNotes_ = checkpoint::notesOf(undecomposed_->mesh());
             earlier_.checkMesh(meshNotes_);
         }
@@ -300,14 +300,15 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
 
         if (Pstream::master())
         {
-            const fvMesh& whole = undecomposed_->mesh();
+            const fvMesh& whole = undecomposedMesh();
+            const scalar width = 2*shortestSemiAxis(properties_.options());
 
             // The function object has told it before the solver began
             if (flowType_ != STEADY)
             {
                 reportSize(whole.nCells(), whole.bounds(), population_);
             }
-            reportCapture(whole, mesh.time(), population_, criterion_);
+            reportCapture(whole, mesh.time(), images, width, criterion_);
         }
     }
     if (earlier_.found())
@@ -316,6 +317,9 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
         checkCells();
     }
 }
+
+
+Foam::ellipsoidCloud::~ellipsoidCloud() = default;
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //

@@ -245,7 +245,7 @@ void Foam::ellipsoidCloud::write()
     // The time of a steady flow of another solver is of our clock alone
     if (flowType_ == STEADY || !time.writeTime())
     {
-        writePoses();
+        writePoses(tracks_->set(), cells_, time.timeName());
         return;
     }
 
@@ -268,7 +268,7 @@ void Foam::ellipsoidCloud::write()
 
     tracks_->flush();
     particles_->writeFiles(statistics_->size());
-    writePoses();
+    writePoses(tracks_->set(), cells_, time.timeName());
 
     dictionary tables;
     tables.add("events", statistics_->log.notes());
@@ -345,17 +345,6 @@ void Foam::ellipsoidCloud::forecast()
         << word::printf("%.1g", steps*factor) << " steps, "
         << word::printf("%.1g", spent*factor) << " s, more where cells pile up"
         << endl;
-}
-
-
-void Foam::ellipsoidCloud::writePoses() const
-{
-    const masterGate once;
-
-    if (Pstream::master())
-    {
-        Foam::writePoses(tracks_->set(), cells_, mesh_.time().timeName());
-    }
 }
 
 

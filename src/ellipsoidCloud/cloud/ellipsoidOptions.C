@@ -216,8 +216,7 @@ void Foam::ellipsoidProperties::readOptions()
     }
 
     // The default is of cells as wide as the paper's
-    const double* a = options_.semi_axes;
-    const scalar shortest = min(a[0], min(a[1], a[2]));
+    const scalar shortest = shortestSemiAxis(options_);
 
     if
     (

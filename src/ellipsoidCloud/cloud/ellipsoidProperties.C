@@ -170,11 +170,16 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     readOptions();
     checkOptions();
     checkPatches(mesh.boundaryMesh());
-    cellPopulation(*this);
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::wordRes Foam::ellipsoidProperties::unreached() const
+{
+    return getOrDefault("unreached", wordRes());
+}
+
 
 void Foam::ellipsoidProperties::checkKeywords
 (

@@ -63,6 +63,31 @@ namespace Foam
         return copy;
     }
 
+    //- A clock of its own, with these entries, for the case of a host, and the
+    //  mesh of that case
+    struct ownClock
+    {
+        Time time;
+        const fvMesh mesh;
+
+        ownClock(const dictionary& entries, const Time& host)
+        :
+            time
+            (
+                entries, host.rootPath(), host.caseName(),
+                host.system(), host.constant(), false, false
+            ),
+            mesh
+            (
+                IOobject
+                (
+                    fvMesh::defaultRegion, time.timeName(), time,
+                    IOobject::MUST_READ
+                )
+            )
+        {}
+    };
+
     //- Errors end the run as long as it lives: OpenFOAM takes those of a function
     //  object that is being made for warnings, and goes on without it
     struct finalErrors
@@ -113,36 +138,21 @@ Foam::dictionary Foam::functionObjects::ellipsoidTracking::clockEntries() const
 void Foam::functionObjects::ellipsoidTracking::check(const fvMesh& mesh) const
 {
     const ellipsoidProperties properties(mesh);
+    const cellPopulation population(properties);
     const label nMeshCells = returnReduce(mesh.nCells(), sumOp<label>());
 
     const masterGate once;
-
     if (Pstream::master())
     {
-        reportSize(nMeshCells, mesh.bounds(), cellPopulation(properties));
+        reportSize(nMeshCells, mesh.bounds(), population);
     }
 }
 
 
 void Foam::functionObjects::ellipsoidTracking::checkDryRun() const
 {
-    const Time clock
-    (
-        clockEntries(), time_.rootPath(), time_.caseName(),
-        time_.system(), time_.constant(), false, false
-    );
+    check(ownClock(clockEntries(), time_).mesh);
 
-    check
-    (
-        fvMesh
-        (
-            IOobject
-            (
-                fvMesh::defaultRegion, clock.timeName(), clock,
-                IOobject::MUST_READ
-            )
-        )
-    );
     Info<< type() << ' ' << name() << ": the mesh of a dry run is a column of"
         << " mesh cells, through which no cell is tracked" << endl;
 }
@@ -175,18 +185,8 @@ bool Foam::functionObjects::ellipsoidTracking::begin()
 
 void Foam::functionObjects::ellipsoidTracking::trackThroughEnd() const
 {
-    Time clock
-    (
-        clockEntries(), time_.rootPath(), time_.caseName(),
-        time_.system(), time_.constant(), false, false
-    );
-    const fvMesh mesh
-    (
-        IOobject
-        (
-            fvMesh::defaultRegion, clock.timeName(), clock, IOobject::MUST_READ
-        )
-    );
+    ownClock clock(clockEntries(), time_);
+    const fvMesh& mesh = clock.mesh;
 
     ellipsoidCloud cells(mesh, ellipsoidCloud::STEADY);
     const solverFields host(flow());
@@ -198,7 +198,7 @@ void Foam::functionObjects::ellipsoidTracking::trackThroughEnd() const
             copyOf(host.phi, mesh)()
         }
     );
-    cells.track(clock, max(label(1), label(writeInterval_/deltaT_ + 0.5)));
+    cells.track(clock.time, max(label(1), label(writeInterval_/deltaT_ + 0.5)));
 }
 
 

@@ -100,8 +100,10 @@ Foam::cellState Foam::cellInjection::drawn
 
     const label seed = from_.population.properties().seed();
     const label maxAttempts = isRandom() ? 1000 : 1;
-    const ellipsoid_model model(from_.population.made(cell.size));
-
+    const ellipsoid_model model
+    (
+        cellPopulation::modelOf(from_.population.optionsOf(cell.size))
+    );
     bool inside = false;
 
     for (label attempt = 0; attempt < maxAttempts; ++attempt)
@@ -188,9 +190,7 @@ Foam::label Foam::cellInjection::readNumber(const scalar flux) const
 {
     const dictionary& dict = from_.dict;
     const label nGiven =
-        label(dict.found("number"))
-      + label(dict.found("rate"))
-      + label(dict.found("concentration"));
+        dict.found("number") + dict.found("rate") + dict.found("concentration");
 
     const auto read =
         [&](const char* entry)

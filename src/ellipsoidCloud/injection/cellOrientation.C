@@ -31,42 +31,25 @@ Foam::cellOrientation::cellOrientation(const dictionary& dict)
     type_(orientationNames_.getOrDefault("orientation", dict, otRandom)),
     q_{0, 0, 0, 1}
 {
-    switch (type_)
+    if (type_ == otAligned)
     {
-        case otRandom:
+        const vector axis(dict.get<vector>("axis"));
+        if (!(mag(axis) > VSMALL))
         {
-            break;
+            FatalIOErrorInFunction(dict)
+                << "axis " << axis << " has no direction"
+                << exit(FatalIOError);
         }
-        case otAligned:
-        {
-            const vector axis(dict.get<vector>("axis"));
-
-            if (!(mag(axis) > VSMALL))
-            {
-                FatalIOErrorInFunction(dict)
-                    << "axis " << axis << " has no direction"
-                    << exit(FatalIOError);
-            }
-
-            ellipsoid_quaternion_from_axis((axis/mag(axis)).v_, 0, q_);
-            break;
-        }
-        case otQuaternion:
-        {
-            setQuaternion
-            (
-                dict, dict.get<FixedList<scalar, 4>>("quaternion"), q_
-            );
-            break;
-        }
-        case otEuler:
-        {
-            const vector degrees(dict.get<vector>("eulerAngles"));
-            const vector radians(degrees*degToRad());
-
-            ellipsoid_quaternion_from_euler(radians.v_, q_);
-            break;
-        }
+        ellipsoid_quaternion_from_axis((axis/mag(axis)).v_, 0, q_);
+    }
+    else if (type_ == otQuaternion)
+    {
+        setQuaternion(dict, dict.get<FixedList<scalar, 4>>("quaternion"), q_);
+    }
+    else if (type_ == otEuler)
+    {
+        const vector degrees(dict.get<vector>("eulerAngles"));
+        ellipsoid_quaternion_from_euler((degrees*degToRad()).v_, q_);
     }
 }
 

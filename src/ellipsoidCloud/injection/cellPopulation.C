@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "cellPopulation.H"
+#include "masterGate.H"
 #include "Pair.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -18,27 +19,6 @@ Foam::cellPopulation::distributionNames_
     { distributionType::dtLogNormal, "logNormal" },
     { distributionType::dtTable, "table" }
 });
-
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-    //- What the core makes of options that have been checked
-    static ellipsoid_model modelOf(const ellipsoid_options& options)
-    {
-        ellipsoid_model model = ellipsoid_model();
-
-        if (ellipsoid_model_init(&model, &options) != ELLIPSOID_OK)
-        {
-            FatalErrorInFunction
-                << "the options of a cell of length " << 2*options.semi_axes[1]
-                << " m are not those that were checked" << abort(FatalError);
-        }
-
-        return model;
-    }
-}
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -116,6 +96,7 @@ Foam::cellPopulation::cellPopulation(const ellipsoidProperties& properties)
     truncation_(0),
     median_(modelOf(properties.options()))
 {
+    const masterGate once;
     const dictionary& cell = properties.section("cell");
 
     for (const entry& e : properties.section("injection"))
@@ -155,6 +136,21 @@ Foam::cellPopulation::cellPopulation(const ellipsoidProperties& properties)
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+ellipsoid_model Foam::cellPopulation::modelOf(const ellipsoid_options& options)
+{
+    ellipsoid_model model = ellipsoid_model();
+
+    if (ellipsoid_model_init(&model, &options) != ELLIPSOID_OK)
+    {
+        FatalErrorInFunction
+            << "the options of a cell of length " << 2*options.semi_axes[1]
+            << " m are not those that were checked" << abort(FatalError);
+    }
+
+    return model;
+}
+
 
 Foam::scalar Foam::cellPopulation::largest
 (
@@ -247,19 +243,13 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
 }
 
 
-ellipsoid_model Foam::cellPopulation::made(const cellSize& size) const
-{
-    return modelOf(optionsOf(size));
-}
-
-
 void Foam::cellPopulation::take(const label id, const cellSize& size)
 {
     const cellSize middle(medianSize());
 
     if (std::memcmp(&size, &middle, sizeof(cellSize)))
     {
-        models_.set(id, new ellipsoid_model(made(size)));
+        models_.set(id, new ellipsoid_model(modelOf(optionsOf(size))));
     }
 }
 

@@ -237,53 +237,34 @@ struct Foam::groupAdvance::member
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-const ellipsoid_model& Foam::groupAdvance::clamped(const label id)
-{
-    if (!clamped_.found(id))
-    {
-        ellipsoid_options options(population_.model(id).options);
-
-        // As heavy as the core allows
-        const scalar factor = 1e12/options.density;
-        options.density *= factor;
-        options.kinematic_viscosity *= factor;
-        options.buoyancy = 0;
-        options.brownian = options.brownian && !onTrial();
-
-        autoPtr<ellipsoid_model> model(new ellipsoid_model);
-        ellipsoid_model_init(model.get(), &options);
-        clamped_.set(id, model.ptr());
-    }
-
-    return *clamped_[id];
-}
-
-
 const ellipsoid_model& Foam::groupAdvance::model(const label id)
 {
-    if (isClamped(id))
-    {
-        return clamped(id);
-    }
-    if (!onTrial() || !population_.model(id).options.brownian)
-    {
-        return population_.model(id);
-    }
+    const ellipsoid_model& own = population_.model(id);
+    const bool clamped = isClamped(id);
 
-    if (!silent_.found(id))
+    if (!clamped && !(onTrial() && own.options.brownian))
     {
-        ellipsoid_options options(population_.model(id).options);
-        options.brownian = 0;
-
-        autoPtr<ellipsoid_model> silent(new ellipsoid_model);
-        ellipsoid_model_init(silent.get(), &options);
-        silent_.set(id, silent.ptr());
+        return own;
     }
 
-    return *silent_[id];
+    auto& models = clamped ? clamped_ : silent_;
+    if (!models.found(id))
+    {
+        ellipsoid_options options(own.options);
+        options.brownian = options.brownian && !onTrial();
+        if (clamped)
+        {
+            // As heavy as the core allows
+            const scalar factor = 1e12/options.density;
+            options.density *= factor;
+            options.kinematic_viscosity *= factor;
+            options.buoyancy = 0;
+        }
+        models.set(id, new ellipsoid_model(cellPopulation::modelOf(options)));
+    }
+
+    return *models[id];
 }
-
-
 void Foam::groupAdvance::rest
 (
     List<cellSweep>& cells,
@@ -344,14 +325,12 @@ void Foam::groupAdvance::enter
                 cell.state.centre(), cell.state.time, id == tried ? reach : 0
             }
         );
-        if (isClamped(id) || (pull && id == tried))
+        const heldWrench* given = id == tried ? pull : nullptr;
+        if (given || isClamped(id))
         {
-            own[i].here.setStill();
+            own[i].here.setStill(given);
         }
-        if (pull && id == tried)
-        {
-            own[i].here.setPull(*pull);
-        }
+
         own[i].here.repeat =
             reinterpret_cast<const scalar(*)[3]>(periods_.cdata());
         own[i].here.repeat_count = periods_.size();

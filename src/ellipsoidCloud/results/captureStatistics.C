@@ -40,7 +40,18 @@ void Foam::captureStatistics::count(const cellEvent& event)
 }
 
 
-void Foam::captureStatistics::readLog()
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::captureStatistics::captureStatistics
+(
+    const tableSet& set,
+    const labelList& sieves
+)
+:
+    set_(set),
+    sieves_(sieves),
+    counts_(Zero),
+    log(set, "events", cellEvent::header(set), 12)
 {
     std::istringstream lines(log.text());
     std::string line;
@@ -60,23 +71,6 @@ void Foam::captureStatistics::readLog()
 
         count(event);
     }
-}
-
-
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
-
-Foam::captureStatistics::captureStatistics
-(
-    const tableSet& set,
-    const labelList& sieves
-)
-:
-    set_(set),
-    sieves_(sieves),
-    counts_(Zero),
-    log(set, "events", cellEvent::header(set), 12)
-{
-    readLog();
 }
 
 

@@ -10,6 +10,7 @@ License
 
 #include "cellPoses.H"
 #include "atomicWrite.H"
+#include "masterGate.H"
 #include "OSspecific.H"
 #include "vtkPolyData.H"
 
@@ -151,6 +152,12 @@ void Foam::writePoses
     const word& timeName
 )
 {
+    const masterGate once;
+    if (!Pstream::master())
+    {
+        return;
+    }
+
     DynamicList<cellState> entered;
     for (const cellState& cell : cells)
     {

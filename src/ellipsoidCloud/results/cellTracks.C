@@ -246,28 +246,17 @@ void Foam::cellTracks::writeVTP
     const fileName vtp(set_.folder/"tracks.vtp");
     DynamicList<label> ends;
     DynamicList<string> rows;
-    DynamicList<string> axes;
-
     for (const auto& cell : rowsOf(file.name()))
     {
-        const ellipsoid_options options
-        (
-            set_.population.optionsOf(sizeOf(cell.first))
-        );
-        std::ostringstream text;
-        text.precision(9);
-        text<< options.semi_axes[0] << ' ' << options.semi_axes[1] << ' '
-            << options.semi_axes[2];
-
         for (const std::string& row : cell.second)
         {
             rows.append(row);
-            axes.append(text.str());
         }
         ends.append(rows.size());
     }
 
     std::ofstream os(vtp);
+    os.precision(9);
     vtkPolyData polyData(os, "Lines", ends);
 
     // Columns of tracks.csv as an array
@@ -310,7 +299,13 @@ void Foam::cellTracks::writeVTP
     polyData.array
     (
         "Float64", "semiAxes", 3,
-        [&](const label i) { os << axes[i].c_str(); }
+        [&](const label i)
+        {
+            const label id = std::stol(stringOps::split(rows[i], ',')[1].str());
+            const auto options = set_.population.optionsOf(sizeOf(id));
+            const scalar* a = options.semi_axes;
+            os << a[0] << ' ' << a[1] << ' ' << a[2];
+        }
     );
     polyData.cells();
 

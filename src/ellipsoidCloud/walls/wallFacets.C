@@ -369,33 +369,22 @@ Foam::wallFacets::wallFacets
     const undecomposedFlow& undecomposed,
     const scalar length,
     const domainImages& images,
-    const need& needed
+    const scalar reach,
+    const bool mirrors
 )
 :
     regionSize_(length),
-    known_(images.empty() ? GREAT : needed.reach),
+    known_(images.empty() ? GREAT : reach),
     beyond_(images.empty() ? 0 : length)
 {
-    List<labelledTri> triangles;
-    pointField points;
-
     if (Pstream::master())
     {
-        const triSurface merged
-        (
-            made(undecomposed.mesh(), images, needed.mirrors)
-        );
-
-        triangles = merged;
-        points = merged.points();
+        surface_ = made(undecomposed.mesh(), images, mirrors);
         span_ = boundBox(undecomposed.mesh().points(), false);
     }
 
     broadcast(span_);
-    broadcast(triangles);
-    broadcast(points);
-
-    surface_ = triSurface(triangles, points);
+    broadcast(surface_);
 
     setFacets(images);
     setEdges();

@@ -1,0 +1,17 @@
+# What the tests of the circular trap's pictures share: it, narrow, with few cells. Sourced.
+# License: GPL-3.0-or-later, see COPYING.
+# shellcheck shell=bash
+. tests/cases/cells.sh
+
+plots=$tutorials/plots
+python=${ELLIPSOID_PYTHON:-python3}
+if ! "$python" -c "import matplotlib, vtkmodules" 2> /dev/null; then
+    tap_skip "pictures" "Python has no matplotlib or no VTK"
+    tap_end
+fi
+
+tap_check "mesh and flow" shared_case trap make_trap
+cd "$tap_folder/trap" || exit
+set_entry constant/ellipsoidCloudProperties number 150
+set_entry constant/ellipsoidCloudProperties duration 4
+set_entry system/controlDict endTime 4.3
