@@ -191,6 +191,8 @@ def plot(sets, file):
 
 def medians(bench):
     """Of how many runs a table tells."""
+    if bench.repeats == 1:
+        return "One run each."
     return f"Medians of {bench.repeats}" + ("; one run of more than 10000 cells." if bench.largest > 10000 else ".")
 
 
