@@ -77,10 +77,13 @@ typedef struct ellipsoid_plane
     double normal[3]; /* unit, body frame, into the fluid */
     double normal_slope[ELLIPSOID_POSE_SIZE][3];
     ellipsoid_quantity height; /* [m] of the centre above the plane */
-    ellipsoid_quantity window; /* [-] 1 near, 0 out of range, or where its
-                                  point is well beside its facet */
-    ellipsoid_quantity weight; /* [-] 0 to 1: window and what it leaves to
+    ellipsoid_quantity window; /* [-] 1 near, 0 out of range */
+    ellipsoid_quantity extent; /* [-] 1 where its point is on the wall, 0 well
+                                  beside it */
+    ellipsoid_quantity weight; /* [-] 0 to 1: both, and what they leave to
                                   other planes */
+    int feature;               /* where its point is, as in ellipsoid_nearest */
+    const double *vertex[2];   /* of that edge, or of that vertex the first */
 } ellipsoid_plane;
 
 typedef struct ellipsoid_planes

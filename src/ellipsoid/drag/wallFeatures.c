@@ -138,13 +138,21 @@ static int feature_on_rim(const ellipsoid_wall_search *s,
     return feature_on_edge(s, &c, edge, foot, normal, p);
 }
 
+/* Does its plane go on beside it? */
+static int is_extended(const ellipsoid_facet *facet)
+{
+    return facet->edge[0] == ELLIPSOID_EDGE_CONCAVE
+        || facet->edge[1] == ELLIPSOID_EDGE_CONCAVE
+        || facet->edge[2] == ELLIPSOID_EDGE_CONCAVE;
+}
+
 /* Finds the plane that this facet gives; 0 if there is none. */
 int ellipsoid_find_feature(const ellipsoid_wall_search *s,
                            const ellipsoid_facet *facet,
                            ellipsoid_wall_feature *p)
 {
     double from[3], normal[3], b[3], foot[3], height, support2, far;
-    int outside[3], on_rim = 0;
+    int outside[3], on_rim = 0, on_flat = 0;
 
     ellipsoid_difference(s->x, facet->vertex[0], from);
     height = ellipsoid_dot(from, facet->normal);
@@ -165,11 +173,13 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
     }
     ellipsoid_difference(foot, facet->middle, from);
     far = facet->radius
-        + ellipsoid_fading * s->longest * height / sqrt(support2);
+        + (is_extended(facet)
+               ? ellipsoid_fading * s->longest * height / sqrt(support2)
+               : ellipsoid_lap * height);
     if (!ellipsoid_facet_has_convex_edge(facet)
         && ellipsoid_dot(from, from) > far * far)
     {
-        return 0; /* it has faded */
+        return 0; /* it has faded, or is another facet's */
     }
     for (int k = 0; k < 3; k++)
     {
@@ -182,6 +192,14 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
         outside[k] = ellipsoid_dot(inward, from) < 0;
         on_rim = on_rim
               || (outside[k] && facet->edge[k] == ELLIPSOID_EDGE_CONVEX);
+        if (outside[k] && facet->edge[k] == ELLIPSOID_EDGE_FLAT)
+        {
+            const double out = -ellipsoid_dot(inward, from);
+
+            outside[k] = 0;
+            on_flat = on_flat
+                   || out > ellipsoid_lap * height * ellipsoid_length(along);
+        }
     }
     memset(p, 0, sizeof(*p));
     p->facet = facet;
@@ -189,6 +207,10 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
     {
         return feature_on_rim(s, normal, height * height / support2, outside,
                               p);
+    }
+    if (on_flat)
+    {
+        return 0; /* the same plane is that of the facet across */
     }
     p->feature = ELLIPSOID_ON_FACE;
     memcpy(p->over, outside, sizeof(p->over));

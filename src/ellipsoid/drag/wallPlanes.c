@@ -6,11 +6,12 @@
     wallPlanes.c - which planes stand for the walls near a cell.
 
     Each point where the grown body would meet a facet (wallFeatures.c) gives
-    one. Over a seam that is not convex a plane does not end at once: facets,
-    and edges beyond their ends, go on as if they were larger, and the weight of
-    their plane falls to zero while the point moves away by a part of the height
-    (lengths by M). So nothing jumps where a wall goes on in other facets. How
-    planes of nearly one normal share is told in planeWeights.c.
+    one. Over a concave seam a plane does not end at once: facets, and edges
+    beyond their ends, go on as if they were larger, and the extent of their
+    plane falls to zero while the point moves away by a part of the height
+    (lengths by M). So nothing jumps where a wall goes on in other facets. Over
+    a flat one the facet across has the same plane. How planes of nearly one
+    normal share is told in planeWeights.c.
 */
 #include "drag/wallResistance.h"
 
@@ -21,7 +22,7 @@ enum
     POSE = ELLIPSOID_POSE_SIZE
 };
 
-/* What makes two planes one, seen twice. */
+/* What makes two planes one. */
 static const double same = 1e-8;
 
 /* The part of the range within which a wall counts fully. */
@@ -189,7 +190,7 @@ static void point_slope(const ellipsoid_wall_search *s,
 }
 
 /*
-    Takes from the window by how far the point lies beside the facet, over edge
+    Takes from the extent by how far the point lies beside the facet, over edge
     k. With y = h/p the scaled height and d the scaled distance, u = d/(y f),
     the rest is 1 - u^2 (3 - 2 u).
 */
@@ -226,7 +227,7 @@ static void fade(const ellipsoid_wall_search *s,
     u = d * sqrt(support2) / (ellipsoid_fading * plane->height.value);
     if (!(u < 1))
     {
-        plane->window.value = 0;
+        plane->extent.value = 0;
         return;
     }
     rest = 1 - u * u * (3 - 2 * u);
@@ -245,16 +246,16 @@ static void fade(const ellipsoid_wall_search *s,
             of_support2 += 2 * s->square[i] * m[i] * plane->normal_slope[n][i];
         }
         of_d = d > 0 ? of_d / d : 0;
-        plane->window.slope[n] =
-            plane->window.slope[n] * rest
-            - plane->window.value * 6 * (1 - u)
+        plane->extent.slope[n] =
+            plane->extent.slope[n] * rest
+            - plane->extent.value * 6 * (1 - u)
                   * (u * of_d * sqrt(support2)
                          / (ellipsoid_fading * plane->height.value)
                      + u * u
                            * (0.5 * of_support2 / support2
                               - plane->height.slope[n] / plane->height.value));
     }
-    plane->window.value *= rest;
+    plane->extent.value *= rest;
 }
 
 /* ------------------------------------------------------------ all planes */
@@ -269,7 +270,32 @@ static int is_same(const ellipsoid_wall_search *s, const ellipsoid_plane *a,
         && fabs(a->height.value - b->height.value) < same * s->range;
 }
 
-/* Of planes seen twice the one that fades less is kept. */
+/* Is it the same face, edge or vertex? Facets of one plane are one face. */
+static int is_one_feature(const ellipsoid_wall_search *s,
+                          const ellipsoid_plane *a, const ellipsoid_plane *b)
+{
+    const size_t size = sizeof(double[3]);
+
+    if (a->feature != b->feature)
+    {
+        return 0;
+    }
+    switch (a->feature)
+    {
+        case ELLIPSOID_ON_FACE:
+            return is_same(s, a, b);
+        case ELLIPSOID_ON_EDGE:
+            return (memcmp(a->vertex[0], b->vertex[0], size) == 0
+                    && memcmp(a->vertex[1], b->vertex[1], size) == 0)
+                || (memcmp(a->vertex[0], b->vertex[1], size) == 0
+                    && memcmp(a->vertex[1], b->vertex[0], size) == 0);
+        default:
+            return memcmp(a->vertex[0], b->vertex[0], size) == 0;
+    }
+}
+
+/* Of features seen twice the one that fades less is kept. Whether planes of
+   others are nearly the same must not matter: they come to be by and by. */
 static void keep(const ellipsoid_wall_search *s, const ellipsoid_plane *plane,
                  ellipsoid_planes *all)
 {
@@ -277,9 +303,9 @@ static void keep(const ellipsoid_wall_search *s, const ellipsoid_plane *plane,
 
     for (int i = 0; i < all->count; i++)
     {
-        if (is_same(s, &all->at[i], plane))
+        if (is_one_feature(s, &all->at[i], plane))
         {
-            if (plane->window.value > all->at[i].window.value)
+            if (plane->extent.value > all->at[i].extent.value)
             {
                 all->at[i] = *plane;
             }
@@ -308,6 +334,10 @@ static void add_plane(const ellipsoid_wall_search *s,
     memset(&plane, 0, sizeof(plane));
     ellipsoid_copy(p->normal, plane.normal);
     plane.height.value = p->height;
+    plane.extent.value = 1;
+    plane.feature = p->feature;
+    plane.vertex[0] = p->facet->vertex[p->k];
+    plane.vertex[1] = p->facet->vertex[(p->k + 1) % 3];
     if (s->turned)
     {
         if (p->feature == ELLIPSOID_ON_FACE)
@@ -320,17 +350,48 @@ static void add_plane(const ellipsoid_wall_search *s,
         }
     }
     set_window(s, &plane);
-    for (int k = 0; k < 3 && plane.window.value > 0; k++)
+    for (int k = 0; k < 3 && plane.window.value * plane.extent.value > 0; k++)
     {
         if (p->over[k])
         {
             fade(s, p, k, &plane);
         }
     }
-    if (plane.window.value > 0)
+    if (plane.window.value * plane.extent.value > 0)
     {
         keep(s, &plane, all);
     }
+}
+
+/* What planes that are the same add to the resistance is evaluated once. */
+static void join_same(const ellipsoid_wall_search *s, ellipsoid_planes *all)
+{
+    int count = 0;
+
+    for (int i = 0; i < all->count; i++)
+    {
+        int k = 0;
+
+        while (k < count && !is_same(s, &all->at[k], &all->at[i]))
+        {
+            k++;
+        }
+        if (k == count)
+        {
+            if (count < i)
+            {
+                all->at[count] = all->at[i];
+            }
+            count++;
+            continue;
+        }
+        all->at[k].weight.value += all->at[i].weight.value;
+        for (int n = 0; s->turned && n < POSE; n++)
+        {
+            all->at[k].weight.slope[n] += all->at[i].weight.slope[n];
+        }
+    }
+    all->count = count;
 }
 
 /*
@@ -550,13 +611,7 @@ ellipsoid_find_planes(const ellipsoid_model *model,
             add_plane(&s, &found, planes);
         }
     }
-    if (planes->count == 1)
-    {
-        planes->at[0].weight = planes->at[0].window;
-    }
-    else
-    {
-        ellipsoid_weigh_planes(model, planes);
-    }
+    ellipsoid_weigh_planes(model, planes, s.turned != NULL);
+    join_same(&s, planes);
     return ELLIPSOID_OK;
 }

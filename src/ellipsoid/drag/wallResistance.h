@@ -13,6 +13,10 @@
 /* The part of the height over which a point beside its facet fades. */
 static const double ellipsoid_fading = 0.25;
 
+/* The part of the height by which facets in one plane, but for an angle that
+   counts as none, overlap at their seam. */
+static const double ellipsoid_lap = 1e-5;
+
 /* What the search of the planes of one pose needs. */
 typedef struct ellipsoid_wall_search
 {
@@ -50,9 +54,10 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
                            const ellipsoid_facet *facet,
                            ellipsoid_wall_feature *p);
 
-/* Sets the weights from all the rest (planeWeights.c). */
+/* Sets the weights, and their slopes if asked for, from all the rest
+   (planeWeights.c). */
 void ellipsoid_weigh_planes(const ellipsoid_model *model,
-                            ellipsoid_planes *planes);
+                            ellipsoid_planes *planes, int with_slopes);
 
 /*
     What a plane at height [m] adds to the resistance, over mu: force [m2/s] and
