@@ -19,8 +19,6 @@
 */
 #include "drag/wallResistance.h"
 
-#include <math.h>
-
 enum
 {
     POSE = ELLIPSOID_POSE_SIZE,

@@ -15,8 +15,6 @@
 */
 #include "drag/wallResistance.h"
 
-#include <math.h>
-
 enum
 {
     POSE = ELLIPSOID_POSE_SIZE
@@ -28,12 +26,15 @@ static const double same = 1e-8;
 /* The part of the range within which a wall counts fully. */
 static const double full = 0.5;
 
-/* How far the centre may move before facets are listed again, in ranges. */
-static const double margin_part = 0.1;
+/* How far the centre may move before facets are listed again, in ranges; the
+   less where there are too many. */
+static const double margin_parts[] = {0.4, 0.1};
 
 /* The same of those that count near a pose, and how far the body may turn: the
-   Frobenius norm of the difference of its axes. */
-static const double live_part = 0.02, live_turn = 0.03;
+   Frobenius norm of the difference of its axes. Facets are listed apart that
+   count within parts of both. */
+static const double live_part = 0.04, live_turn = 0.12;
+static const double live_levels[ELLIPSOID_LIVE_LEVELS] = {0.1, 0.25, 0.5, 1};
 
 /* Changes by a component n of the pose, body frame, of a vector from a fixed
    point to the centre, or of a fixed direction. */
@@ -398,8 +399,9 @@ static void join_same(const ellipsoid_wall_search *s, ellipsoid_planes *all)
     Could this facet be met while the centre moves by up to the margin? A point
     within a face lies in a direction from the centre that makes no larger angle
     with the normal than tangents of the body allow: cos >= 2 a b/(a^2 + b^2)
-    with the largest and the smallest semi-axis. Beside the face it has faded
-    over `fading` times the height, b/a times as long along the body.
+    with the largest and the smallest semi-axis. Beside the face, over a concave
+    edge, it has faded over `fading` times the height, b/a times as long along
+    the body.
 */
 static int may_matter(const ellipsoid_facet *facet, const double x[3],
                       double reach, double margin, double slimness)
@@ -409,7 +411,9 @@ static int may_matter(const ellipsoid_facet *facet, const double x[3],
 
     ellipsoid_difference(x, facet->middle, d);
     height = ellipsoid_dot(d, facet->normal);
-    beside = ellipsoid_fading * slimness * (height + margin);
+    beside = ellipsoid_facet_is_extended(facet)
+               ? ellipsoid_fading * slimness * (height + margin)
+               : ellipsoid_lap * (height + margin);
     nearest = ellipsoid_length(d) - facet->radius;
     if (!(height > -margin && height < reach && nearest < reach))
     {
@@ -419,27 +423,19 @@ static int may_matter(const ellipsoid_facet *facet, const double x[3],
         || cosine * (nearest - margin - beside) <= height + margin;
 }
 
-/* Lists facets anew if the centre has moved too far. */
-static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
-                                const double x[3], double range,
-                                double slimness, ellipsoid_facet_cache *cache)
+/* Lists facets within a margin of what is in range. */
+static ellipsoid_status list_near(const ellipsoid_surroundings *surroundings,
+                                  const double x[3], double range,
+                                  double margin, double slimness,
+                                  ellipsoid_facet_cache *cache)
 {
     /* a plane's point is up to so far beside its facet, not square to the way
        to it where the body is not a sphere */
     const double wide = range * (1 + ellipsoid_fading * slimness);
-    const double margin = margin_part * range;
     ellipsoid_facet_list list;
-    ellipsoid_status status;
-    double d[3];
+    const ellipsoid_status status =
+        ellipsoid_list_facets(surroundings, x, wide + margin, &list);
 
-    ellipsoid_difference(x, cache->near_x, d);
-    if (cache->near_count >= 0
-        && ellipsoid_dot(d, d) <= cache->near_margin * cache->near_margin)
-    {
-        return ELLIPSOID_OK;
-    }
-    cache->near_count = cache->live_count = -1;
-    status = ellipsoid_list_facets(surroundings, x, wide + margin, &list);
     if (status != ELLIPSOID_OK)
     {
         return status;
@@ -471,57 +467,91 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
     return ELLIPSOID_OK;
 }
 
-/*
-    Could ellipsoid_find_feature() find a plane on this facet while the centre
-    moves by up to `shift` and the axes turn by up to `turn`? Without a convex
-    edge the foot x - r h has to lie near the facet, r = D n/(n.D n) and h the
-    height. By n in the body frame r changes by D^(1/2) (I - 2 m m) D^(1/2) /
-    (n.D n), m = D^(1/2) n/p a unit vector: by no more than a^2/p^2 with the
-    largest semi-axis a, and the support p by no more than a.
-*/
-static int may_count(const ellipsoid_wall_search *s,
-                     const ellipsoid_facet *facet, double shift, double turn)
+/* Lists facets anew if the centre has moved too far. Where walls are refused
+   far off, or too many, those nearer may do. */
+static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
+                                const double x[3], double range,
+                                double slimness, ellipsoid_facet_cache *cache)
 {
-    double d[3], normal[3], b[3], way[3], height, support2, left, far, change;
+    const int count = sizeof(margin_parts) / sizeof(*margin_parts);
+    ellipsoid_status status = ELLIPSOID_OK;
+    double d[3];
 
-    ellipsoid_difference(s->x, facet->vertex[0], d);
+    ellipsoid_difference(x, cache->near_x, d);
+    if (cache->near_count >= 0
+        && ellipsoid_dot(d, d) <= cache->near_margin * cache->near_margin)
+    {
+        return ELLIPSOID_OK;
+    }
+    cache->near_count = cache->live_count[0] = -1;
+    for (int k = 0; k < count; k++)
+    {
+        status = list_near(surroundings, x, range, margin_parts[k] * range,
+                           slimness, cache);
+        if (status != ELLIPSOID_STEP_UNDERFLOW
+            && status != ELLIPSOID_TOO_MANY_FACETS)
+        {
+            break;
+        }
+    }
+    return status;
+}
+
+/*
+    Within which part of a move of the centre by `shift` and a turn of the axes
+    by `turn` can ellipsoid_find_feature() find no plane on this facet? Without
+    a convex edge the foot x - r h has to lie near the facet, r = D n/(n.D n)
+    and h the height. By n in the body frame r changes by D^(1/2) (I - 2 m m)
+    D^(1/2) / (n.D n), m = D^(1/2) n/p a unit vector: by no more than a^2/p^2
+    with the largest semi-axis a, and the support p by no more than a. What the
+    foot may do is a convex function of the part.
+*/
+static double idle_part(const ellipsoid_wall_search *s,
+                        const ellipsoid_facet *facet, double shift,
+                        double turn, ellipsoid_wall_view *view)
+{
+    const int extended = ellipsoid_facet_is_extended(facet);
+    double d[3], aside[3], height, part, left, before, change, beside;
+
+    ellipsoid_difference(s->x, facet->middle, d);
     height = ellipsoid_dot(d, facet->normal);
-    if (!(height > -shift && height < s->range + shift))
+    part = fmax(-height, height - s->range) / shift;
+    if (part >= 1)
     {
-        return 0;
+        return part;
     }
-    ellipsoid_product(s->axis, facet->normal, normal);
+    ellipsoid_look_along(s, facet->normal, view);
+    left = fmax(s->shortest, view->support - s->longest * turn);
+    if (ellipsoid_facet_has_convex_edge(facet))
+    {
+        beside = ellipsoid_fading * s->longest / s->shortest;
+        return fmax(part, (ellipsoid_length(d) - facet->radius
+                           - beside * s->range)
+                                  / shift
+                              - s->range / shift);
+    }
+    beside = extended ? ellipsoid_fading * s->longest / left : ellipsoid_lap;
+    height = fabs(height);
+    change = turn * (s->longest * s->longest / (left * left) + view->far);
+    before = facet->radius + beside * height;
+    change = shift * (beside + 1 + view->far) + (height + shift) * change;
     for (int i = 0; i < 3; i++)
     {
-        b[i] = s->square[i] * normal[i];
+        aside[i] = d[i] - view->way[i] * ellipsoid_dot(d, facet->normal);
     }
-    support2 = ellipsoid_dot(normal, b);
-    left = sqrt(support2) - s->longest * turn;
-    if (ellipsoid_facet_has_convex_edge(facet) || !(left > 0))
-    {
-        return 1;
-    }
-    far = ellipsoid_length(b) / support2;
-    change = turn * (s->longest * s->longest / (left * left) + far);
-    ellipsoid_combination(s->axis, b[0], b[1], b[2], way);
-    for (int i = 0; i < 3; i++)
-    {
-        d[i] = s->x[i] - way[i] * height / support2 - facet->middle[i];
-    }
-    return ellipsoid_length(d)
-        <= facet->radius
-               + ellipsoid_fading * s->longest * (height + shift) / left
-               + shift * (1 + far) + (fabs(height) + shift) * change;
+    return fmax(part, (ellipsoid_length(aside) - before) / change);
 }
 
 /* Lists those of the near facets that count near this pose, unless it has
-   hardly changed. */
-static void look_closer(const ellipsoid_wall_search *s,
-                        ellipsoid_facet_cache *cache)
+   changed little. Returns the list that serves now. */
+static int look_closer(const ellipsoid_wall_search *s,
+                       ellipsoid_facet_cache *cache)
 {
     /* far more than rounding on either side */
     const double shift = live_part * s->range, wide = 1 + 1e-6;
-    double moved = 0, turned = 0;
+    ellipsoid_wall_view view = {.along = {0}};
+    double moved = 0, turned = 0, change;
+    int level = 0;
 
     for (int i = 0; i < 3; i++)
     {
@@ -535,22 +565,32 @@ static void look_closer(const ellipsoid_wall_search *s,
             turned += e * e;
         }
     }
-    if (cache->live_count >= 0 && moved <= shift * shift
-        && turned <= live_turn * live_turn)
+    change = sqrt(fmax(moved / (shift * shift),
+                       turned / (live_turn * live_turn)));
+    if (cache->live_count[0] >= 0 && change <= 1)
     {
-        return;
+        while (change > live_levels[level])
+        {
+            level++;
+        }
+        return level;
     }
     ellipsoid_copy(s->x, cache->live_x);
     memcpy(cache->live_axis, s->axis, sizeof cache->live_axis);
-    cache->live_count = 0;
+    memset(cache->live_count, 0, sizeof cache->live_count);
     for (int k = 0; k < cache->near_count; k++)
     {
-        if (may_count(s, &cache->near_facets[cache->near_facet[k]],
-                      wide * shift, wide * live_turn))
+        const double part =
+            idle_part(s, &cache->near_facets[cache->near_facet[k]],
+                      wide * shift, wide * live_turn, &view);
+
+        for (int l = ELLIPSOID_LIVE_LEVELS - 1;
+             l >= 0 && !(part > live_levels[l]); l--)
         {
-            cache->live[cache->live_count++] = (short)k;
+            cache->live[l][cache->live_count[l]++] = (short)k;
         }
     }
+    return 0;
 }
 
 /* Axes of length one, and their derivatives, from those of any q. */
@@ -597,16 +637,18 @@ ellipsoid_find_planes(const ellipsoid_model *model,
     const ellipsoid_wall_search s = {
         state->x, {a[0] * a[0], a[1] * a[1], a[2] * a[2]},
         unit,     frame->by_q ? turned : NULL,
-        range,    longest};
+        range,    longest, shortest};
+    ellipsoid_wall_view view = {.along = {0}};
+    const int level = look_closer(&s, cache);
+    const short *live = cache->live[level];
 
-    look_closer(&s, cache);
-    for (int k = 0; k < cache->live_count; k++)
+    for (int k = 0; k < cache->live_count[level]; k++)
     {
+        const ellipsoid_facet *facet =
+            &cache->near_facets[cache->near_facet[live[k]]];
         ellipsoid_wall_feature found;
 
-        const int facet = cache->near_facet[cache->live[k]];
-
-        if (ellipsoid_find_feature(&s, &cache->near_facets[facet], &found))
+        if (ellipsoid_find_feature(&s, facet, &view, &found))
         {
             add_plane(&s, &found, planes);
         }

@@ -295,18 +295,24 @@ const Foam::wallFacets::region& Foam::wallFacets::regionAt
     const scalar reach
 ) const
 {
+    const bool wide = reach > 2*regionSize_;
+    const scalar edge = wide ? 2*regionSize_ : regionSize_;
     const FixedList<label, 3> key
     ({
-        label(std::floor(x.x()/regionSize_)),
-        label(std::floor(x.y()/regionSize_)),
-        label(std::floor(x.z()/regionSize_))
+        label(std::floor(x.x()/edge)),
+        label(std::floor(x.y()/edge)),
+        label(std::floor(x.z()/edge))
     });
 
-    region& here = regions_(key, region{-1, labelList()});
+    region& here = (wide ? wideRegions_ : regions_)
+    (
+        key,
+        region{-1, labelList()}
+    );
 
     if (here.reach < reach)
     {
-        const point corner(regionSize_*vector(key[0], key[1], key[2]));
+        const point corner(edge*vector(key[0], key[1], key[2]));
         const vector margin(reach*vector::one);
 
         here.reach = reach;
@@ -314,7 +320,7 @@ const Foam::wallFacets::region& Foam::wallFacets::regionAt
         (
             treeBoundBox
             (
-                corner - margin, corner + regionSize_*vector::one + margin
+                corner - margin, corner + edge*vector::one + margin
             )
         );
         std::sort(here.facets.begin(), here.facets.end());
