@@ -104,6 +104,7 @@ typedef struct ellipsoid_kept_resistance
 {
     double longest;      /* [s] of a step over which it may be; 0: none */
     int acts;            /* do walls add to that of the free body? */
+    int in_blocks;       /* are the blocks those of a kept one? */
     double matrix[6][6]; /* [N s/m, ...] body frame */
 } ellipsoid_kept_resistance;
 

@@ -79,7 +79,7 @@ static int is_one_held_back(ellipsoid_group *g, double h)
 
 static int blocks_kind(const ellipsoid_group *g)
 {
-    return g->keeps ? ELLIPSOID_KEEPING : ELLIPSOID_BLOCKS;
+    return g->kept_last ? ELLIPSOID_KEEPING : ELLIPSOID_BLOCKS;
 }
 
 /* Keeps the resistance near walls over a step for which it may be kept, or sees
@@ -88,19 +88,16 @@ static int blocks_kind(const ellipsoid_group *g)
 static ellipsoid_status keep_or_not(ellipsoid_group *g,
                                     const ellipsoid_plan *planned)
 {
-    ellipsoid_kept_resistance *kept = &g->start[0].resistance;
+    const ellipsoid_kept_resistance *kept = &g->start[0].resistance;
     ellipsoid_status status = ELLIPSOID_OK;
 
-    if (planned->h <= kept->longest)
-    {
-        g->cell[0].kept = kept;
-    }
-    else if (kept->longest > 0)
+    g->kept_last = planned->h <= kept->longest;
+    if (g->kept_last != kept->in_blocks)
     {
         status = ellipsoid_group_evaluate(g, planned->start, g->start, 0,
-                                          ELLIPSOID_BLOCKS);
-        kept->longest = 0;
+                                          blocks_kind(g));
     }
+    g->cell[0].kept = g->kept_last ? kept : NULL;
     return status;
 }
 

@@ -215,54 +215,6 @@ static void add_drag_blocks(evaluation *e, double d[4][3][3],
 }
 
 /*
-    The same with the resistance of this pose kept, if it may be kept over any
-    step at all.
-*/
-static ellipsoid_status keep_wall_drag(evaluation *e,
-                                       const ellipsoid_cell *cell,
-                                       ellipsoid_evaluation *at,
-                                       double d[4][3][3], int *acted,
-                                       int *is_kept)
-{
-    const ellipsoid_free_motion free = e->free;
-    const double gap =
-        ellipsoid_has_walls(cell->model, &cell->surroundings) ? at->contact.gap
-                                                              : HUGE_VAL;
-    ellipsoid_frame frame = {.by_q = NULL};
-    ellipsoid_body_wrench wrench;
-    ellipsoid_planes planes;
-    ellipsoid_status status = ELLIPSOID_OK;
-
-    at->resistance.longest = 0;
-    if (ellipsoid_in_contact(&at->contact))
-    {
-        return ELLIPSOID_OK;
-    }
-    memcpy(frame.axis, e->axis, sizeof(frame.axis));
-    status = ellipsoid_find_planes(cell->model, &cell->surroundings, &at->state,
-                                   &frame, cell->cache, &planes);
-    if (status == ELLIPSOID_OK)
-    {
-        status = ellipsoid_keep_resistance(cell->model, &planes, &frame, &free,
-                                           &at->state, gap,
-                                           &at->resistance);
-    }
-    *is_kept = status == ELLIPSOID_OK && at->resistance.longest > 0;
-    *acted = *is_kept && at->resistance.acts;
-    if (*acted)
-    {
-        frame.by_q = d;
-        ellipsoid_copy(e->force, wrench.force);
-        ellipsoid_copy(e->torque, wrench.torque);
-        ellipsoid_add_kept_drag(cell->model, &at->resistance, &frame, &free,
-                                &at->state, &wrench, &at->blocks);
-        ellipsoid_copy(wrench.force, e->force);
-        ellipsoid_copy(wrench.torque, e->torque);
-    }
-    return status;
-}
-
-/*
     Drag where walls are near; where none is, *acted is 0 and nothing done. The
     copies are for those who want an address: so the compiler need not give the
     originals one.
@@ -273,60 +225,17 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
                                       int *acted)
 {
     const ellipsoid_free_motion free = e->free;
-    ellipsoid_blocks *blocks = with_blocks ? &at->blocks : NULL;
-    ellipsoid_state *state = &at->state;
-    ellipsoid_frame frame = {.by_q = blocks ? d : NULL};
+    ellipsoid_frame frame = {.by_q = with_blocks ? d : NULL};
+    ellipsoid_near_drag asked = {balanced, with_blocks, 0};
     ellipsoid_body_wrench wrench;
-    ellipsoid_planes planes;
     ellipsoid_status status;
 
     memcpy(frame.axis, e->axis, sizeof(frame.axis));
-    if (cell->kept)
-    {
-        *acted = cell->kept->acts;
-        if (*acted)
-        {
-            ellipsoid_copy(e->force, wrench.force);
-            ellipsoid_copy(e->torque, wrench.torque);
-            ellipsoid_add_kept_drag(cell->model, cell->kept, &frame, &free,
-                                    state, &wrench, NULL);
-            ellipsoid_copy(wrench.force, e->force);
-            ellipsoid_copy(wrench.torque, e->torque);
-        }
-        return ELLIPSOID_OK;
-    }
-    if (with_blocks == ELLIPSOID_KEEPING)
-    {
-        /* without slopes: most often these are not asked for */
-        int is_kept = 0;
-
-        status = keep_wall_drag(e, cell, at, d, acted, &is_kept);
-        if (status != ELLIPSOID_OK || is_kept)
-        {
-            return status;
-        }
-    }
-    status = ellipsoid_find_planes(cell->model, &cell->surroundings, state,
-                                   &frame, cell->cache, &planes);
-    *acted = status == ELLIPSOID_OK && planes.count > 0;
-    if (!*acted)
-    {
-        return status;
-    }
     ellipsoid_copy(e->force, wrench.force);
     ellipsoid_copy(e->torque, wrench.torque);
-    if (balanced)
-    {
-        ellipsoid_copy(free.u, state->u);
-        ellipsoid_copy(free.omega, state->omega);
-        status = ellipsoid_add_wall_mobility(cell->model, &planes, &frame,
-                                             &wrench, state);
-    }
-    if (status == ELLIPSOID_OK && (blocks || !balanced))
-    {
-        status = ellipsoid_add_wall_drag(cell->model, &planes, &frame, &free,
-                                         state, &wrench, blocks);
-    }
+    status =
+        ellipsoid_add_near_drag(cell, at, &frame, &free, &wrench, &asked);
+    *acted = asked.acted;
     ellipsoid_copy(wrench.force, e->force);
     ellipsoid_copy(wrench.torque, e->torque);
     return status;

@@ -84,6 +84,7 @@ typedef struct ellipsoid_cell
     const ellipsoid_noise *noise; /* NULL: none */
     const ellipsoid_kept_resistance *kept; /* that of a step; NULL: of each
                                               pose */
+    int keeps; /* may it be kept over a step at all? */
     int inertial;
     int walls;
 } ellipsoid_cell;
@@ -116,6 +117,21 @@ enum
     ELLIPSOID_BLOCKS,
     ELLIPSOID_KEEPING
 };
+
+/* What is asked of the drag near walls, and whether any is near. */
+typedef struct ellipsoid_near_drag
+{
+    int balanced, with_blocks, acted;
+} ellipsoid_near_drag;
+
+/* Adds it to the wrench and, if wanted, to the blocks, or balances the wrench
+   (nearDrag.c). */
+ellipsoid_status ellipsoid_add_near_drag(const ellipsoid_cell *cell,
+                                         ellipsoid_evaluation *at,
+                                         ellipsoid_frame *frame,
+                                         const ellipsoid_free_motion *free,
+                                         ellipsoid_body_wrench *wrench,
+                                         ellipsoid_near_drag *asked);
 
 /*
     The equations of one cell in the state of `at`, without contact with other
@@ -249,6 +265,7 @@ typedef struct ellipsoid_group
     int stiff;    /* is one aligned by a dipole or under an external force? */
     int unsteady; /* do the surroundings of one depend on time? */
     int keeps;       /* may the resistance near walls be kept over a step? */
+    int kept_last;   /* was it, in the last step? */
     int dissipative; /* do forces other than drag depend on velocities? */
     int observed; /* is the whole of ellipsoid_step asked for? */
     int manifold; /* may it be advanced on the slow manifold? */
