@@ -93,6 +93,17 @@ static inline void ellipsoid_shrink(const ellipsoid_wall_search *s,
     }
 }
 
+/* Lists facets in range anew if the centre has moved too far (nearFacets.c). */
+ellipsoid_status
+ellipsoid_collect_near(const ellipsoid_surroundings *surroundings,
+                       const double x[3], double range, double slimness,
+                       ellipsoid_facet_cache *cache);
+
+/* Lists those of them that count near this pose, unless it has changed little.
+   Returns the list that serves now. */
+int ellipsoid_look_closer(const ellipsoid_wall_search *s,
+                          ellipsoid_facet_cache *cache);
+
 /* Finds the point that this facet gives; 0 if there is none (wallFeatures.c).
  */
 int ellipsoid_find_feature(const ellipsoid_wall_search *s,
