@@ -268,6 +268,7 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 #define ELLIPSOID_MAX_PAIRS 2048
 #define ELLIPSOID_MAX_SURFACES 8
 #define ELLIPSOID_MAX_NEAR 4096
+#define ELLIPSOID_LIVE_LEVELS 4
 
 /*
     Which facets each bead, or the ellipsoid, may touch, and which the
@@ -293,9 +294,12 @@ typedef struct ellipsoid_facet_cache
     double near_margin; /* [m] how far the centre may move from there */
     const ellipsoid_facet *near_facets;
     int near_facet[ELLIPSOID_MAX_NEAR]; /* ascending */
-    int live_count; /* of those that count near this pose; -1: not looked up */
+    /* of those that count near this pose, within parts of what it may change
+       by; -1: not looked up */
+    int live_count[ELLIPSOID_LIVE_LEVELS];
     double live_x[3], live_axis[3][3]; /* where; the body's axes there */
-    short live[ELLIPSOID_MAX_NEAR];    /* which of near_facet, ascending */
+    /* which of near_facet, ascending */
+    short live[ELLIPSOID_LIVE_LEVELS][ELLIPSOID_MAX_NEAR];
 } ellipsoid_facet_cache;
 
 /*

@@ -50,7 +50,6 @@ Description
 #include "functionObject/ellipsoidTracking.C"
 
 #include "flow/baffleSides.C"
-#include "flow/cyclicPoints.C"
 #include "flow/domainImages.C"
 #include "flow/electricField.C"
 #include "flow/inletFlux.C"

@@ -59,6 +59,65 @@ static void test_coming_down(void **unused)
     wall_mesh_free(&mesh);
 }
 
+/*
+    A cell that goes with a shear flow over a floor and past a block, heavier than
+    the fluid as bacteria are: over its steps the resistance is kept. Its error,
+    against steps at a tolerance of 1e-9, over which it is not, is at most twice
+    that without walls.
+*/
+static void test_kept_resistance(void **unused)
+{
+    const double low[3] = {-2e-6, 5e-6, 0}, high[3] = {2e-6, 9e-6, 1.5e-6};
+    wall_mesh mesh;
+    double error[2];
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_floor(&mesh, 0, 10, 10);
+    wall_mesh_box(&mesh, low, high, 0, 3, 0);
+    wall_mesh_finish(&mesh);
+    for (int n = 0; n < 2; n++)
+    {
+        static const double tolerance[2] = {1e-9, 1e-5};
+        ellipsoid_state end[2];
+
+        for (int k = 0; k < 2; k++)
+        {
+            test_quadratic flow = {.answer = 0};
+            ellipsoid_surroundings s = around(&mesh, &flow);
+            ellipsoid_options o = near_walls();
+            ellipsoid_controller controller = {0};
+            ellipsoid_statistics statistics = {0};
+            ellipsoid_model model;
+            double t = 0;
+
+            flow.g[1][2] = 200;
+            o.tolerance = tolerance[k];
+            ellipsoid_set(o.gravity, 0, 0, -9.81);
+            o.buoyancy = 1;
+            model = test_model(&o);
+            end[k] = (ellipsoid_state){.x = {0.3e-6, 0, 4e-6},
+                                       .q = {0.3, 0.1, 0.2, 0.9}};
+            ellipsoid_normalise(end[k].q);
+            s.walls = n ? s.walls : NULL;
+            ellipsoid_facet_cache_clear(&cache);
+            assert_ok(ellipsoid_balance(&model, &s, &end[k], &cache));
+            assert_ok(ellipsoid_advance(
+                &(ellipsoid_member){&model, &s, &end[k], &controller, &cache,
+                                    NULL, &statistics},
+                &t, 20e-3, NULL));
+            print_message("%s walls, %.0e: %ld steps, %ld evaluations\n",
+                          n ? "with" : "without", tolerance[k],
+                          statistics.accepted, statistics.rhs);
+        }
+        error[n] = test_distance(end[0].x, end[1].x, 3) / 2e-6
+                 + test_distance(end[0].q, end[1].q, 4);
+        print_message("error %.1e\n", error[n]);
+    }
+    assert_true(error[1] < 2 * error[0]);
+    wall_mesh_free(&mesh);
+}
+
 /* Two cells that overlap by some nanometres near a floor are pushed apart, with
    and without inertia the same way. Those with inertia start
    from rest: 1e-7 s at some mm/s, 1 nm of the 20 nm. */
@@ -119,6 +178,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_coming_down),
+        cmocka_unit_test(test_kept_resistance),
         cmocka_unit_test(test_two_cells),
     };
 

@@ -326,6 +326,57 @@ static void test_continuous(void **unused)
     }
 }
 
+/*
+    So too over an edge of a block, each face of it in several facets: a cell
+    close above leaves the top, and the plane of a facet that it is beside comes
+    apart from that of the edge. A hundred times the steps on a hundredth
+    of the way make the largest change less than a tenth.
+*/
+static void test_continuous_over_edges(void **unused)
+{
+    ellipsoid_options o = near_walls();
+    ellipsoid_model model;
+    const double block[2][3] = {{-2e-6, -2e-6, -3e-6}, {2e-6, 2e-6, 0}};
+    const double low[3] = {-6e-6, -6e-6, -3e-6}, high[3] = {6e-6, 6e-6, 4e-6};
+    uint64_t seed = 26;
+    wall_mesh mesh;
+
+    (void)unused;
+    ellipsoid_set(o.semi_axes, 0.5e-6, 1e-6, 0.5e-6);
+    model = test_model(&o);
+    wall_mesh_init(&mesh);
+    wall_mesh_box(&mesh, low, high, 1, 2, 0);
+    wall_mesh_box(&mesh, block[0], block[1], 0, 8, 0);
+    wall_mesh_finish(&mesh);
+    ellipsoid_facet_cache_clear(&cache);
+    for (int n = 0; n < 60; n++)
+    {
+        const double from[3] = {0.5e-6 * test_signed(&seed), 1.4e-6,
+                                1.2e-6 + 1e-6 * test_uniform(&seed)};
+        const double to[3] = {from[0] + 0.3e-6 * test_signed(&seed), 2.9e-6,
+                              from[2]};
+        double q[4], coarse = 0, fine = 0;
+
+        test_orientation(&seed, q);
+        for (int part = 0; part < 100; part++)
+        {
+            double ends[2][3];
+
+            for (int i = 0; i < 3; i++)
+            {
+                ends[0][i] = from[i] + (to[i] - from[i]) * part / 100;
+                ends[1][i] = from[i] + (to[i] - from[i]) * (part + 1) / 100;
+            }
+            coarse = fmax(coarse, largest_change(&model, &mesh, ends[0],
+                                                 ends[1], q, 2));
+            fine = fmax(fine, largest_change(&model, &mesh, ends[0], ends[1],
+                                             q, 40));
+        }
+        assert_true(fine < 0.1 * coarse + 1e-12);
+    }
+    wall_mesh_free(&mesh);
+}
+
 /* The result is that of the pose, to the last bit, whatever the cache holds:
    after a new pose, and after moves of about what leaves the closer look as it
    is, near few large facets and near many small ones. */
@@ -480,6 +531,7 @@ int main(void)
         cmocka_unit_test(test_jacobian),
         cmocka_unit_test(test_cuts),
         cmocka_unit_test(test_continuous),
+        cmocka_unit_test(test_continuous_over_edges),
         cmocka_unit_test(test_cache),
         cmocka_unit_test(test_cache_far_beside),
         cmocka_unit_test(test_slit),

@@ -77,10 +77,13 @@ typedef struct ellipsoid_plane
     double normal[3]; /* unit, body frame, into the fluid */
     double normal_slope[ELLIPSOID_POSE_SIZE][3];
     ellipsoid_quantity height; /* [m] of the centre above the plane */
-    ellipsoid_quantity window; /* [-] 1 near, 0 out of range, or where its
-                                  point is well beside its facet */
-    ellipsoid_quantity weight; /* [-] 0 to 1: window and what it leaves to
+    ellipsoid_quantity window; /* [-] 1 near, 0 out of range */
+    ellipsoid_quantity extent; /* [-] 1 where its point is on the wall, 0 well
+                                  beside it */
+    ellipsoid_quantity weight; /* [-] 0 to 1: both, and what they leave to
                                   other planes */
+    int feature;               /* where its point is, as in ellipsoid_nearest */
+    const double *vertex[2];   /* of that edge, or of that vertex the first */
 } ellipsoid_plane;
 
 typedef struct ellipsoid_planes
@@ -95,6 +98,35 @@ ellipsoid_find_planes(const ellipsoid_model *model,
                       const ellipsoid_surroundings *surroundings,
                       const ellipsoid_state *state, ellipsoid_frame *frame,
                       ellipsoid_facet_cache *cache, ellipsoid_planes *planes);
+
+/* The resistance near walls as it is kept over a step (wallDrag.c). */
+typedef struct ellipsoid_kept_resistance
+{
+    double longest;      /* [s] of a step over which it may be; 0: none */
+    int acts;            /* do walls add to that of the free body? */
+    int in_blocks;       /* are the blocks those of a kept one? */
+    double matrix[6][6]; /* [N s/m, ...] body frame */
+} ellipsoid_kept_resistance;
+
+/* Sets it, and how long it may be kept. gap [m]: to where it touches, as far as
+   contact knows. NON_FINITE: it is singular. */
+ellipsoid_status ellipsoid_keep_resistance(const ellipsoid_model *model,
+                                           const ellipsoid_planes *planes,
+                                           ellipsoid_frame *frame,
+                                           const ellipsoid_free_motion *free,
+                                           const ellipsoid_state *state,
+                                           double gap,
+                                           ellipsoid_kept_resistance *kept);
+
+/* As ellipsoid_add_wall_drag() with a resistance that is the same in all poses,
+   as seen by the body. */
+void ellipsoid_add_kept_drag(const ellipsoid_model *model,
+                             const ellipsoid_kept_resistance *kept,
+                             ellipsoid_frame *frame,
+                             const ellipsoid_free_motion *free,
+                             const ellipsoid_state *state,
+                             ellipsoid_body_wrench *wrench,
+                             ellipsoid_blocks *blocks);
 
 /* Adds to the state's u and omega what a wrench does against the resistance
    near these planes (wallDrag.c). NON_FINITE: the resistance is singular. */

@@ -153,16 +153,25 @@ typedef struct wall_drag
     double action[6];
 } wall_drag;
 
-static void add_blocks(const ellipsoid_model *m, const ellipsoid_planes *planes,
-                       ellipsoid_frame *frame,
+static void set_rates(ellipsoid_frame *frame,
+                      const ellipsoid_free_motion *free,
+                      const ellipsoid_state *state, wall_drag *drag)
+{
+    double turn[3];
+
+    ellipsoid_difference(free->u, state->u, drag->slip);
+    ellipsoid_difference(free->omega, state->omega, turn);
+    to_body(frame->axis, drag->slip, turn, drag->rates);
+}
+
+/* change: of the action with the pose; of none if that is NULL */
+static void add_blocks(const ellipsoid_model *m, double matrix[6][6],
+                       double (*change)[6], ellipsoid_frame *frame,
                        const ellipsoid_free_motion *free,
                        const wall_drag *drag, ellipsoid_blocks *b)
 {
     double(*axis)[3] = frame->axis;
-    double matrix[6][6], change[ELLIPSOID_POSE_SIZE][6];
 
-    set_matrix(m, planes, matrix);
-    pose_changes(m, planes, drag->rates, change);
     for (int l = 0; l < 3; l++)
     {
         const double minus[3] = {-axis[0][l], -axis[1][l], -axis[2][l]};
@@ -183,7 +192,10 @@ static void add_blocks(const ellipsoid_model *m, const ellipsoid_planes *planes,
         to_body(axis, u_x, omega_x, moved);
         apply(matrix, moved, column);
         add_column(axis, column, &b->ux[0][l], &b->wx[0][l], 3);
-        add_column(axis, change[l], &b->ux[0][l], &b->wx[0][l], 3);
+        if (change)
+        {
+            add_column(axis, change[l], &b->ux[0][l], &b->wx[0][l], 3);
+        }
     }
     for (int n = 0; n < 4; n++)
     {
@@ -201,7 +213,10 @@ static void add_blocks(const ellipsoid_model *m, const ellipsoid_planes *planes,
         }
         apply(matrix, moved, column);
         add_column(axis, column, &b->uq[0][n], &b->wq[0][n], 4);
-        add_column(axis, change[n + 3], &b->uq[0][n], &b->wq[0][n], 4);
+        if (change)
+        {
+            add_column(axis, change[n + 3], &b->uq[0][n], &b->wq[0][n], 4);
+        }
         ellipsoid_combination(frame->by_q[n], drag->action[0], drag->action[1],
                               drag->action[2], turned);
         for (int i = 0; i < 3; i++)
@@ -219,12 +234,9 @@ ellipsoid_status ellipsoid_add_wall_drag(const ellipsoid_model *model,
                                          ellipsoid_body_wrench *wrench,
                                          ellipsoid_blocks *blocks)
 {
-    double turn[3];
     wall_drag drag;
 
-    ellipsoid_difference(free->u, state->u, drag.slip);
-    ellipsoid_difference(free->omega, state->omega, turn);
-    to_body(frame->axis, drag.slip, turn, drag.rates);
+    set_rates(frame, free, state, &drag);
     if (!resist(model, planes, drag.rates, drag.action))
     {
         return ELLIPSOID_NON_FINITE;
@@ -233,9 +245,96 @@ ellipsoid_status ellipsoid_add_wall_drag(const ellipsoid_model *model,
     ellipsoid_add(wrench->torque, drag.action + 3);
     if (blocks)
     {
-        add_blocks(model, planes, frame, free, &drag, blocks);
+        double matrix[6][6], change[ELLIPSOID_POSE_SIZE][6];
+
+        set_matrix(model, planes, matrix);
+        pose_changes(model, planes, drag.rates, change);
+        add_blocks(model, matrix, change, frame, free, &drag, blocks);
     }
     return ELLIPSOID_OK;
+}
+
+/*
+    While a body is moved by forces that are weak against the drag, it goes with
+    the fluid, whatever the resistance. If all that walls add to it went away,
+    the displacement relative to the fluid in a step of h would change by the
+    walls' part of it: that is to be below half the tolerance, and what they add
+    changes by a part of itself alone, as no gap becomes less by a quarter. The
+    relative velocity is taken for twice that at the start, and what constant
+    forces do besides, as it may pass through zero there.
+*/
+ellipsoid_status ellipsoid_keep_resistance(const ellipsoid_model *model,
+                                           const ellipsoid_planes *planes,
+                                           ellipsoid_frame *frame,
+                                           const ellipsoid_free_motion *free,
+                                           const ellipsoid_state *state,
+                                           double gap,
+                                           ellipsoid_kept_resistance *kept)
+{
+    static const double small = 0.5;       /* part of the tolerance */
+    static const double least = 0.1;       /* walls' part; they may come */
+    static const double nearer = 0.25;     /* part of the gap */
+    const double *k = model->resistance, *c = model->rotation_resistance;
+    const double *a = model->options.semi_axes, mu = model->viscosity;
+    const double longest = fmax(a[0], fmax(a[1], a[2]));
+    const double speed = ellipsoid_length(state->u)
+                       + longest * ellipsoid_length(state->omega);
+    double part = least, spin_part = least, slip, spin;
+    wall_drag drag;
+
+    kept->longest = 0;
+    kept->acts = planes->count > 0;
+    if (!set_matrix(model, planes, kept->matrix))
+    {
+        return ELLIPSOID_NON_FINITE;
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        part = fmax(part, kept->matrix[i][i] / (mu * k[i]) - 1);
+        spin_part =
+            fmax(spin_part, kept->matrix[i + 3][i + 3] / (mu * c[i]) - 1);
+    }
+    for (int p = 0; p < planes->count; p++)
+    {
+        const double *m = planes->at[p].normal;
+        const double along[3] = {a[0] * m[0], a[1] * m[1], a[2] * m[2]};
+
+        gap = fmin(gap,
+                   planes->at[p].height.value - ellipsoid_length(along));
+    }
+    set_rates(frame, free, state, &drag);
+    slip = 2 * ellipsoid_length(drag.rates)
+         + ellipsoid_length(model->constant_force)
+               / (mu * fmin(k[0], fmin(k[1], k[2])));
+    spin = 2 * ellipsoid_length(drag.rates + 3)
+         + ellipsoid_length(model->options.external_torque)
+               / (mu * fmin(c[0], fmin(c[1], c[2])));
+    kept->longest = fmin(small * model->options.tolerance
+                             / fmax(part * slip / longest, spin_part * spin),
+                         nearer * fmax(gap, 0) / speed);
+    return ELLIPSOID_OK;
+}
+
+void ellipsoid_add_kept_drag(const ellipsoid_model *model,
+                             const ellipsoid_kept_resistance *kept,
+                             ellipsoid_frame *frame,
+                             const ellipsoid_free_motion *free,
+                             const ellipsoid_state *state,
+                             ellipsoid_body_wrench *wrench,
+                             ellipsoid_blocks *blocks)
+{
+    double matrix[6][6];
+    wall_drag drag;
+
+    memcpy(matrix, kept->matrix, sizeof(matrix));
+    set_rates(frame, free, state, &drag);
+    apply(matrix, drag.rates, drag.action);
+    add_lab(frame->axis, drag.action, wrench->force);
+    ellipsoid_add(wrench->torque, drag.action + 3);
+    if (blocks)
+    {
+        add_blocks(model, matrix, NULL, frame, free, &drag, blocks);
+    }
 }
 
 ellipsoid_status

@@ -15,8 +15,6 @@
 */
 #include "drag/wallResistance.h"
 
-#include <math.h>
-
 /* Relative rounding that conditions allow, as in facets.c. */
 static const double rounding = 1e-9;
 
@@ -141,58 +139,69 @@ static int feature_on_rim(const ellipsoid_wall_search *s,
 /* Finds the plane that this facet gives; 0 if there is none. */
 int ellipsoid_find_feature(const ellipsoid_wall_search *s,
                            const ellipsoid_facet *facet,
+                           ellipsoid_wall_view *view,
                            ellipsoid_wall_feature *p)
 {
-    double from[3], normal[3], b[3], foot[3], height, support2, far;
-    int outside[3], on_rim = 0;
+    const int has_rim = ellipsoid_facet_has_convex_edge(facet);
+    double from[3], foot[3], aside[3], height;
+    int outside[3], on_rim = 0, on_flat = 0;
 
-    ellipsoid_difference(s->x, facet->vertex[0], from);
+    ellipsoid_difference(s->x, facet->middle, from);
     height = ellipsoid_dot(from, facet->normal);
     if (!(height > 0 && height < s->range))
     {
         return 0;
     }
-    ellipsoid_product(s->axis, facet->normal, normal);
+    ellipsoid_look_along(s, facet->normal, view);
     for (int i = 0; i < 3; i++)
     {
-        b[i] = s->square[i] * normal[i];
+        aside[i] = from[i] - view->way[i] * height;
+        foot[i] = s->x[i] - view->way[i] * height;
     }
-    support2 = ellipsoid_dot(normal, b);
-    ellipsoid_combination(s->axis, b[0], b[1], b[2], foot);
-    for (int i = 0; i < 3; i++)
+
+    const double beside = ellipsoid_facet_is_extended(facet)
+                            ? ellipsoid_fading * s->longest / view->support
+                            : ellipsoid_lap;
+    const double wide = facet->radius + beside * height;
+
+    if (!has_rim && ellipsoid_dot(aside, aside) > wide * wide)
     {
-        foot[i] = s->x[i] - foot[i] * height / support2;
-    }
-    ellipsoid_difference(foot, facet->middle, from);
-    far = facet->radius
-        + ellipsoid_fading * s->longest * height / sqrt(support2);
-    if (!ellipsoid_facet_has_convex_edge(facet)
-        && ellipsoid_dot(from, from) > far * far)
-    {
-        return 0; /* it has faded */
+        return 0; /* it has faded, or is another facet's */
     }
     for (int k = 0; k < 3; k++)
     {
-        double along[3], inward[3];
+        double along[3], inward[3], out;
 
         ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
                              along);
         ellipsoid_cross(facet->normal, along, inward);
-        ellipsoid_difference(foot, facet->vertex[k], from);
-        outside[k] = ellipsoid_dot(inward, from) < 0;
+        ellipsoid_difference(facet->vertex[k], foot, from);
+        out = ellipsoid_dot(inward, from);
+        outside[k] = out > 0;
         on_rim = on_rim
               || (outside[k] && facet->edge[k] == ELLIPSOID_EDGE_CONVEX);
+        if (outside[k] && facet->edge[k] == ELLIPSOID_EDGE_FLAT)
+        {
+            outside[k] = 0;
+            on_flat = on_flat
+                   || out > ellipsoid_lap * height * ellipsoid_length(along);
+        }
+    }
+    if (on_flat && !on_rim)
+    {
+        return 0; /* the same plane is that of the facet across */
     }
     memset(p, 0, sizeof(*p));
     p->facet = facet;
     if (on_rim)
     {
-        return feature_on_rim(s, normal, height * height / support2, outside,
-                              p);
+        const double bare = height / view->support;
+
+        return feature_on_rim(s, view->normal, bare * bare, outside, p);
     }
     p->feature = ELLIPSOID_ON_FACE;
     memcpy(p->over, outside, sizeof(p->over));
-    ellipsoid_copy(normal, p->normal);
+    ellipsoid_copy(view->normal, p->normal);
     p->height = height;
     return 1;
 }

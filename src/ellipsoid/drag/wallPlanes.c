@@ -6,33 +6,25 @@
     wallPlanes.c - which planes stand for the walls near a cell.
 
     Each point where the grown body would meet a facet (wallFeatures.c) gives
-    one. Over a seam that is not convex a plane does not end at once: facets,
-    and edges beyond their ends, go on as if they were larger, and the weight of
-    their plane falls to zero while the point moves away by a part of the height
-    (lengths by M). So nothing jumps where a wall goes on in other facets. How
-    planes of nearly one normal share is told in planeWeights.c.
+    one. Over a concave seam a plane does not end at once: facets, and edges
+    beyond their ends, go on as if they were larger, and the extent of their
+    plane falls to zero while the point moves away by a part of the height
+    (lengths by M). So nothing jumps where a wall goes on in other facets. Over
+    a flat one the facet across has the same plane. How planes of nearly one
+    normal share is told in planeWeights.c.
 */
 #include "drag/wallResistance.h"
-
-#include <math.h>
 
 enum
 {
     POSE = ELLIPSOID_POSE_SIZE
 };
 
-/* What makes two planes one, seen twice. */
+/* What makes two planes one. */
 static const double same = 1e-8;
 
 /* The part of the range within which a wall counts fully. */
 static const double full = 0.5;
-
-/* How far the centre may move before facets are listed again, in ranges. */
-static const double margin_part = 0.1;
-
-/* The same of those that count near a pose, and how far the body may turn: the
-   Frobenius norm of the difference of its axes. */
-static const double live_part = 0.02, live_turn = 0.03;
 
 /* Changes by a component n of the pose, body frame, of a vector from a fixed
    point to the centre, or of a fixed direction. */
@@ -189,7 +181,7 @@ static void point_slope(const ellipsoid_wall_search *s,
 }
 
 /*
-    Takes from the window by how far the point lies beside the facet, over edge
+    Takes from the extent by how far the point lies beside the facet, over edge
     k. With y = h/p the scaled height and d the scaled distance, u = d/(y f),
     the rest is 1 - u^2 (3 - 2 u).
 */
@@ -226,7 +218,7 @@ static void fade(const ellipsoid_wall_search *s,
     u = d * sqrt(support2) / (ellipsoid_fading * plane->height.value);
     if (!(u < 1))
     {
-        plane->window.value = 0;
+        plane->extent.value = 0;
         return;
     }
     rest = 1 - u * u * (3 - 2 * u);
@@ -245,16 +237,16 @@ static void fade(const ellipsoid_wall_search *s,
             of_support2 += 2 * s->square[i] * m[i] * plane->normal_slope[n][i];
         }
         of_d = d > 0 ? of_d / d : 0;
-        plane->window.slope[n] =
-            plane->window.slope[n] * rest
-            - plane->window.value * 6 * (1 - u)
+        plane->extent.slope[n] =
+            plane->extent.slope[n] * rest
+            - plane->extent.value * 6 * (1 - u)
                   * (u * of_d * sqrt(support2)
                          / (ellipsoid_fading * plane->height.value)
                      + u * u
                            * (0.5 * of_support2 / support2
                               - plane->height.slope[n] / plane->height.value));
     }
-    plane->window.value *= rest;
+    plane->extent.value *= rest;
 }
 
 /* ------------------------------------------------------------ all planes */
@@ -269,7 +261,32 @@ static int is_same(const ellipsoid_wall_search *s, const ellipsoid_plane *a,
         && fabs(a->height.value - b->height.value) < same * s->range;
 }
 
-/* Of planes seen twice the one that fades less is kept. */
+/* Is it the same face, edge or vertex? Facets of one plane are one face. */
+static int is_one_feature(const ellipsoid_wall_search *s,
+                          const ellipsoid_plane *a, const ellipsoid_plane *b)
+{
+    const size_t size = sizeof(double[3]);
+
+    if (a->feature != b->feature)
+    {
+        return 0;
+    }
+    switch (a->feature)
+    {
+        case ELLIPSOID_ON_FACE:
+            return is_same(s, a, b);
+        case ELLIPSOID_ON_EDGE:
+            return (memcmp(a->vertex[0], b->vertex[0], size) == 0
+                    && memcmp(a->vertex[1], b->vertex[1], size) == 0)
+                || (memcmp(a->vertex[0], b->vertex[1], size) == 0
+                    && memcmp(a->vertex[1], b->vertex[0], size) == 0);
+        default:
+            return memcmp(a->vertex[0], b->vertex[0], size) == 0;
+    }
+}
+
+/* Of features seen twice the one that fades less is kept. Whether planes of
+   others are nearly the same must not matter: they come to be by and by. */
 static void keep(const ellipsoid_wall_search *s, const ellipsoid_plane *plane,
                  ellipsoid_planes *all)
 {
@@ -277,9 +294,9 @@ static void keep(const ellipsoid_wall_search *s, const ellipsoid_plane *plane,
 
     for (int i = 0; i < all->count; i++)
     {
-        if (is_same(s, &all->at[i], plane))
+        if (is_one_feature(s, &all->at[i], plane))
         {
-            if (plane->window.value > all->at[i].window.value)
+            if (plane->extent.value > all->at[i].extent.value)
             {
                 all->at[i] = *plane;
             }
@@ -308,6 +325,10 @@ static void add_plane(const ellipsoid_wall_search *s,
     memset(&plane, 0, sizeof(plane));
     ellipsoid_copy(p->normal, plane.normal);
     plane.height.value = p->height;
+    plane.extent.value = 1;
+    plane.feature = p->feature;
+    plane.vertex[0] = p->facet->vertex[p->k];
+    plane.vertex[1] = p->facet->vertex[(p->k + 1) % 3];
     if (s->turned)
     {
         if (p->feature == ELLIPSOID_ON_FACE)
@@ -320,176 +341,48 @@ static void add_plane(const ellipsoid_wall_search *s,
         }
     }
     set_window(s, &plane);
-    for (int k = 0; k < 3 && plane.window.value > 0; k++)
+    for (int k = 0; k < 3 && plane.window.value * plane.extent.value > 0; k++)
     {
         if (p->over[k])
         {
             fade(s, p, k, &plane);
         }
     }
-    if (plane.window.value > 0)
+    if (plane.window.value * plane.extent.value > 0)
     {
         keep(s, &plane, all);
     }
 }
 
-/*
-    Could this facet be met while the centre moves by up to the margin? A point
-    within a face lies in a direction from the centre that makes no larger angle
-    with the normal than tangents of the body allow: cos >= 2 a b/(a^2 + b^2)
-    with the largest and the smallest semi-axis. Beside the face it has faded
-    over `fading` times the height, b/a times as long along the body.
-*/
-static int may_matter(const ellipsoid_facet *facet, const double x[3],
-                      double reach, double margin, double slimness)
+/* What planes that are the same add to the resistance is evaluated once. */
+static void join_same(const ellipsoid_wall_search *s, ellipsoid_planes *all)
 {
-    const double cosine = 2 * slimness / (1 + slimness * slimness);
-    double d[3], height, nearest, beside;
-
-    ellipsoid_difference(x, facet->middle, d);
-    height = ellipsoid_dot(d, facet->normal);
-    beside = ellipsoid_fading * slimness * (height + margin);
-    nearest = ellipsoid_length(d) - facet->radius;
-    if (!(height > -margin && height < reach && nearest < reach))
-    {
-        return 0;
-    }
-    return ellipsoid_facet_has_convex_edge(facet)
-        || cosine * (nearest - margin - beside) <= height + margin;
-}
-
-/* Lists facets anew if the centre has moved too far. */
-static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
-                                const double x[3], double range,
-                                double slimness, ellipsoid_facet_cache *cache)
-{
-    /* a plane's point is up to so far beside its facet, not square to the way
-       to it where the body is not a sphere */
-    const double wide = range * (1 + ellipsoid_fading * slimness);
-    const double margin = margin_part * range;
-    ellipsoid_facet_list list;
-    ellipsoid_status status;
-    double d[3];
-
-    ellipsoid_difference(x, cache->near_x, d);
-    if (cache->near_count >= 0
-        && ellipsoid_dot(d, d) <= cache->near_margin * cache->near_margin)
-    {
-        return ELLIPSOID_OK;
-    }
-    cache->near_count = cache->live_count = -1;
-    status = ellipsoid_list_facets(surroundings, x, wide + margin, &list);
-    if (status != ELLIPSOID_OK)
-    {
-        return status;
-    }
-    cache->near_facets = list.facets;
-    ellipsoid_copy(x, cache->near_x);
-
     int count = 0;
 
-    for (int k = 0; k < list.count; k++)
+    for (int i = 0; i < all->count; i++)
     {
-        const ellipsoid_facet *facet = &list.facets[list.index[k]];
+        int k = 0;
 
-        if (facet->mirror
-            || !may_matter(facet, x, wide + margin, margin, slimness))
+        while (k < count && !is_same(s, &all->at[k], &all->at[i]))
         {
+            k++;
+        }
+        if (k == count)
+        {
+            if (count < i)
+            {
+                all->at[count] = all->at[i];
+            }
+            count++;
             continue;
         }
-        if (count == ELLIPSOID_MAX_NEAR)
+        all->at[k].weight.value += all->at[i].weight.value;
+        for (int n = 0; s->turned && n < POSE; n++)
         {
-            return ELLIPSOID_TOO_MANY_FACETS;
-        }
-        cache->near_facet[count++] = list.index[k];
-    }
-    cache->near_count = count;
-    cache->near_margin = list.count == 0 && list.reach > wide + margin
-                           ? list.reach - wide
-                           : margin;
-    return ELLIPSOID_OK;
-}
-
-/*
-    Could ellipsoid_find_feature() find a plane on this facet while the centre
-    moves by up to `shift` and the axes turn by up to `turn`? Without a convex
-    edge the foot x - r h has to lie near the facet, r = D n/(n.D n) and h the
-    height. By n in the body frame r changes by D^(1/2) (I - 2 m m) D^(1/2) /
-    (n.D n), m = D^(1/2) n/p a unit vector: by no more than a^2/p^2 with the
-    largest semi-axis a, and the support p by no more than a.
-*/
-static int may_count(const ellipsoid_wall_search *s,
-                     const ellipsoid_facet *facet, double shift, double turn)
-{
-    double d[3], normal[3], b[3], way[3], height, support2, left, far, change;
-
-    ellipsoid_difference(s->x, facet->vertex[0], d);
-    height = ellipsoid_dot(d, facet->normal);
-    if (!(height > -shift && height < s->range + shift))
-    {
-        return 0;
-    }
-    ellipsoid_product(s->axis, facet->normal, normal);
-    for (int i = 0; i < 3; i++)
-    {
-        b[i] = s->square[i] * normal[i];
-    }
-    support2 = ellipsoid_dot(normal, b);
-    left = sqrt(support2) - s->longest * turn;
-    if (ellipsoid_facet_has_convex_edge(facet) || !(left > 0))
-    {
-        return 1;
-    }
-    far = ellipsoid_length(b) / support2;
-    change = turn * (s->longest * s->longest / (left * left) + far);
-    ellipsoid_combination(s->axis, b[0], b[1], b[2], way);
-    for (int i = 0; i < 3; i++)
-    {
-        d[i] = s->x[i] - way[i] * height / support2 - facet->middle[i];
-    }
-    return ellipsoid_length(d)
-        <= facet->radius
-               + ellipsoid_fading * s->longest * (height + shift) / left
-               + shift * (1 + far) + (fabs(height) + shift) * change;
-}
-
-/* Lists those of the near facets that count near this pose, unless it has
-   hardly changed. */
-static void look_closer(const ellipsoid_wall_search *s,
-                        ellipsoid_facet_cache *cache)
-{
-    /* far more than rounding on either side */
-    const double shift = live_part * s->range, wide = 1 + 1e-6;
-    double moved = 0, turned = 0;
-
-    for (int i = 0; i < 3; i++)
-    {
-        const double d = s->x[i] - cache->live_x[i];
-
-        moved += d * d;
-        for (int l = 0; l < 3; l++)
-        {
-            const double e = s->axis[i][l] - cache->live_axis[i][l];
-
-            turned += e * e;
+            all->at[k].weight.slope[n] += all->at[i].weight.slope[n];
         }
     }
-    if (cache->live_count >= 0 && moved <= shift * shift
-        && turned <= live_turn * live_turn)
-    {
-        return;
-    }
-    ellipsoid_copy(s->x, cache->live_x);
-    memcpy(cache->live_axis, s->axis, sizeof cache->live_axis);
-    cache->live_count = 0;
-    for (int k = 0; k < cache->near_count; k++)
-    {
-        if (may_count(s, &cache->near_facets[cache->near_facet[k]],
-                      wide * shift, wide * live_turn))
-        {
-            cache->live[cache->live_count++] = (short)k;
-        }
-    }
+    all->count = count;
 }
 
 /* Axes of length one, and their derivatives, from those of any q. */
@@ -523,7 +416,8 @@ ellipsoid_find_planes(const ellipsoid_model *model,
     const double longest = fmax(a[0], fmax(a[1], a[2]));
     const double shortest = fmin(a[0], fmin(a[1], a[2]));
     const ellipsoid_status status =
-        collect(surroundings, state->x, range, longest / shortest, cache);
+        ellipsoid_collect_near(surroundings, state->x, range,
+                               longest / shortest, cache);
     double unit[3][3], turned[4][3][3];
 
     planes->count = 0;
@@ -536,27 +430,23 @@ ellipsoid_find_planes(const ellipsoid_model *model,
     const ellipsoid_wall_search s = {
         state->x, {a[0] * a[0], a[1] * a[1], a[2] * a[2]},
         unit,     frame->by_q ? turned : NULL,
-        range,    longest};
+        range,    longest, shortest};
+    ellipsoid_wall_view view = {.along = {0}};
+    const int level = ellipsoid_look_closer(&s, cache);
+    const short *live = cache->live[level];
 
-    look_closer(&s, cache);
-    for (int k = 0; k < cache->live_count; k++)
+    for (int k = 0; k < cache->live_count[level]; k++)
     {
+        const ellipsoid_facet *facet =
+            &cache->near_facets[cache->near_facet[live[k]]];
         ellipsoid_wall_feature found;
 
-        const int facet = cache->near_facet[cache->live[k]];
-
-        if (ellipsoid_find_feature(&s, &cache->near_facets[facet], &found))
+        if (ellipsoid_find_feature(&s, facet, &view, &found))
         {
             add_plane(&s, &found, planes);
         }
     }
-    if (planes->count == 1)
-    {
-        planes->at[0].weight = planes->at[0].window;
-    }
-    else
-    {
-        ellipsoid_weigh_planes(model, planes);
-    }
+    ellipsoid_weigh_planes(model, planes, s.turned != NULL);
+    join_same(&s, planes);
     return ELLIPSOID_OK;
 }

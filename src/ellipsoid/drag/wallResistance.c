@@ -23,8 +23,6 @@
 */
 #include "drag/wallResistance.h"
 
-#include <math.h>
-
 static const double pi = 3.14159265358979323846;
 
 /* All that follows from normal and height. */

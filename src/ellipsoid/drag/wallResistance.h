@@ -10,8 +10,14 @@
 
 #include "drag/drag.h"
 
+#include <math.h>
+
 /* The part of the height over which a point beside its facet fades. */
 static const double ellipsoid_fading = 0.25;
+
+/* The part of the height by which facets in one plane, but for an angle that
+   counts as none, overlap at their seam. */
+static const double ellipsoid_lap = 1e-5;
 
 /* What the search of the planes of one pose needs. */
 typedef struct ellipsoid_wall_search
@@ -20,8 +26,51 @@ typedef struct ellipsoid_wall_search
     double square[3];     /* [m2] a_i^2 */
     double (*axis)[3];    /* unit */
     double (*turned)[3][3]; /* their derivatives by q, NULL: no slopes */
-    double range, longest; /* [m] largest semi-axis */
+    double range, longest, shortest; /* [m] of the semi-axes two */
 } ellipsoid_wall_search;
+
+/* The body as seen along a normal; that of a facet is mostly that of the last,
+   too, in one plane with it. */
+typedef struct ellipsoid_wall_view
+{
+    double along[3];       /* lab; 0: none yet */
+    double normal[3];      /* body */
+    double way[3];         /* lab; the centre less this times its height is the
+                              point that the grown body meets first */
+    double support, far;   /* [m]; [-] length of the way */
+} ellipsoid_wall_view;
+
+static inline void ellipsoid_look_along(const ellipsoid_wall_search *s,
+                                        const double normal[3],
+                                        ellipsoid_wall_view *view)
+{
+    double b[3], support2;
+
+    if (view->along[0] == normal[0] && view->along[1] == normal[1]
+        && view->along[2] == normal[2])
+    {
+        return;
+    }
+    ellipsoid_copy(normal, view->along);
+    ellipsoid_product(s->axis, normal, view->normal);
+    for (int i = 0; i < 3; i++)
+    {
+        b[i] = s->square[i] * view->normal[i];
+    }
+    support2 = ellipsoid_dot(view->normal, b);
+    view->support = sqrt(support2);
+    view->far = ellipsoid_length(b) / support2;
+    ellipsoid_combination(s->axis, b[0] / support2, b[1] / support2,
+                          b[2] / support2, view->way);
+}
+
+/* Does a facet's plane go on beside it? */
+static inline int ellipsoid_facet_is_extended(const ellipsoid_facet *facet)
+{
+    return facet->edge[0] == ELLIPSOID_EDGE_CONCAVE
+        || facet->edge[1] == ELLIPSOID_EDGE_CONCAVE
+        || facet->edge[2] == ELLIPSOID_EDGE_CONCAVE;
+}
 
 /* Where a plane was found: on a facet, on edge k or at vertex k of it. */
 typedef struct ellipsoid_wall_feature
@@ -44,15 +93,28 @@ static inline void ellipsoid_shrink(const ellipsoid_wall_search *s,
     }
 }
 
+/* Lists facets in range anew if the centre has moved too far (nearFacets.c). */
+ellipsoid_status
+ellipsoid_collect_near(const ellipsoid_surroundings *surroundings,
+                       const double x[3], double range, double slimness,
+                       ellipsoid_facet_cache *cache);
+
+/* Lists those of them that count near this pose, unless it has changed little.
+   Returns the list that serves now. */
+int ellipsoid_look_closer(const ellipsoid_wall_search *s,
+                          ellipsoid_facet_cache *cache);
+
 /* Finds the point that this facet gives; 0 if there is none (wallFeatures.c).
  */
 int ellipsoid_find_feature(const ellipsoid_wall_search *s,
                            const ellipsoid_facet *facet,
+                           ellipsoid_wall_view *view,
                            ellipsoid_wall_feature *p);
 
-/* Sets the weights from all the rest (planeWeights.c). */
+/* Sets the weights, and their slopes if asked for, from all the rest
+   (planeWeights.c). */
 void ellipsoid_weigh_planes(const ellipsoid_model *model,
-                            ellipsoid_planes *planes);
+                            ellipsoid_planes *planes, int with_slopes);
 
 /*
     What a plane at height [m] adds to the resistance, over mu: force [m2/s] and

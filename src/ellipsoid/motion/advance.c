@@ -77,6 +77,30 @@ static int is_one_held_back(ellipsoid_group *g, double h)
     return 0;
 }
 
+static int blocks_kind(const ellipsoid_group *g)
+{
+    return g->kept_last ? ELLIPSOID_KEEPING : ELLIPSOID_BLOCKS;
+}
+
+/* Keeps the resistance near walls over a step for which it may be kept, or sees
+   to it that its derivatives are in the blocks. Whether they were before does
+   not matter. */
+static ellipsoid_status keep_or_not(ellipsoid_group *g,
+                                    const ellipsoid_plan *planned)
+{
+    const ellipsoid_kept_resistance *kept = &g->start[0].resistance;
+    ellipsoid_status status = ELLIPSOID_OK;
+
+    g->kept_last = planned->h <= kept->longest;
+    if (g->kept_last != kept->in_blocks)
+    {
+        status = ellipsoid_group_evaluate(g, planned->start, g->start, 0,
+                                          blocks_kind(g));
+    }
+    g->cell[0].kept = g->kept_last ? kept : NULL;
+    return status;
+}
+
 /*
     One attempt at a Rosenbrock step. A step counts only if the equations can be
     evaluated where it ends.
@@ -89,13 +113,18 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
     if (!g->has_blocks)
     {
         status = ellipsoid_group_evaluate(g, planned->start, g->start,
-                                          !g->inertial, 1);
+                                          !g->inertial, blocks_kind(g));
         g->has_blocks = status == ELLIPSOID_OK;
+    }
+    if (status == ELLIPSOID_OK && g->keeps)
+    {
+        status = keep_or_not(g, planned);
     }
     if (status == ELLIPSOID_OK)
     {
         status = ellipsoid_rosenbrock_step(g, planned);
     }
+    g->cell[0].kept = NULL;
     if (status == ELLIPSOID_OK)
     {
         status = ellipsoid_judge_step(g, planned->h, error);
@@ -113,7 +142,7 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
     }
     g->next_has_blocks = !planned->last;
     status = ellipsoid_group_evaluate(g, planned->end, g->next, !g->inertial,
-                                      g->next_has_blocks);
+                                      g->next_has_blocks ? blocks_kind(g) : 0);
     /* there is room for the couplings of one time only */
     g->has_blocks = g->has_blocks && !(g->pairs && g->next_has_blocks);
     if (status == ELLIPSOID_OK && is_one_held_back(g, planned->h))
@@ -366,7 +395,7 @@ static ellipsoid_status begin(ellipsoid_group *g,
     {
         g->has_blocks = g->inertial;
         status = ellipsoid_group_evaluate(g, t, g->start, !g->inertial,
-                                          g->has_blocks);
+                                          g->has_blocks ? blocks_kind(g) : 0);
     }
     /* no step is short enough for a callback that has no answer here */
     return status == ELLIPSOID_STEP_UNDERFLOW ? ELLIPSOID_OUTSIDE : status;

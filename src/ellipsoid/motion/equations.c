@@ -220,38 +220,22 @@ static void add_drag_blocks(evaluation *e, double d[4][3][3],
     originals one.
 */
 static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
-                                      ellipsoid_state *state, int balanced,
-                                      double d[4][3][3],
-                                      ellipsoid_blocks *blocks, int *acted)
+                                      ellipsoid_evaluation *at, int balanced,
+                                      double d[4][3][3], int with_blocks,
+                                      int *acted)
 {
     const ellipsoid_free_motion free = e->free;
-    ellipsoid_frame frame = {.by_q = blocks ? d : NULL};
+    ellipsoid_frame frame = {.by_q = with_blocks ? d : NULL};
+    ellipsoid_near_drag asked = {balanced, with_blocks, 0};
     ellipsoid_body_wrench wrench;
-    ellipsoid_planes planes;
     ellipsoid_status status;
 
     memcpy(frame.axis, e->axis, sizeof(frame.axis));
-    status = ellipsoid_find_planes(cell->model, &cell->surroundings, state,
-                                   &frame, cell->cache, &planes);
-    *acted = status == ELLIPSOID_OK && planes.count > 0;
-    if (!*acted)
-    {
-        return status;
-    }
     ellipsoid_copy(e->force, wrench.force);
     ellipsoid_copy(e->torque, wrench.torque);
-    if (balanced)
-    {
-        ellipsoid_copy(free.u, state->u);
-        ellipsoid_copy(free.omega, state->omega);
-        status = ellipsoid_add_wall_mobility(cell->model, &planes, &frame,
-                                             &wrench, state);
-    }
-    if (status == ELLIPSOID_OK && (blocks || !balanced))
-    {
-        status = ellipsoid_add_wall_drag(cell->model, &planes, &frame, &free,
-                                         state, &wrench, blocks);
-    }
+    status =
+        ellipsoid_add_near_drag(cell, at, &frame, &free, &wrench, &asked);
+    *acted = asked.acted;
     ellipsoid_copy(wrench.force, e->force);
     ellipsoid_copy(wrench.torque, e->torque);
     return status;
@@ -558,7 +542,7 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
     if (status == ELLIPSOID_OK && drag
         && ellipsoid_has_near_walls(model, surroundings))
     {
-        status = add_wall_drag(&e, cell, state, balanced, d, blocks,
+        status = add_wall_drag(&e, cell, at, balanced, d, with_blocks,
                                &resisted_by_walls);
     }
     if (status != ELLIPSOID_OK)
@@ -587,7 +571,9 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
                                     ellipsoid_evaluation *at, int balanced,
                                     int with_blocks)
 {
-    return with_blocks ? evaluate(cell, at, balanced, 1, 1)
+    return with_blocks == ELLIPSOID_KEEPING
+             ? evaluate(cell, at, balanced, ELLIPSOID_KEEPING, 1)
+         : with_blocks ? evaluate(cell, at, balanced, 1, 1)
          : balanced    ? evaluate(cell, at, 1, 0, 1)
                        : evaluate(cell, at, 0, 0, 1);
 }

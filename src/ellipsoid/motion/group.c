@@ -123,6 +123,10 @@ static ellipsoid_status advance(ellipsoid_group *g,
         g->start[cell].contact = g->next[cell].contact = nothing;
     }
     g->inertial = g->cell[0].inertial;
+    g->keeps = g->inertial && g->count == 1
+            && ellipsoid_has_near_walls(g->cell[0].model,
+                                        &g->cell[0].surroundings);
+    g->cell[0].keeps = g->kept_last = g->keeps;
     g->manifold = g->manifold && g->inertial && !g->stiff;
     status = check(g);
     while (status == ELLIPSOID_OK && *t < end)

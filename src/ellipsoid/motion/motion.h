@@ -82,6 +82,9 @@ typedef struct ellipsoid_cell
     double rate;                  /* [1/s] 1/tau of u, 0 in vacuum */
     double rotation_rate;         /* [1/s] 1/tau of omega, 0 in vacuum */
     const ellipsoid_noise *noise; /* NULL: none */
+    const ellipsoid_kept_resistance *kept; /* that of a step; NULL: of each
+                                              pose */
+    int keeps; /* may it be kept over a step at all? */
     int inertial;
     int walls;
 } ellipsoid_cell;
@@ -103,7 +106,32 @@ typedef struct ellipsoid_evaluation
     ellipsoid_blocks blocks;
     ellipsoid_contact contact; /* left as it is where there are no walls */
     double inertia[6]; /* on the slow manifold: u_b - u, omega_b - omega */
+    ellipsoid_kept_resistance resistance; /* of ELLIPSOID_KEEPING */
 } ellipsoid_evaluation;
+
+/* Are derivatives wanted? With KEEPING those of the resistance near walls are
+   left out where that may be kept over a step (equations.c). */
+enum
+{
+    ELLIPSOID_PLAIN,
+    ELLIPSOID_BLOCKS,
+    ELLIPSOID_KEEPING
+};
+
+/* What is asked of the drag near walls, and whether any is near. */
+typedef struct ellipsoid_near_drag
+{
+    int balanced, with_blocks, acted;
+} ellipsoid_near_drag;
+
+/* Adds it to the wrench and, if wanted, to the blocks, or balances the wrench
+   (nearDrag.c). */
+ellipsoid_status ellipsoid_add_near_drag(const ellipsoid_cell *cell,
+                                         ellipsoid_evaluation *at,
+                                         ellipsoid_frame *frame,
+                                         const ellipsoid_free_motion *free,
+                                         ellipsoid_body_wrench *wrench,
+                                         ellipsoid_near_drag *asked);
 
 /*
     The equations of one cell in the state of `at`, without contact with other
@@ -236,6 +264,8 @@ typedef struct ellipsoid_group
     int inertial; /* all or none */
     int stiff;    /* is one aligned by a dipole or under an external force? */
     int unsteady; /* do the surroundings of one depend on time? */
+    int keeps;       /* may the resistance near walls be kept over a step? */
+    int kept_last;   /* was it, in the last step? */
     int dissipative; /* do forces other than drag depend on velocities? */
     int observed; /* is the whole of ellipsoid_step asked for? */
     int manifold; /* may it be advanced on the slow manifold? */
@@ -289,7 +319,7 @@ ellipsoid_cell_evaluate(const ellipsoid_cell *p, ellipsoid_evaluation *at,
                            int balanced, int with_blocks)
 {
     p->statistics->rhs++;
-    p->statistics->jacobians += with_blocks;
+    p->statistics->jacobians += with_blocks != 0;
     return ellipsoid_evaluate(p, at, balanced, with_blocks);
 }
 

@@ -45,7 +45,7 @@ static void invalidate(ellipsoid_facet_cache *cache)
 void ellipsoid_facet_cache_clear(ellipsoid_facet_cache *cache)
 {
     invalidate(cache);
-    cache->near_count = cache->live_count = -1;
+    cache->near_count = cache->live_count[0] = -1;
     cache->near_facets = NULL;
     memset(cache->near_x, 0, sizeof cache->near_x);
 }

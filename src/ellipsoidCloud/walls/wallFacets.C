@@ -322,15 +322,21 @@ const Foam::wallFacets::region& Foam::wallFacets::regionAt
     const scalar reach
 ) const
 {
-    const FixedList<label, 3> key(cubeAt(x, regionSize_));
+    const bool wide = reach > 2*regionSize_;
+    const scalar edge = wide ? 2*regionSize_ : regionSize_;
+    const FixedList<label, 3> key(cubeAt(x, edge));
 
-    region& here = regions_(key, region{-1, labelList()});
+    region& here = (wide ? wideRegions_ : regions_)
+    (
+        key,
+        region{-1, labelList()}
+    );
 
     if (here.reach < reach)
     {
-        const point corner(regionSize_*vector(key[0], key[1], key[2]));
-        const vector half(0.5*regionSize_*vector::one);
-        const vector margin((reach + 1e-6*regionSize_)*vector::one);
+        const point corner(edge*vector(key[0], key[1], key[2]));
+        const vector half(0.5*edge*vector::one);
+        const vector margin((reach + 1e-6*edge)*vector::one);
         const boundBox cube(corner, corner + 2*half);
         const boundBox about(cube.min() - margin, cube.max() + margin);
         DynamicList<label> facets;

@@ -1,0 +1,217 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    nearFacets.c - which facets the planes near a cell may come from.
+
+    Two lists, the first for a long way of the centre, the second, of the first,
+    for a small change of the pose. What they hold never changes a result.
+*/
+#include "drag/wallResistance.h"
+
+/* How far the centre may move before facets are listed again, in ranges; the
+   less where there are too many. */
+static const double margin_parts[] = {0.4, 0.1};
+
+/* The same of those that count near a pose, and how far the body may turn: the
+   Frobenius norm of the difference of its axes. Facets are listed apart that
+   count within parts of both. */
+static const double live_part = 0.04, live_turn = 0.12;
+static const double live_levels[ELLIPSOID_LIVE_LEVELS] = {0.1, 0.25, 0.5, 1};
+
+/*
+    Could this facet be met while the centre moves by up to the margin? A point
+    within a face lies in a direction from the centre that makes no larger angle
+    with the normal than tangents of the body allow: cos >= 2 a b/(a^2 + b^2)
+    with the largest and the smallest semi-axis. Beside the face, over a concave
+    edge, it has faded over `fading` times the height, b/a times as long along
+    the body.
+*/
+static int may_matter(const ellipsoid_facet *facet, const double x[3],
+                      double reach, double margin, double slimness)
+{
+    const double cosine = 2 * slimness / (1 + slimness * slimness);
+    double d[3], height, nearest, beside;
+
+    ellipsoid_difference(x, facet->middle, d);
+    height = ellipsoid_dot(d, facet->normal);
+    beside = ellipsoid_facet_is_extended(facet)
+               ? ellipsoid_fading * slimness * (height + margin)
+               : ellipsoid_lap * (height + margin);
+    nearest = ellipsoid_length(d) - facet->radius;
+    if (!(height > -margin && height < reach && nearest < reach))
+    {
+        return 0;
+    }
+    return ellipsoid_facet_has_convex_edge(facet)
+        || cosine * (nearest - margin - beside) <= height + margin;
+}
+
+/* Lists facets within a margin of what is in range. */
+static ellipsoid_status list_near(const ellipsoid_surroundings *surroundings,
+                                  const double x[3], double range,
+                                  double margin, double slimness,
+                                  ellipsoid_facet_cache *cache)
+{
+    /* a plane's point is up to so far beside its facet, not square to the way
+       to it where the body is not a sphere */
+    const double wide = range * (1 + ellipsoid_fading * slimness);
+    ellipsoid_facet_list list;
+    const ellipsoid_status status =
+        ellipsoid_list_facets(surroundings, x, wide + margin, &list);
+
+    if (status != ELLIPSOID_OK)
+    {
+        return status;
+    }
+    cache->near_facets = list.facets;
+    ellipsoid_copy(x, cache->near_x);
+
+    int count = 0;
+
+    for (int k = 0; k < list.count; k++)
+    {
+        const ellipsoid_facet *facet = &list.facets[list.index[k]];
+
+        if (facet->mirror
+            || !may_matter(facet, x, wide + margin, margin, slimness))
+        {
+            continue;
+        }
+        if (count == ELLIPSOID_MAX_NEAR)
+        {
+            return ELLIPSOID_TOO_MANY_FACETS;
+        }
+        cache->near_facet[count++] = list.index[k];
+    }
+    cache->near_count = count;
+    cache->near_margin = list.count == 0 && list.reach > wide + margin
+                           ? list.reach - wide
+                           : margin;
+    return ELLIPSOID_OK;
+}
+
+/* Where walls are refused far off, or too many, those nearer may do. */
+ellipsoid_status
+ellipsoid_collect_near(const ellipsoid_surroundings *surroundings,
+                       const double x[3], double range, double slimness,
+                       ellipsoid_facet_cache *cache)
+{
+    const int count = sizeof(margin_parts) / sizeof(*margin_parts);
+    ellipsoid_status status = ELLIPSOID_OK;
+    double d[3];
+
+    ellipsoid_difference(x, cache->near_x, d);
+    if (cache->near_count >= 0
+        && ellipsoid_dot(d, d) <= cache->near_margin * cache->near_margin)
+    {
+        return ELLIPSOID_OK;
+    }
+    cache->near_count = cache->live_count[0] = -1;
+    for (int k = 0; k < count; k++)
+    {
+        status = list_near(surroundings, x, range, margin_parts[k] * range,
+                           slimness, cache);
+        if (status != ELLIPSOID_STEP_UNDERFLOW
+            && status != ELLIPSOID_TOO_MANY_FACETS)
+        {
+            break;
+        }
+    }
+    return status;
+}
+
+/*
+    Within which part of a move of the centre by `shift` and a turn of the axes
+    by `turn` can ellipsoid_find_feature() find no plane on this facet? Without
+    a convex edge the foot x - r h has to lie near the facet, r = D n/(n.D n)
+    and h the height. By n in the body frame r changes by D^(1/2) (I - 2 m m)
+    D^(1/2) / (n.D n), m = D^(1/2) n/p a unit vector: by no more than a^2/p^2
+    with the largest semi-axis a, and the support p by no more than a. What the
+    foot may do is a convex function of the part.
+*/
+static double idle_part(const ellipsoid_wall_search *s,
+                        const ellipsoid_facet *facet, double shift,
+                        double turn, ellipsoid_wall_view *view)
+{
+    const int extended = ellipsoid_facet_is_extended(facet);
+    double d[3], aside[3], height, part, left, before, change, beside;
+
+    ellipsoid_difference(s->x, facet->middle, d);
+    height = ellipsoid_dot(d, facet->normal);
+    part = fmax(-height, height - s->range) / shift;
+    if (part >= 1)
+    {
+        return part;
+    }
+    ellipsoid_look_along(s, facet->normal, view);
+    left = fmax(s->shortest, view->support - s->longest * turn);
+    if (ellipsoid_facet_has_convex_edge(facet))
+    {
+        beside = ellipsoid_fading * s->longest / s->shortest;
+        return fmax(part, (ellipsoid_length(d) - facet->radius
+                           - beside * s->range)
+                                  / shift
+                              - s->range / shift);
+    }
+    beside = extended ? ellipsoid_fading * s->longest / left : ellipsoid_lap;
+    height = fabs(height);
+    change = turn * (s->longest * s->longest / (left * left) + view->far);
+    before = facet->radius + beside * height;
+    change = shift * (beside + 1 + view->far) + (height + shift) * change;
+    for (int i = 0; i < 3; i++)
+    {
+        aside[i] = d[i] - view->way[i] * ellipsoid_dot(d, facet->normal);
+    }
+    return fmax(part, (ellipsoid_length(aside) - before) / change);
+}
+
+int ellipsoid_look_closer(const ellipsoid_wall_search *s,
+                          ellipsoid_facet_cache *cache)
+{
+    /* far more than rounding on either side */
+    const double shift = live_part * s->range, wide = 1 + 1e-6;
+    ellipsoid_wall_view view = {.along = {0}};
+    double moved = 0, turned = 0, change;
+    int level = 0;
+
+    for (int i = 0; i < 3; i++)
+    {
+        const double d = s->x[i] - cache->live_x[i];
+
+        moved += d * d;
+        for (int l = 0; l < 3; l++)
+        {
+            const double e = s->axis[i][l] - cache->live_axis[i][l];
+
+            turned += e * e;
+        }
+    }
+    change = sqrt(fmax(moved / (shift * shift),
+                       turned / (live_turn * live_turn)));
+    if (cache->live_count[0] >= 0 && change <= 1)
+    {
+        while (change > live_levels[level])
+        {
+            level++;
+        }
+        return level;
+    }
+    ellipsoid_copy(s->x, cache->live_x);
+    memcpy(cache->live_axis, s->axis, sizeof cache->live_axis);
+    memset(cache->live_count, 0, sizeof cache->live_count);
+    for (int k = 0; k < cache->near_count; k++)
+    {
+        const double part =
+            idle_part(s, &cache->near_facets[cache->near_facet[k]],
+                      wide * shift, wide * live_turn, &view);
+
+        for (int l = ELLIPSOID_LIVE_LEVELS - 1;
+             l >= 0 && !(part > live_levels[l]); l--)
+        {
+            cache->live[l][cache->live_count[l]++] = (short)k;
+        }
+    }
+    return 0;
+}
