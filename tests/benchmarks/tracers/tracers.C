@@ -31,8 +31,11 @@ Usage
         Look at the velocity alone (velocityCheck.H), no tracers
 
       - \par -known \<name\>
-        Put a velocity that is known in the place of U and phi: linear, or the
-        parabola of a slit
+        Put a velocity that is known in the place of U and phi: linear, parabola,
+        slit or shear (knownVelocity)
+
+      - \par -write
+        Write that as the flow of the case, and no more
 
       - \par -tolerance \<m\>
         Error of a step of a tracer, 1e-11 m by default
@@ -107,6 +110,19 @@ struct rectangle
         return (high.x() - low.x())*(high.z() - low.z());
     }
 };
+
+
+std::vector<rectangle> rectangles(const dictionary& dict)
+{
+    std::vector<rectangle> list;
+
+    for (const entry& e : dict)
+    {
+        list.push_back(rectangle(e.keyword(), e.dict()));
+    }
+
+    return list;
+}
 
 
 //- CPU time of this process [s]
@@ -458,7 +474,8 @@ static void addOptions()
     argList::addOption("interpolation", "name", "Scheme of the velocity");
     argList::addOption("number", "n", "Points of each lattice");
     argList::addOption("tolerance", "m", "Error of a step, 1e-11 by default");
-    argList::addOption("known", "name", "linear or parabola for U and phi");
+    argList::addOption("known", "name", "A known velocity for U and phi");
+    argList::addBoolOption("write", "Write the known velocity alone");
     argList::addBoolOption("check", "Look at the velocity alone");
     argList::addOption("columns", "n", "Columns of parts of the inlet");
 }
@@ -495,6 +512,10 @@ int main(int argc, char *argv[])
     {
         exact.set(U, phi);
     }
+    if (args.found("write"))
+    {
+        return U.write() && phi.write() ? 0 : 1;
+    }
 
     undecomposedFlow undecomposed(mesh);
     undecomposed.gather({U, p, phi});
@@ -528,11 +549,7 @@ int main(int argc, char *argv[])
         IOobject("tracersDict", runTime.system(), mesh, IOobject::MUST_READ)
     );
     const rectangle inlet("inlet", dict.subDict("inlet"));
-    std::vector<rectangle> throats;
-    for (const entry& e : dict.subDict("throats"))
-    {
-        throats.push_back(rectangle(e.keyword(), e.dict()));
-    }
+    const std::vector<rectangle> throats(rectangles(dict.subDict("throats")));
 
     const survey all
     {

@@ -118,19 +118,31 @@ static void atWalls(const fvMesh& mesh, const Action& action)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+Foam::scalar Foam::knownVelocity::speed(const scalar y) const
+{
+    const auto parabola = [&](const scalar s) { return 4e-3*s*(1 - s); };
+
+    return
+        name == "shear" ? 100*(y - 0.3*height)
+      : parabola(y/height) - (name == "slit" ? parabola(0.3) : 0);
+}
+
+
 Foam::tensor Foam::knownVelocity::gradient(const point& x) const
 {
-    return linear
+    return name == "linear"
       ? tensor(300, 700, -400, -250, 500, 600, 450, 350, -800)
+      : name == "shear"
+      ? tensor(0, 100, 0, 0, 0, 0, 0, 0, 0)
       : tensor(0, 4e-3/height*(1 - 2*x.y()/height), 0, 0, 0, 0, 0, 0, 0);
 }
 
 
 Foam::vector Foam::knownVelocity::velocity(const point& x) const
 {
-    return linear
+    return name == "linear"
       ? vector(2e-3, -1e-3, 5e-4) + (gradient(x) & x)
-      : vector(4e-3*x.y()/height*(1 - x.y()/height), 0, 0);
+      : vector(speed(x.y()), 0, 0);
 }
 
 
