@@ -78,6 +78,7 @@ Foam::label Foam::superposedFlow::sieveOf(const heldBody& body) const
 }
 
 
+// A body disturbs the flow about it as far as it is long
 Foam::boundBox Foam::superposedFlow::boxAbout
 (
     const occupancy::aperture& from,
@@ -94,7 +95,7 @@ Foam::boundBox Foam::superposedFlow::boxAbout
     {
         for (const heldBody& body : bodies)
         {
-            const scalar reach = cmptMax(body.semiAxes);
+            const scalar reach = 2*cmptMax(body.semiAxes);
             const boundBox about(body.centre, body.centre);
             if (!box.contains(grown(about, reach)))
             {
