@@ -35,9 +35,11 @@ Usage
     (flow) and ellipsoidProperties.H (ellipsoids).
 
 SourceFiles
+    apertureFlow.C
     ellipsoidTrapFoam.C
     flowFields.C
     occupiedFlow.C
+    partMesh.C
     solidBodies.C
     steadyFlow.C
     superposedFlow.C

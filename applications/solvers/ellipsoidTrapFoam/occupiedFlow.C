@@ -57,33 +57,27 @@ Foam::List<Foam::heldWrench> Foam::occupiedFlow::solve
     const List<heldBody>& bodies
 )
 {
-    const labelList counts(cells_.heldCounts());
+    List<heldWrench> wrenches;
 
     Info<< "occupancy: " << bodies.size() << " cells held" << endl;
-    if (bodies.empty())
+    if (superposed_.valid())
     {
-        solids_->set(bodies);
-        flow_->restore(*empty_);
-    }
-    else if (superposed_.valid() && superposed_->known(counts))
-    {
-        superposed_->superpose(counts, *flow_);
-        return List<heldWrench>(bodies.size(), heldWrench{Zero, Zero});
+        wrenches =
+            superposed_->superpose(bodies, cells_.fluidDensity(), *flow_);
     }
     else
     {
         solids_->set(bodies);
-        flow_->solveFrom(*empty_, cells_.occupied()->settings().tolerance);
+        if (bodies.empty())
+        {
+            flow_->restore(*empty_);
+        }
+        else
+        {
+            flow_->solveFrom(*empty_, cells_.occupied()->settings().tolerance);
+        }
+        wrenches = solids_->wrenches(flow_->U(), cells_.fluidDensity());
     }
-    if (superposed_.valid())
-    {
-        superposed_->report(counts, *flow_);
-    }
-
-    const List<heldWrench> wrenches
-    (
-        solids_->wrenches(flow_->U(), cells_.fluidDensity())
-    );
 
     forAll(bodies, i)
     {

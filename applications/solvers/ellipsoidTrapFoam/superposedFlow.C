@@ -59,13 +59,123 @@ Foam::scalarField Foam::superposedFlow::fluxes
 }
 
 
-Foam::scalar Foam::superposedFlow::relativeFlux
+Foam::label Foam::superposedFlow::sieveOf(const heldBody& body) const
+{
+    forAll(apertures_, s)
+    {
+        if (apertures_[s].patch == body.patch)
+        {
+            return s;
+        }
+    }
+
+    FatalErrorInFunction
+        << "flow superposed knows of cells that sieves hold, by the fluxes of"
+        << " their apertures: cell " << body.id << " is held by "
+        << empty_.U.mesh().boundaryMesh()[body.patch].name()
+        << ", which is none of occupancy/apertures" << exit(FatalError);
+    return -1;
+}
+
+
+// A body disturbs the flow about it as far as it is long
+Foam::boundBox Foam::superposedFlow::boxAbout
 (
-    const label s,
-    const label count
+    const occupancy::aperture& from,
+    const List<heldBody>& bodies
 ) const
 {
-    return count ? apertures_[s].relativeFlux[count - 1] : 1;
+    const auto grown = [](boundBox box, const scalar by)
+    {
+        box.min() -= by*vector::one;
+        box.max() += by*vector::one;
+        return box;
+    };
+    const auto holdsAll = [&](const boundBox& box)
+    {
+        for (const heldBody& body : bodies)
+        {
+            const scalar reach = 2*cmptMax(body.semiAxes);
+            const boundBox about(body.centre, body.centre);
+            if (!box.contains(grown(about, reach)))
+            {
+                return false;
+            }
+        }
+
+        return true;
+    };
+
+    scalar by = cmptMin(from.box.span());
+    while (!holdsAll(grown(from.box, by)))
+    {
+        by *= 2;
+    }
+
+    return grown(from.box, by);
+}
+
+
+void Foam::superposedFlow::find
+(
+    const label s,
+    const List<heldBody>& bodies,
+    const scalar density
+)
+{
+    sieve& of = sieves_[s];
+    if (bodies == of.held)
+    {
+        return;
+    }
+    of.held = bodies;
+    of.effect = {0, {}};
+    if (bodies.empty())
+    {
+        return;
+    }
+
+    const occupancy::aperture& aperture = apertures_[s];
+    const boundBox box(boxAbout(aperture, bodies));
+    if (!of.flow.valid() || box != of.box)
+    {
+        of.box = box;
+        of.flow.reset
+        (
+            new apertureFlow
+            (
+                aperture, box, empty_, closed_[s], nu_, tolerance_
+            )
+        );
+    }
+
+    const scalar ofClosed = change_[s][s]/flux_[s];
+    of.effect = of.flow->of(bodies, ofClosed, density);
+    Info<< "occupancy: " << aperture.name << " with " << bodies.size()
+        << " cells takes " << 1 + of.effect.closed*ofClosed
+        << " of its flux when empty, if no other sieve holds any" << endl;
+}
+
+
+Foam::scalarField Foam::superposedFlow::parts() const
+{
+    // c_s - r_s/Q_s0 sum_t c_t change_ts = r_s
+    scalarSquareMatrix equations(sieves_.size(), Identity<scalar>());
+    scalarField c(sieves_.size(), Zero);
+
+    forAll(c, s)
+    {
+        // As it alone has this c
+        const scalar alone = sieves_[s].effect.closed;
+        c[s] = alone/(1 + alone*change_[s][s]/flux_[s]);
+        forAll(c, t)
+        {
+            equations(s, t) -= c[s]/flux_[s]*change_[t][s];
+        }
+    }
+    LUsolve(equations, c);
+
+    return c;
 }
 
 
@@ -80,13 +190,16 @@ Foam::superposedFlow::superposedFlow
 )
 :
     apertures_(from.apertures),
+    tolerance_(from.tolerance),
     empty_(empty),
+    nu_(readViscosity(empty.U.mesh())),
     closed_(apertures_.size()),
     flux_(fluxes(empty.phi)),
-    change_(apertures_.size())
+    change_(apertures_.size()),
+    sieves_(apertures_.size())
 {
     const fvMesh& mesh = empty.U.mesh();
-    checkReynoldsNumber(empty, readViscosity(mesh));
+    checkReynoldsNumber(empty, nu_);
 
     forAll(apertures_, t)
     {
@@ -108,105 +221,56 @@ Foam::superposedFlow::superposedFlow
         flow.solveFrom(empty, from.tolerance);
         closed_.set(t, new steadyFlow::flow(flow));
         change_[t] = fluxes(flow.phi()) - flux_;
+        sieves_.set(t, new sieve());
     }
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-bool Foam::superposedFlow::known(const labelUList& counts) const
-{
-    forAll(counts, s)
-    {
-        if (counts[s] > apertures_[s].relativeFlux.size())
-        {
-            return false;
-        }
-    }
-
-    return true;
-}
-
-
-void Foam::superposedFlow::superpose
+Foam::List<Foam::heldWrench> Foam::superposedFlow::superpose
 (
-    const labelUList& counts,
+    const List<heldBody>& bodies,
+    const scalar density,
     steadyFlow& flow
-) const
+)
 {
-    // r_s such that, with s alone, Q_s/Q_s0 is the entry; then
-    // c_s - r_s/Q_s0 sum_t c_t change_ts = r_s
-    scalarSquareMatrix equations(counts.size(), Identity<scalar>());
-    scalarField parts(counts.size(), Zero);
-
-    forAll(parts, s)
+    List<DynamicList<heldBody>> held(sieves_.size());
+    labelList by(bodies.size());
+    forAll(bodies, i)
     {
-        const scalar alone = relativeFlux(s, counts[s]);
-        if (alone < 1)
-        {
-            const scalar r = (alone - 1)/alone*flux_[s]/change_[s][s];
-            parts[s] = r;
-            forAll(parts, t)
-            {
-                equations(s, t) -= r/flux_[s]*change_[t][s];
-            }
-        }
+        by[i] = sieveOf(bodies[i]);
+        held[by[i]].append(bodies[i]);
     }
-    LUsolve(equations, parts);
+    forAll(held, s)
+    {
+        find(s, held[s], density);
+    }
 
+    const scalarField c(parts());
+    scalarField through(flux_);
     flow.restore(empty_);
-    forAll(parts, s)
+    forAll(c, s)
     {
-        if (parts[s] != 0)
+        if (c[s] != 0)
         {
-            flow.add(parts[s], closed_[s], empty_);
-        }
-    }
-}
-
-
-void Foam::superposedFlow::report
-(
-    const labelUList& counts,
-    const steadyFlow& flow
-) const
-{
-    DynamicList<label> taken;
-    forAll(counts, s)
-    {
-        if (counts[s])
-        {
-            taken.append(s);
+            flow.add(c[s], closed_[s], empty_);
+            through += c[s]*change_[s];
         }
     }
 
-    const scalarField now(fluxes(flow.phi()));
-    scalarSquareMatrix equations(taken.size(), Zero);
-    scalarField parts(taken.size());
-
-    forAll(taken, i)
+    // In the order of the bodies, which each sieve's are in, too
+    List<heldWrench> wrenches(bodies.size());
+    labelList next(sieves_.size(), 0);
+    forAll(bodies, i)
     {
-        const label s = taken[i];
-        parts[i] = now[s] - flux_[s];
-        forAll(taken, k)
-        {
-            equations(i, k) = change_[taken[k]][s];
-        }
-    }
-    if (taken.size())
-    {
-        LUsolve(equations, parts);
+        const label s = by[i];
+        const heldWrench& ofUnit = sieves_[s].effect.wrenches[next[s]++];
+        wrenches[i].force = through[s]*ofUnit.force;
+        wrenches[i].torque = through[s]*ofUnit.torque;
     }
 
-    forAll(taken, i)
-    {
-        const label s = taken[i];
-        const scalar r = parts[i]*flux_[s]/now[s];
-
-        Info<< "occupancy: " << apertures_[s].name << " with " << counts[s]
-            << " cells: relativeFlux " << 1/(1 - r*change_[s][s]/flux_[s])
-            << endl;
-    }
+    return wrenches;
 }
 
 

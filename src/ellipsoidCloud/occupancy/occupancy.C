@@ -82,7 +82,7 @@ Foam::occupancy::setting::setting
         const dictionary& of = e.dict();
         ellipsoidProperties::checkKeywords
         (
-            of, {"min", "max", "normal", "relativeFlux"}
+            of, {"min", "max", "normal"}
         );
 
         const boundBox box(of.get<point>("min"), of.get<point>("max"));
@@ -96,20 +96,7 @@ Foam::occupancy::setting::setting
                 << " min below max and a normal" << exit(FatalIOError);
         }
 
-        const scalarList parts
-        (
-            of.getOrDefault("relativeFlux", scalarList())
-        );
-        for (const scalar part : parts)
-        {
-            if (!(part > 0 && part <= 1))
-            {
-                FatalIOErrorInFunction(of)
-                    << "relativeFlux " << part << nl
-                    << "    allowed: above 0 to 1" << exit(FatalIOError);
-            }
-        }
-        apertures.append(aperture{e.keyword(), patchi, box, normal, parts});
+        apertures.append(aperture{e.keyword(), patchi, box, normal});
     }
 
     if
@@ -350,7 +337,7 @@ Foam::List<Foam::heldBody> Foam::occupancy::bodies
             (
                 heldBody
                 {
-                    cell.id, cell.centre(), rotationOf(cell.body.q),
+                    cell.id, cell.patch, cell.centre(), rotationOf(cell.body.q),
                     vector(a[0], a[1], a[2])
                 }
             );

@@ -153,11 +153,11 @@ bool Foam::occupancy::pulledOff
     const heldWrench whole(held_[cell.id]);
     const auto from = letGo_.cfind(cell.id);
 
-    if (!moves(cell, cells, setting_.flow == SOLVED ? &whole : nullptr))
+    if (!moves(cell, cells, changesFlow() ? &whole : nullptr))
     {
         return false;
     }
-    if (setting_.flow != SOLVED || !from.found())
+    if (!changesFlow() || !from.found())
     {
         return true;
     }
@@ -175,7 +175,7 @@ bool Foam::occupancy::pulledOff
 bool Foam::occupancy::hasBorne(const cellState& cell) const
 {
     const auto before = borne_.cfind(cell.id);
-    if (setting_.flow != SOLVED || !before.found())
+    if (!changesFlow() || !before.found())
     {
         return false;
     }
