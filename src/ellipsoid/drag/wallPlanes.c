@@ -286,7 +286,7 @@ static int is_one_feature(const ellipsoid_wall_search *s,
 }
 
 /* Of features seen twice the one that fades less is kept. Whether planes of
-   others are nearly the same must not matter: they come to be by and by. */
+   others are nearly the same must not matter: they fade in gradually. */
 static void keep(const ellipsoid_wall_search *s, const ellipsoid_plane *plane,
                  ellipsoid_planes *all)
 {

@@ -539,7 +539,7 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
     {
         status = add_contact(&e, cell, &at->contact, blocks);
     }
-    if (status == ELLIPSOID_OK && drag
+    if (status == ELLIPSOID_OK
         && ellipsoid_has_near_walls(model, surroundings))
     {
         status = add_wall_drag(&e, cell, at, balanced, d, with_blocks,

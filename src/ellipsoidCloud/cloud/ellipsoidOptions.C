@@ -270,6 +270,7 @@ bool Foam::ellipsoidProperties::hasUnit
 {
     static const HashTable<dimensionSet> units
     ({
+        {"", dimless},
         {"C", dimCurrent*dimTime},
         {"C m", dimCurrent*dimTime*dimLength},
         {"K", dimTemperature},
@@ -292,7 +293,7 @@ bool Foam::ellipsoidProperties::hasUnit
         return false;
     }
 
-    const dimensionSet expected(units.lookup(unit, dimless));
+    const dimensionSet& expected = units[unit];
     dimensionSet given(dimless);
     is >> given;
 
