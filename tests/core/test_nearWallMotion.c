@@ -118,6 +118,48 @@ static void test_kept_resistance(void **unused)
     wall_mesh_free(&mesh);
 }
 
+/*
+    Without a flow walls resist nothing: steps, evaluations and the way down are
+    those of wallResistance none, to the last bit.
+*/
+static void test_without_flow(void **unused)
+{
+    ellipsoid_state end[2];
+    ellipsoid_statistics statistics[2] = {{0}, {0}};
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_floor(&mesh, 0, 1, 1);
+    wall_mesh_finish(&mesh);
+    for (int n = 0; n < 2; n++)
+    {
+        test_quadratic flow = {.answer = 0};
+        ellipsoid_surroundings s = around(&mesh, &flow);
+        ellipsoid_options o = near_walls();
+        ellipsoid_controller controller = {0};
+        ellipsoid_model model;
+        double t = 0;
+
+        s.flow = NULL;
+        o.contact = 1;
+        o.wall_resistance =
+            n ? o.wall_resistance : ELLIPSOID_WALL_RESISTANCE_NONE;
+        o.external_force[2] = -2e-12;
+        model = test_model(&o);
+        end[n] = (ellipsoid_state){.x = {0, 0, 3e-6}, .q = {1, 0, 0, 0}};
+        ellipsoid_facet_cache_clear(&cache);
+        assert_ok(ellipsoid_advance(
+            &(ellipsoid_member){&model, &s, &end[n], &controller, &cache, NULL,
+                                &statistics[n]},
+            &t, 1e-5, NULL));
+    }
+    assert_true(statistics[0].accepted > 1);
+    assert_memory_equal(&end[0], &end[1], sizeof(end[0]));
+    assert_memory_equal(&statistics[0], &statistics[1], sizeof(statistics[0]));
+    wall_mesh_free(&mesh);
+}
+
 /* Two cells that overlap by some nanometres near a floor are pushed apart, with
    and without inertia the same way. Those with inertia start
    from rest: 1e-7 s at some mm/s, 1 nm of the 20 nm. */
@@ -179,6 +221,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_coming_down),
         cmocka_unit_test(test_kept_resistance),
+        cmocka_unit_test(test_without_flow),
         cmocka_unit_test(test_two_cells),
     };
 

@@ -56,7 +56,7 @@ ellipsoid_has_near_walls(const ellipsoid_model *model,
                          const ellipsoid_surroundings *around)
 {
     return model->options.wall_resistance != ELLIPSOID_WALL_RESISTANCE_NONE
-        && model->options.drag && around->walls && around->flow;
+        && around->walls && around->flow;
 }
 
 /* Walls that act at once; of more, the nearest. */
