@@ -22,7 +22,8 @@ enum
 {
     MOST_ITERATIONS = 60,
     MOST_HALVINGS = 40, /* damping turns sharply where it lets go */
-    CHANGE = ELLIPSOID_MAX_STAGES /* beyond the stages of a step */
+    CHANGE = ELLIPSOID_MAX_STAGES, /* beyond the stages of a step */
+    BEST
 };
 
 /* The slip speeds begin at so much of their value, and fall by a factor. */
@@ -33,8 +34,9 @@ static const double smoothest = 1e12, less_smooth = 0.1;
    many slip speeds. */
 static const double converged = 1e-12, nearly = 1e-8;
 
-/* Where friction or damping is 1e10 times what drag is, rounding leaves more;
-   it is taken if nothing better has come in half of the iterations. */
+/* Where friction or damping is 1e10 times what drag is, or speeds are 1e10 slip
+   speeds, rounding leaves more, in each iteration another part: it is taken if
+   nothing better has come in half of the iterations, or in all of them. */
 static const double stalled = 1e-5;
 
 /* What is left of the power of the unbalanced forces along the change of
@@ -130,11 +132,37 @@ static int set_changes(ellipsoid_group *g, ellipsoid_evaluation *points)
     return regular;
 }
 
+/* Keeps the velocities. */
+static void remember(const ellipsoid_group *g,
+                     const ellipsoid_evaluation *points)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        double *best = g->stages[cell].k[BEST];
+
+        ellipsoid_copy(points[cell].state.u, best + AT_U);
+        ellipsoid_copy(points[cell].state.omega, best + AT_OMEGA);
+    }
+}
+
+/* Takes those kept. */
+static void recall(const ellipsoid_group *g, ellipsoid_evaluation *points)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const double *best = g->stages[cell].k[BEST];
+
+        ellipsoid_copy(best + AT_U, points[cell].state.u);
+        ellipsoid_copy(best + AT_OMEGA, points[cell].state.omega);
+    }
+}
+
+/* rounded: may what rounding leaves be taken after all iterations? */
 static ellipsoid_status iterate(ellipsoid_group *g,
-                                ellipsoid_evaluation *points)
+                                ellipsoid_evaluation *points, int rounded)
 {
     ellipsoid_status status = ellipsoid_group_evaluate_once(g, points, 0, 1);
-    double previous = HUGE_VAL;
+    double previous = HUGE_VAL, least = HUGE_VAL;
 
     for (int n = 0; status == ELLIPSOID_OK && n < MOST_ITERATIONS; n++)
     {
@@ -152,6 +180,11 @@ static ellipsoid_status iterate(ellipsoid_group *g,
         {
             return ELLIPSOID_OK;
         }
+        if (rounded && fabs(before) < least && are_small(g, points, stalled))
+        {
+            least = fabs(before);
+            remember(g, points);
+        }
         previous = before;
         status = ellipsoid_group_evaluate_once(g, points, 0, 1);
         for (int l = 0; status == ELLIPSOID_OK && l < MOST_HALVINGS
@@ -162,6 +195,11 @@ static ellipsoid_status iterate(ellipsoid_group *g,
             move(g, -part, points);
             status = ellipsoid_group_evaluate_once(g, points, 0, 1);
         }
+    }
+    if (status == ELLIPSOID_OK && least < HUGE_VAL)
+    {
+        recall(g, points);
+        return ELLIPSOID_OK;
     }
     return status == ELLIPSOID_OK ? ELLIPSOID_NON_FINITE : status;
 }
@@ -191,7 +229,7 @@ static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
         g->cell[cell].model = &smoothed[cell].model;
     }
     be_at_rest(g, points);
-    status = iterate(g, points);
+    status = iterate(g, points, 0);
     if (status == ELLIPSOID_NON_FINITE)
     {
         be_at_rest(g, points);
@@ -204,7 +242,7 @@ static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
                 smoothed[cell].model.options.slip_speed =
                     smooth * smoothed[cell].own->options.slip_speed;
             }
-            status = iterate(g, points);
+            status = iterate(g, points, 1);
         }
     }
     for (int cell = 0; cell < g->count; cell++)

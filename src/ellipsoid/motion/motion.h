@@ -152,8 +152,9 @@ ellipsoid_status ellipsoid_evaluate_untouched(const ellipsoid_cell *cell,
 /* The stages of one step. */
 typedef struct ellipsoid_stages
 {
-    /* one more, for the change of velocities that forceBalance.c looks for */
-    double k[ELLIPSOID_MAX_STAGES + 1][UNKNOWNS];
+    /* two more, for the change of velocities that forceBalance.c looks for and
+       the best ones so far */
+    double k[ELLIPSOID_MAX_STAGES + 2][UNKNOWNS];
     double time_derivative[UNKNOWNS]; /* df/dt at the start, if unsteady */
     double y[UNKNOWNS]; /* result */
     double error[UNKNOWNS];
