@@ -7,13 +7,10 @@ License
     See COPYING at the top of the source tree.
 
 Description
-    The tetrahedra of the frozen flow and the values at their vertices, made
-Description
     The flux through each face of the tetrahedra: that of the solver through
     the faces of the mesh, none in sum out of any tetrahedron.
 
 \*---------------------------------------------------------------------------*/
-
 #include "frozenFlow.H"
 #include "pointImages.H"
 #include "cyclicPolyPatch.H"
@@ -560,48 +557,6 @@ void Foam::frozenFlow::makeExcess
             vertices_
         );
     }
-}
-
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-Foam::label Foam::frozenFlow::fanBase
-(
-    const polyMesh& mesh,
-    const label facei
-)
-{
-    const face& f = mesh.faces()[facei];
-    const vector& S = mesh.faceAreas()[facei];
-    label best = max(mesh.tetBasePtIs()[facei], label(0));
-    scalar widest = -GREAT;
-
-    for (label base = 0; f.size() > 4 && base < f.size(); ++base)
-    {
-        const point& x = mesh.points()[f[base]];
-        scalar narrowest = GREAT;
-
-        for (label i = 1; i < f.size() - 1; ++i)
-        {
-            const vector a(mesh.points()[f[(base + i) % f.size()]] - x);
-            const vector b
-            (
-                mesh.points()[f[(base + i + 1) % f.size()]] - x
-            );
-            narrowest = min
-            (
-                narrowest,
-                ((a ^ b) & S)/max(max(magSqr(a), magSqr(b)), magSqr(b - a))
-            );
-        }
-        if (narrowest > widest)
-        {
-            widest = narrowest;
-            best = base;
-        }
-    }
-
-    return best;
 }
 
 

@@ -11,7 +11,6 @@ Description
     on the master from the undecomposed fields.
 
 \*---------------------------------------------------------------------------*/
-
 #include "frozenFlow.H"
 #include "baffleSides.H"
 #include "undecomposedFlow.H"
@@ -116,23 +115,25 @@ namespace Foam
     {
         const polyMesh& mesh = field.mesh();
         bitSet isCyclic(mesh.nPoints());
+        DynamicList<domainImages::seam> mirrors;
 
         for (const domainImages::seam& seam : images.seams())
         {
-            if (!seam.mirrors())
+            if (seam.mirrors())
             {
-                isCyclic.set(mesh.boundaryMesh()[seam.patch].meshPoints());
+                mirrors.append(seam);
+                continue;
             }
+            isCyclic.set(mesh.boundaryMesh()[seam.patch].meshPoints());
         }
-        for (const domainImages::seam& seam : images.seams())
+
+        for (const domainImages::seam& seam : mirrors)
         {
-            const labelList points
+            for
             (
-                seam.mirrors()
-              ? mesh.boundaryMesh()[seam.patch].meshPoints()
-              : labelList()
-            );
-            for (const label pointi : points)
+                const label pointi
+              : mesh.boundaryMesh()[seam.patch].meshPoints()
+            )
             {
                 // At a cyclic patch the other side counts as well
                 if (!isCyclic.test(pointi))
@@ -141,15 +142,13 @@ namespace Foam
                 }
             }
         }
-        for (const domainImages::seam& seam : images.seams())
+        for (const domainImages::seam& seam : mirrors)
         {
-            const labelList points
+            for
             (
-                seam.mirrors()
-              ? mesh.boundaryMesh()[seam.patch].meshPoints()
-              : labelList()
-            );
-            for (const label pointi : points)
+                const label pointi
+              : mesh.boundaryMesh()[seam.patch].meshPoints()
+            )
             {
                 Type& value = atPoints[pointi];
                 value = 0.5*(value + transform(seam.inward.turn(), value));
@@ -554,6 +553,46 @@ void Foam::frozenFlow::make
     excess_.share();
     fits_.share();
     field_.share();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::label Foam::frozenFlow::fanBase
+(
+    const polyMesh& mesh,
+    const label facei
+)
+{
+    const face& f = mesh.faces()[facei];
+    const vector& S = mesh.faceAreas()[facei];
+    label best = max(mesh.tetBasePtIs()[facei], label(0));
+    scalar widest = -GREAT;
+
+    for (label base = 0; f.size() > 4 && base < f.size(); ++base)
+    {
+        const point& x = mesh.points()[f[base]];
+        scalar narrowest = GREAT;
+
+        for (label i = 1; i < f.size() - 1; ++i)
+        {
+            const vector a(mesh.points()[f[(base + i) % f.size()]] - x);
+            const label next = (base + i + 1) % f.size();
+            const vector b(mesh.points()[f[next]] - x);
+            narrowest = min
+            (
+                narrowest,
+                ((a ^ b) & S)/max(max(magSqr(a), magSqr(b)), magSqr(b - a))
+            );
+        }
+        if (narrowest > widest)
+        {
+            widest = narrowest;
+            best = base;
+        }
+    }
+
+    return best;
 }
 
 
