@@ -10,6 +10,7 @@ License
 #include "frozenFlow.H"
 #include "cyclicPolyPatch.H"
 #include "indexedOctree.H"
+#include "polyMesh.H"
 #include "treeDataPoint.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
