@@ -174,7 +174,6 @@ int ellipsoid_look_closer(const ellipsoid_wall_search *s,
     const double shift = live_part * s->range, wide = 1 + 1e-6;
     ellipsoid_wall_view view = {.along = {0}};
     double moved = 0, turned = 0, change;
-    int level = 0;
 
     for (int i = 0; i < 3; i++)
     {
@@ -192,6 +191,8 @@ int ellipsoid_look_closer(const ellipsoid_wall_search *s,
                        turned / (live_turn * live_turn)));
     if (cache->live_count[0] >= 0 && change <= 1)
     {
+        int level = 0;
+
         while (change > live_levels[level])
         {
             level++;
