@@ -227,7 +227,7 @@ namespace Foam
         const baffleSides& baffles_;
         const pointImages& images_;
         const wallsAtVertices& walls_;
-        const symmTensorField M_;
+        const symmTensorField& M_;
 
         //- For one mesh cell and its size [m]
         label celli_;
@@ -323,7 +323,8 @@ namespace Foam
             const volVectorField& U,
             const baffleSides& baffles,
             const pointImages& images,
-            const wallsAtVertices& walls
+            const wallsAtVertices& walls,
+            const symmTensorField& moments
         )
         :
             U_(U),
@@ -331,7 +332,7 @@ namespace Foam
             baffles_(baffles),
             images_(images),
             walls_(walls),
-            M_(secondMoments(mesh_)),
+            M_(moments),
             celli_(-1),
             length_(0),
             cells_(mesh_.nCells()),
@@ -411,11 +412,12 @@ Foam::List<Foam::quadratic> Foam::cellFits
 (
     const volVectorField& U,
     const baffleSides& baffles,
-    const pointImages& images
+    const pointImages& images,
+    const wallsAtVertices& walls,
+    const symmTensorField& moments
 )
 {
-    const wallsAtVertices walls(U, baffles, images);
-    cellFitter fitter(U, baffles, images, walls);
+    cellFitter fitter(U, baffles, images, walls, moments);
     List<quadratic> fits(U.mesh().nCells());
 
     forAll(fits, celli)

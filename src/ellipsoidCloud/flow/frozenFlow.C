@@ -263,28 +263,19 @@ void Foam::frozenFlow::unityAt
     {
         velocity += slope & past;
     }
-    if (gradient)
-    {
-        *gradient = slope;
-    }
     for (direction i = 0; curvature && beyond && i < 3; ++i)
     {
         curvature[i] = Zero;
     }
 
-    if (c.turned)
+    velocity = c.back(velocity);
+    if (gradient)
     {
-        const tensor back(c.turn.T());
-
-        velocity = back & velocity;
-        if (gradient)
-        {
-            *gradient = back & slope & c.turn;
-        }
-        if (curvature)
-        {
-            turnCurvature(back, curvature);
-        }
+        *gradient = c.back(slope);
+    }
+    if (curvature && c.turned)
+    {
+        turnCurvature(c.turn.T(), curvature);
     }
 }
 

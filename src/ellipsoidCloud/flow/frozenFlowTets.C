@@ -448,13 +448,13 @@ void Foam::frozenFlow::setFlow
     const baffleSides& baffles
 )
 {
-    const pointImages images(undecomposed.mesh(), images_);
     const bool interpolated =
         scheme_ == stCellPoint || scheme_ == stCellPointQuadratic;
     setVertices(undecomposed, rho, images_, baffles, interpolated, vertices_);
 
     if (scheme_ == stDivergenceFree)
     {
+        const pointImages images(undecomposed.mesh(), images_);
         const vertexFit fit(undecomposed.U(), baffles, images);
 
         forAll(vertices_, i)
@@ -467,6 +467,7 @@ void Foam::frozenFlow::setFlow
     }
     else if (scheme_ == stPartitionOfUnity)
     {
+        const pointImages images(undecomposed.mesh(), images_);
         unity_.setFits(undecomposed.U(), baffles, images, fits_);
     }
 }

@@ -16,6 +16,7 @@ License
 #include "undecomposedFlow.H"
 #include "volFields.H"
 #include "wallPolyPatch.H"
+#include "wallsAtVertices.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -327,7 +328,8 @@ void Foam::partitionOfUnity::setFits
 ) const
 {
     const label nCells = moments_.size();
-    List<quadratic> ofCells(cellFits(U, baffles, images));
+    const wallsAtVertices walls(U, baffles, images);
+    List<quadratic> ofCells(cellFits(U, baffles, images, walls, moments_));
 
     forAll(ofCells, celli)
     {

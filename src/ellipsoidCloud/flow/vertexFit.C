@@ -24,7 +24,10 @@ Foam::vertexFit::vertexFit
     const polyMesh& mesh = U.mesh();
     const label nCells = mesh.nCells();
     const wallsAtVertices walls(U, baffles, images);
-    const List<quadratic> fits(cellFits(U, baffles, images));
+    const List<quadratic> fits
+    (
+        cellFits(U, baffles, images, walls, secondMoments(mesh))
+    );
 
     u.setSize(nCells + mesh.nPoints() + baffles.sides().size(), Zero);
     gradient.setSize(u.size(), Zero);
