@@ -53,6 +53,7 @@ Description
 #include "flow/domainImages.C"
 #include "flow/electricField.C"
 #include "flow/inletFlux.C"
+#include "flow/mirrorsAtVertices.C"
 #include "flow/possibleInflow.C"
 #include "flow/readViscosity.C"
 #include "flow/sharedMemory.C"

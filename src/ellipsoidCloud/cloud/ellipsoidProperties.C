@@ -163,7 +163,7 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
 
     scheme_ = frozenFlow::schemeNames.getOrDefault
     (
-        "interpolation", *this, frozenFlow::stCellPoint
+        "interpolation", *this, frozenFlow::stDivergenceFree
     );
     seed_ = getOrDefault<label>("seed", 1);
 

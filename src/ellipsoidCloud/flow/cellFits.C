@@ -56,7 +56,8 @@ namespace Foam
         }
 
         //- Solve by Gram and Schmidt. An unknown that the others determine
-        //  already, as in a mesh one cell thick, is 0.
+        //  already is 0, and so is one that no row knows of but by rounding,
+        //  as across a mesh one cell thick: lengths are about 1.
         void solve(quadratic& p)
         {
             scalar R[nUnknowns][nColumns];
@@ -119,7 +120,7 @@ namespace Foam
                 norm += sqr(row[j]);
             }
 
-            kept[j] = norm > 1e-4*before[j] && norm > VSMALL;
+            kept[j] = norm > 1e-4*before[j] && norm > 1e-16;
             std::fill_n(R[j], nColumns, scalar(0));
             if (kept[j])
             {

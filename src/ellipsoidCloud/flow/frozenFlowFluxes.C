@@ -12,6 +12,7 @@ Description
 
 \*---------------------------------------------------------------------------*/
 #include "frozenFlow.H"
+#include "mirrorsAtVertices.H"
 #include "pointImages.H"
 #include "cyclicPolyPatch.H"
 #include "tetFlow.H"
@@ -253,14 +254,18 @@ namespace Foam
         }
     }
 
-    //- Is the velocity at a patch not free, as at a mirror?
+    //- Is the velocity at a patch given, as where the mesh has no third
+    //  dimension? At a mirror it is free along it.
     static bool isConstrained(const polyMesh& mesh, const label patchi)
     {
         const polyPatch& pp = mesh.boundaryMesh()[patchi];
-        return !pp.coupled() && polyPatch::constraintType(pp.type());
+        return
+            !pp.coupled() && polyPatch::constraintType(pp.type())
+         && !isMirror(pp);
     }
 
-    //- Vertices whose velocity a wall or a mirror gives
+    //- Vertices whose velocity a wall gives, or a patch of a constraint type
+    //  that is no plane of symmetry
     static bitSet fixedVertices
     (
         const polyMesh& mesh,
@@ -369,6 +374,40 @@ namespace Foam
             (a.u + b.u + c.u)/3 + (bend(a, b) + bend(b, c) + bend(c, a))/24;
     }
 
+    //- Move the velocities at vertices by what is missing normal to the faces
+    //  about them, in the least squares
+    static void moveVertices
+    (
+        const UList<symmTensor>& normals,
+        const UList<vector>& missing,
+        const bitSet& fixed,
+        const Map<symmTensor>& free,
+        UList<flowVertex>& vertices
+    )
+    {
+        forAll(vertices, i)
+        {
+            const scalar size = tr(normals[i]);
+            if (!fixed.test(i) && size > 0)
+            {
+                // Nothing along a direction that no face is normal to
+                symmTensor M(normals[i] + 1e-6*size*symmTensor::I);
+                vector by(missing[i]);
+
+                // At a mirror what is missing across it cancels with what is
+                // missing beyond
+                const auto mirror = free.cfind(i);
+                if (mirror.found())
+                {
+                    const symmTensor& P = *mirror;
+                    M = symm(P & M & P) + size*(symmTensor::I - P);
+                    by = P & by;
+                }
+                vertices[i].u += inv(M) & by;
+            }
+        }
+    }
+
     //- For each face of the mesh, of the cell that owns it, the face and the
     //  first and the end of the tetrahedra at its triangles
     template<class Action>
@@ -467,16 +506,14 @@ void Foam::frozenFlow::matchFluxes
         fixedVertices(mesh, tets_, images, vertices_.size())
     );
 
-    forAll(vertices_, i)
-    {
-        const scalar size = tr(normals[i]);
-        if (!fixed.test(i) && size > 0)
-        {
-            // Nothing along a direction that no face is normal to
-            const symmTensor M(normals[i] + 1e-6*size*symmTensor::I);
-            vertices_[i].u += inv(M) & missing[i];
-        }
-    }
+    moveVertices
+    (
+        normals,
+        missing,
+        fixed,
+        freeAtMirrors(mesh, tets_, vertices_),
+        vertices_
+    );
 }
 
 

@@ -8,9 +8,8 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "vertexFit.H"
+#include "mirrorsAtVertices.H"
 #include "wallsAtVertices.H"
-#include "symmetryPlanePolyPatch.H"
-#include "symmetryPolyPatch.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -67,8 +66,7 @@ Foam::vertexFit::vertexFit
 
     for (const polyPatch& pp : mesh.boundaryMesh())
     {
-        const bool mirror =
-            isA<symmetryPolyPatch>(pp) || isA<symmetryPlanePolyPatch>(pp);
+        const bool mirror = isMirror(pp);
 
         for (label i = 0; mirror && i < pp.size(); ++i)
         {

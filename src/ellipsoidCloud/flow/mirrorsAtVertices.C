@@ -1,0 +1,65 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "mirrorsAtVertices.H"
+#include "polyMesh.H"
+#include "symmetryPlanePolyPatch.H"
+#include "symmetryPolyPatch.H"
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+bool Foam::isMirror(const polyPatch& pp)
+{
+    return isA<symmetryPolyPatch>(pp) || isA<symmetryPlanePolyPatch>(pp);
+}
+
+
+Foam::Map<Foam::symmTensor> Foam::freeAtMirrors
+(
+    const polyMesh& mesh,
+    const UList<flowTet>& tets,
+    const UList<flowVertex>& vertices
+)
+{
+    Map<symmTensor> free;
+
+    for (const flowTet& tet : tets)
+    {
+        const label patchi = -1 - tet.neighbours[0];
+        if (patchi < 0 || !isMirror(mesh.boundaryMesh()[patchi]))
+        {
+            continue;
+        }
+
+        const point& x = vertices[tet.vertices[1]].x;
+        const vector S
+        (
+            (vertices[tet.vertices[2]].x - x)
+          ^ (vertices[tet.vertices[3]].x - x)
+        );
+
+        for (label i = 1; i < 4; ++i)
+        {
+            free.insert(tet.vertices[i], symmTensor(symmTensor::I));
+            symmTensor& P = free[tet.vertices[i]];
+
+            // Of another plane than those before
+            const vector n(P & (S/mag(S)));
+            if (mag(n) > 1e-3)
+            {
+                P -= sqr(n/mag(n));
+            }
+        }
+    }
+
+    return free;
+}
+
+
+// ************************************************************************* //
