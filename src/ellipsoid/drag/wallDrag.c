@@ -294,6 +294,7 @@ ellipsoid_status ellipsoid_keep_resistance(const ellipsoid_model *model,
         spin_part =
             fmax(spin_part, kept->matrix[i + 3][i + 3] / (mu * c[i]) - 1);
     }
+    gap = fmin(gap, model->options.wall_range);
     for (int p = 0; p < planes->count; p++)
     {
         const double *m = planes->at[p].normal;

@@ -17,8 +17,10 @@ static ellipsoid_status set_kept(const ellipsoid_cell *cell,
                                  const ellipsoid_free_motion *free,
                                  ellipsoid_evaluation *at)
 {
-    const double gap = !ellipsoid_has_walls(cell->model, &cell->surroundings)
-                         ? HUGE_VAL
+    /* contact sees no farther than its horizon; planes do */
+    const int seen = ellipsoid_has_walls(cell->model, &cell->surroundings)
+                  && at->contact.gap < ellipsoid_gap_horizon(cell->model);
+    const double gap = !seen                                ? HUGE_VAL
                      : ellipsoid_in_contact(&at->contact) ? 0
                                                           : at->contact.gap;
 
