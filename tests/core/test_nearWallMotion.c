@@ -148,7 +148,8 @@ static void test_kept_beyond_horizon(void **unused)
         o.maximum_step = 2e-4;
         o.contact = n;
         model = test_model(&o);
-        end[n] = (ellipsoid_state){.x = {0, 0, 4e-6}, .q = {0.3, 0.1, 0.2, 0.9}};
+        end[n] = (ellipsoid_state){.x = {0, 0, 4e-6},
+                                   .q = {0.3, 0.1, 0.2, 0.9}};
         ellipsoid_normalise(end[n].q);
         ellipsoid_facet_cache_clear(&cache);
         assert_ok(ellipsoid_balance(&model, &s, &end[n], &cache));

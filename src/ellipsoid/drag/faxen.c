@@ -131,6 +131,30 @@ static void set_derivatives(const moments *sums, ellipsoid_frame *frame,
     }
 }
 
+/* 3 <(x^ x u^)_i> / (a_j^2 + a_k^2), and as much of its derivatives. */
+static void set_spin(const double a[3], const moments *sums,
+                     ellipsoid_frame *frame, ellipsoid_free_motion *free)
+{
+    for (int i = 0; i < 3; i++)
+    {
+        const double aj = a[(i + 1) % 3], ak = a[(i + 2) % 3];
+        const double scale = 3 / (aj * aj + ak * ak);
+
+        free->omega[i] =
+            scale
+            * (ellipsoid_dot(frame->axis[(i + 2) % 3], sums->u[(i + 1) % 3])
+               - ellipsoid_dot(frame->axis[(i + 1) % 3], sums->u[(i + 2) % 3]));
+        for (int l = 0; l < 3; l++)
+        {
+            free->omega_x[i][l] *= scale;
+        }
+        for (int n = 0; n < 4; n++)
+        {
+            free->omega_q[i][n] *= scale;
+        }
+    }
+}
+
 ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
                                  const ellipsoid_surroundings *surroundings,
                                  const double x[3],
@@ -199,23 +223,6 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
     {
         set_derivatives(&sums, frame, free);
     }
-    for (int i = 0; i < 3; i++)
-    {
-        const double aj = a[(i + 1) % 3], ak = a[(i + 2) % 3];
-        const double scale = 3 / (aj * aj + ak * ak);
-
-        free->omega[i] =
-            scale
-            * (ellipsoid_dot(frame->axis[(i + 2) % 3], sums.u[(i + 1) % 3])
-               - ellipsoid_dot(frame->axis[(i + 1) % 3], sums.u[(i + 2) % 3]));
-        for (int l = 0; l < 3; l++)
-        {
-            free->omega_x[i][l] *= scale;
-        }
-        for (int n = 0; n < 4; n++)
-        {
-            free->omega_q[i][n] *= scale;
-        }
-    }
+    set_spin(a, &sums, frame, free);
     return ELLIPSOID_OK;
 }

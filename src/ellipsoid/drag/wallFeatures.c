@@ -136,8 +136,8 @@ static int feature_on_rim(const ellipsoid_wall_search *s,
     return feature_on_edge(s, &c, edge, foot, normal, p);
 }
 
-/* Are all points over these edges, and the vertices, so far from the centre that
-   their planes do not count? */
+/* Are all points over these edges, and the vertices, so far from the centre
+   that their planes do not count? */
 static int is_out_of_range(const ellipsoid_wall_search *s,
                            const ellipsoid_facet *facet, const int outside[3])
 {
@@ -146,13 +146,15 @@ static int is_out_of_range(const ellipsoid_wall_search *s,
 
     for (int k = 0; k < 3; k++)
     {
-        double line[3], along[3], from_line;
+        double line[3], from_line;
 
         ellipsoid_difference(s->x, facet->vertex[k], line);
         from_line = ellipsoid_dot(line, line);
         if (from_line >= squared && outside[k]
             && facet->edge[k] == ELLIPSOID_EDGE_CONVEX)
         {
+            double along[3];
+
             ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
                                  along);
             from_line -= ellipsoid_dot(line, along) * ellipsoid_dot(line, along)
