@@ -119,6 +119,50 @@ static void test_kept_resistance(void **unused)
 }
 
 /*
+    Where contact sees no wall within its horizon, how long the resistance is kept
+    is a matter of the planes alone: the way, in steps in which the cell goes
+    farther than a quarter of the horizon, is that without contact, to the last
+    bit.
+*/
+static void test_kept_beyond_horizon(void **unused)
+{
+    ellipsoid_state end[2];
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_floor(&mesh, 0, 10, 10);
+    wall_mesh_finish(&mesh);
+    for (int n = 0; n < 2; n++)
+    {
+        test_quadratic flow = {.answer = 0};
+        const ellipsoid_surroundings s = around(&mesh, &flow);
+        ellipsoid_options o = near_walls();
+        ellipsoid_controller controller = {0};
+        ellipsoid_statistics statistics = {0};
+        ellipsoid_model model;
+        double t = 0;
+
+        flow.g[1][2] = 200;
+        o.tolerance = 1e-5;
+        o.maximum_step = 2e-4;
+        o.contact = n;
+        model = test_model(&o);
+        end[n] = (ellipsoid_state){.x = {0, 0, 4e-6},
+                                   .q = {0.3, 0.1, 0.2, 0.9}};
+        ellipsoid_normalise(end[n].q);
+        ellipsoid_facet_cache_clear(&cache);
+        assert_ok(ellipsoid_balance(&model, &s, &end[n], &cache));
+        assert_ok(ellipsoid_advance(
+            &(ellipsoid_member){&model, &s, &end[n], &controller, &cache, NULL,
+                                &statistics},
+            &t, 5e-3, NULL));
+    }
+    assert_memory_equal(&end[0], &end[1], sizeof(end[0]));
+    wall_mesh_free(&mesh);
+}
+
+/*
     Without a flow walls resist nothing: steps, evaluations and the way down are
     those of wallResistance none, to the last bit.
 */
@@ -221,6 +265,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_coming_down),
         cmocka_unit_test(test_kept_resistance),
+        cmocka_unit_test(test_kept_beyond_horizon),
         cmocka_unit_test(test_without_flow),
         cmocka_unit_test(test_two_cells),
     };

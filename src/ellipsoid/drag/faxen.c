@@ -46,49 +46,112 @@ static int velocities_of_flow(const ellipsoid_surroundings *surroundings,
     return 0;
 }
 
-/* Adds to two columns the change of the velocity and its turning moment. */
-static void add_column(const double point[3], double weight,
-                       const double change[3], const double body[3],
-                       double *of_u, double *of_omega, int stride)
+/* Sums over the points, with their weights: of products of a point's components
+   in the body frame and the velocity or its derivatives in the lab's. */
+typedef struct moments
 {
-    double turning[3];
+    double u[3][3];     /* c_j v, v relative to the centre */
+    double g[3][3];     /* G */
+    double cg[3][3][3]; /* c_j G */
+    double ccg[6][3][3]; /* c_j c_s G, j <= s */
+} moments;
 
-    ellipsoid_cross(point, body, turning);
+static const int pair[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+
+static void add_scaled(double g[3][3], double factor, double sum[3][3])
+{
     for (int i = 0; i < 3; i++)
     {
-        of_u[i * stride] += weight * change[i];
-        of_omega[i * stride] += weight * turning[i];
+        for (int l = 0; l < 3; l++)
+        {
+            sum[i][l] += factor * g[i][l];
+        }
     }
 }
 
-/* One point's part in the derivatives. rel: its velocity less the centre's. */
-static void add_derivatives(const double point[3], double weight,
-                            const double rel[3], double jacobian[3][3],
-                            ellipsoid_frame *frame,
+static void add_jacobian(const double c[3], double weight, double g[3][3],
+                         moments *sums)
+{
+    add_scaled(g, weight, sums->g);
+    for (int j = 0; j < 3; j++)
+    {
+        add_scaled(g, weight * c[j], sums->cg[j]);
+        for (int s = j; s < 3; s++)
+        {
+            add_scaled(g, weight * c[j] * c[s], sums->ccg[pair[j][s]]);
+        }
+    }
+}
+
+/* As the body turns with q, points move, and it turns under the flow. */
+static void set_derivatives(const moments *sums, ellipsoid_frame *frame,
                             ellipsoid_free_motion *free)
 {
-    double change[3], body[3];
+    double(*axis)[3] = frame->axis;
 
+    memcpy(free->u_x, sums->g, sizeof(free->u_x));
     for (int l = 0; l < 3; l++)
     {
-        ellipsoid_set(change, jacobian[0][l], jacobian[1][l], jacobian[2][l]);
-        ellipsoid_product(frame->axis, change, body);
-        add_column(point, weight, change, body, &free->u_x[0][l],
-                   &free->omega_x[0][l], 3);
+        for (int i = 0; i < 3; i++)
+        {
+            const int j = (i + 1) % 3, k = (i + 2) % 3;
+
+            for (int m = 0; m < 3; m++)
+            {
+                free->omega_x[i][l] += axis[k][m] * sums->cg[j][m][l]
+                                     - axis[j][m] * sums->cg[k][m][l];
+            }
+        }
     }
     for (int n = 0; n < 4; n++)
     {
-        /* the point moves, and the body turns under the flow */
-        double moved[3], turned[3];
+        double(*turn)[3] = frame->by_q[n], moved[3][3] = {{0}};
 
-        ellipsoid_combination(frame->by_q[n], point[0], point[1], point[2],
-                              moved);
-        ellipsoid_product(jacobian, moved, change);
-        ellipsoid_product(frame->axis, change, body);
-        ellipsoid_product(frame->by_q[n], rel, turned);
-        ellipsoid_add(body, turned);
-        add_column(point, weight, change, body, &free->u_q[0][n],
-                   &free->omega_q[0][n], 4);
+        for (int m = 0; m < 3; m++)
+        {
+            for (int s = 0; s < 3; s++)
+            {
+                free->u_q[m][n] += ellipsoid_dot(sums->cg[s][m], turn[s]);
+                for (int j = 0; j < 3; j++)
+                {
+                    moved[j][m] +=
+                        ellipsoid_dot(sums->ccg[pair[j][s]][m], turn[s]);
+                }
+            }
+        }
+        for (int i = 0; i < 3; i++)
+        {
+            const int j = (i + 1) % 3, k = (i + 2) % 3;
+
+            free->omega_q[i][n] = ellipsoid_dot(axis[k], moved[j])
+                                + ellipsoid_dot(turn[k], sums->u[j])
+                                - ellipsoid_dot(axis[j], moved[k])
+                                - ellipsoid_dot(turn[j], sums->u[k]);
+        }
+    }
+}
+
+/* 3 <(x^ x u^)_i> / (a_j^2 + a_k^2), and as much of its derivatives. */
+static void set_spin(const double a[3], const moments *sums,
+                     ellipsoid_frame *frame, ellipsoid_free_motion *free)
+{
+    for (int i = 0; i < 3; i++)
+    {
+        const double aj = a[(i + 1) % 3], ak = a[(i + 2) % 3];
+        const double scale = 3 / (aj * aj + ak * ak);
+
+        free->omega[i] =
+            scale
+            * (ellipsoid_dot(frame->axis[(i + 2) % 3], sums->u[(i + 1) % 3])
+               - ellipsoid_dot(frame->axis[(i + 1) % 3], sums->u[(i + 2) % 3]));
+        for (int l = 0; l < 3; l++)
+        {
+            free->omega_x[i][l] *= scale;
+        }
+        for (int n = 0; n < 4; n++)
+        {
+            free->omega_q[i][n] *= scale;
+        }
     }
 }
 
@@ -105,6 +168,7 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
     double velocity[ELLIPSOID_MAX_FLOW_POINTS][3];
     double jacobian[ELLIPSOID_MAX_FLOW_POINTS][3][3];
     double(*wanted)[3][3] = frame->by_q ? jacobian : NULL;
+    moments sums;
     int answer;
 
     for (int p = 0; p < count; p++)
@@ -131,40 +195,34 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
     }
 
     memset(free, 0, sizeof *free);
+    memset(&sums, 0, sizeof sums);
     ellipsoid_copy(centre_velocity, free->u);
     for (int p = 0; p < count; p++)
     {
-        const double weight = model->flow_weight[p];
-        double rel[3], body[3], turning[3];
+        const double *c = model->flow_point[p], weight = model->flow_weight[p];
+        double rel[3];
 
-        ellipsoid_difference(velocity[p], centre_velocity, rel);
-        ellipsoid_product(frame->axis, rel, body);
-        ellipsoid_cross(model->flow_point[p], body, turning);
         for (int i = 0; i < 3; i++)
         {
-            free->u[i] += weight * rel[i];
-            free->omega[i] += weight * turning[i];
+            rel[i] = weight * (velocity[p][i] - centre_velocity[i]);
+            free->u[i] += rel[i];
+        }
+        for (int j = 0; j < 3; j++)
+        {
+            for (int i = 0; i < 3; i++)
+            {
+                sums.u[j][i] += c[j] * rel[i];
+            }
         }
         if (wanted)
         {
-            add_derivatives(model->flow_point[p], weight, rel, jacobian[p],
-                            frame, free);
+            add_jacobian(c, weight, jacobian[p], &sums);
         }
     }
-    for (int i = 0; i < 3; i++)
+    if (wanted)
     {
-        const double aj = a[(i + 1) % 3], ak = a[(i + 2) % 3];
-        const double scale = 3 / (aj * aj + ak * ak);
-
-        free->omega[i] *= scale;
-        for (int l = 0; l < 3; l++)
-        {
-            free->omega_x[i][l] *= scale;
-        }
-        for (int n = 0; n < 4; n++)
-        {
-            free->omega_q[i][n] *= scale;
-        }
+        set_derivatives(&sums, frame, free);
     }
+    set_spin(a, &sums, frame, free);
     return ELLIPSOID_OK;
 }

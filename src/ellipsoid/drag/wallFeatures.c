@@ -136,6 +136,38 @@ static int feature_on_rim(const ellipsoid_wall_search *s,
     return feature_on_edge(s, &c, edge, foot, normal, p);
 }
 
+/* Are all points over these edges, and the vertices, so far from the centre
+   that their planes do not count? */
+static int is_out_of_range(const ellipsoid_wall_search *s,
+                           const ellipsoid_facet *facet, const int outside[3])
+{
+    /* far more than rounding */
+    const double squared = s->range * s->range * (1 + 1e-6);
+
+    for (int k = 0; k < 3; k++)
+    {
+        double line[3], from_line;
+
+        ellipsoid_difference(s->x, facet->vertex[k], line);
+        from_line = ellipsoid_dot(line, line);
+        if (from_line >= squared && outside[k]
+            && facet->edge[k] == ELLIPSOID_EDGE_CONVEX)
+        {
+            double along[3];
+
+            ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
+                                 along);
+            from_line -= ellipsoid_dot(line, along) * ellipsoid_dot(line, along)
+                       / ellipsoid_dot(along, along);
+        }
+        if (from_line < squared)
+        {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 /* Finds the plane that this facet gives; 0 if there is none. */
 int ellipsoid_find_feature(const ellipsoid_wall_search *s,
                            const ellipsoid_facet *facet,
@@ -187,9 +219,9 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
                    || out > ellipsoid_lap * height * ellipsoid_length(along);
         }
     }
-    if (on_flat && !on_rim)
+    if (on_rim ? is_out_of_range(s, facet, outside) : on_flat)
     {
-        return 0; /* the same plane is that of the facet across */
+        return 0; /* on_flat: the same plane is that of the facet across */
     }
     memset(p, 0, sizeof(*p));
     p->facet = facet;
