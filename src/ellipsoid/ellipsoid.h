@@ -10,7 +10,8 @@
     thirteen stiff equations (velocity, position, angular velocity,
     quaternion) advanced by a fourth-order adaptive Rosenbrock method; or,
     without inertia, the seven of position and quaternion, advanced by an
-    explicit Runge-Kutta method of fifth order except where the body touches.
+    explicit Runge-Kutta method of fifth order, of fourth where the surroundings
+    are `kinked`, except where the body touches.
 
     SI units throughout. Frames:
       lab    x  = (x1, x2, x3)
@@ -223,8 +224,8 @@ typedef struct ellipsoid_surroundings
                                   group meet at the nearest of their images; */
     int repeat_count;          /* 0 */
     int kinked;   /* does the gradient of the velocity jump, as where it is
-                     interpolated piece by piece? 0; explicit steps of INERTIAL
-                     motion are of another method then */
+                     interpolated piece by piece? 0; explicit steps are of another
+                     method then */
     double time;  /* [s] when callbacks are asked by functions that are given no
                      time, such as ellipsoid_rhs(); 0 */
     /* The key of the cell's Brownian motion. Noise interval n begins at the

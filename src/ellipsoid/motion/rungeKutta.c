@@ -12,8 +12,8 @@
 
     Where the flow's gradient jumps, its error estimate is an eighth of the
     error (root mean squares over where in the step the jump is), and error and
-    work are larger than with stages that lie evenly: there the slow manifold
-    takes Kutta's 3/8 rule (1901), order 4, with the weights (1/12, 1/2, 1/4, 0,
+    work are larger than with stages that lie evenly: there steps are those of
+    Kutta's 3/8 rule (1901), order 4, with the weights (1/12, 1/2, 1/4, 0,
     1/6) of order 3, the last for the slope at the end, and Hermite's cubic.
 */
 #include "motion/motion.h"
@@ -72,7 +72,7 @@ static const int in_time[MOST] = {0, 1, 2, 3, 4, 5, 6};
 
 static inline const method *method_of(const ellipsoid_group *g)
 {
-    return g->inertial && g->kinked ? &kutta : &tsitouras;
+    return g->kinked ? &kutta : &tsitouras;
 }
 
 /* sum_j<count weight[j] k_j; inlined with a constant count. */

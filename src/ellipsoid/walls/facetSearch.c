@@ -146,7 +146,8 @@ static int search_beads(const ellipsoid_facet_list *list, const bead_set *beads,
     {
         const ellipsoid_facet *facet = &list->facets[list->index[k]];
         double d[3], height[ELLIPSOID_MAX_BEADS];
-        double beyond[ELLIPSOID_MAX_BEADS];
+        double beyond[ELLIPSOID_MAX_BEADS], distance;
+        ellipsoid_facet_sides sides;
         const double size = facet->radius;
         const double rounding = 1e-6 * (reach + margin);
         const double far = size + reach + margin + rounding;
@@ -161,14 +162,15 @@ static int search_beads(const ellipsoid_facet_list *list, const bead_set *beads,
             continue;
         }
         set_distances(facet, beads, far, near, height, beyond);
+        ellipsoid_facet_sides_set(facet, &sides);
         for (int b = 0; b < beads->count; b++)
         {
             const double centre[3] = {beads->x[0][b], beads->x[1][b],
                                       beads->x[2][b]};
 
             if (beyond[b] > 0 || fabs(height[b]) > far - size
-                || !ellipsoid_facet_may_be_nearest(facet, centre, reach,
-                                                   margin))
+                || !ellipsoid_facet_may_be_nearest(facet, &sides, centre,
+                                                   reach, margin, &distance))
             {
                 continue;
             }
@@ -176,9 +178,9 @@ static int search_beads(const ellipsoid_facet_list *list, const bead_set *beads,
             {
                 return 0;
             }
-            if (fabs(height[b]) < cache->nearest[b])
+            if (distance < cache->nearest[b])
             {
-                cache->nearest[b] = fabs(height[b]);
+                cache->nearest[b] = distance;
             }
             found[n][0] = b;
             found[n][1] = list->index[k];

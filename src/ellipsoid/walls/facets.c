@@ -67,17 +67,35 @@ static int set_boundary_nearest(const ellipsoid_facet *facet, const double r[3],
     return 1;
 }
 
+/* Is the vector r from an edge's foot to the point too long, or has the facet
+   across the edge something nearer? Errs towards 0: what is left out by
+   rounding is decided by what follows. */
+static int is_beside_edge(const ellipsoid_facet *facet, int k,
+                          const double r[3], double reach)
+{
+    return facet->edge[k] == ELLIPSOID_EDGE_CONCAVE
+        || ellipsoid_dot(r, r) > (1 + 2 * rounding) * reach * reach
+        || ellipsoid_dot(r, facet->edge_inward[k]) > 2 * rounding * reach;
+}
+
 static int nearest_on_edge(const ellipsoid_facet *facet, int k, double foot,
                            double reach, const double along[3],
                            const double from_vertex[3],
                            ellipsoid_nearest *nearest)
 {
-    const double size = sqrt(ellipsoid_dot(along, along));
-    double r[3], length;
+    double r[3], size, length;
 
     for (int i = 0; i < 3; i++)
     {
         r[i] = from_vertex[i] - foot * along[i];
+    }
+    if (is_beside_edge(facet, k, r, reach))
+    {
+        return 0;
+    }
+    size = sqrt(ellipsoid_dot(along, along));
+    for (int i = 0; i < 3; i++)
+    {
         nearest->edge[i] = along[i] / size;
     }
 
@@ -91,7 +109,7 @@ static int nearest_on_edge(const ellipsoid_facet *facet, int k, double foot,
     length = sqrt(ellipsoid_dot(r, r));
 
     nearest->feature = length > 0 ? ELLIPSOID_ON_EDGE : ELLIPSOID_ON_FACE;
-    return length < reach && facet->edge[k] != ELLIPSOID_EDGE_CONCAVE
+    return length < reach
         && ellipsoid_dot(r, facet->edge_inward[k]) <= rounding * length
         && set_boundary_nearest(facet, r, length, nearest);
 }
@@ -124,12 +142,12 @@ int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
         ellipsoid_cross(n, along[k], inward);
         if (ellipsoid_dot(inward, from[k]) < 0)
         {
-            const double foot = ellipsoid_dot(from[k], along[k])
-                              / ellipsoid_dot(along[k], along[k]);
+            const double foot = ellipsoid_dot(from[k], along[k]);
+            const double size = ellipsoid_dot(along[k], along[k]);
 
-            if (foot >= 0 && foot <= 1)
+            if (foot >= 0 && foot <= size)
             {
-                return nearest_on_edge(facet, k, foot, reach, along[k],
+                return nearest_on_edge(facet, k, foot / size, reach, along[k],
                                        from[k], nearest);
             }
             outside = 1;
@@ -164,64 +182,73 @@ int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
         && set_boundary_nearest(facet, from[closest], length, nearest);
 }
 
-/* A point relative to an edge. */
-typedef struct edge_position
+void ellipsoid_facet_sides_set(const ellipsoid_facet *facet,
+                               ellipsoid_facet_sides *sides)
 {
-    double from[3]; /* [m] from the edge's first vertex to the point */
-    double length;  /* [m] of the edge */
-    double foot;    /* [m2] component of `from` along the edge, times length */
-    double inside;  /* [m2] likewise across it, into the facet */
-} edge_position;
+    for (int k = 0; k < 3; k++)
+    {
+        double *along = sides->along[k];
 
-/* As nearest_on_edge(), for some point within `margin` of the given one. */
-static int edge_may_be_nearest(const ellipsoid_facet *facet, int k,
-                               const edge_position *at, double reach,
-                               double margin)
+        ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
+                             along);
+        sides->length[k] = ellipsoid_length(along);
+        for (int i = 0; i < 3; i++)
+        {
+            along[i] /= sides->length[k];
+        }
+        ellipsoid_cross(facet->normal, along, sides->inward[k]);
+    }
+}
+
+/* As nearest_on_edge(), for some point within `margin` of one that lies `from`
+   the edge's first vertex and so far to the inside. */
+static int edge_may_be_nearest(const ellipsoid_facet *facet,
+                               const ellipsoid_facet_sides *sides, int k,
+                               const double from[3], double inside,
+                               double reach, double margin)
 {
-    const double along = at->foot / at->length;
+    const double along = ellipsoid_dot(from, sides->along[k]);
 
-    return facet->edge[k] != ELLIPSOID_EDGE_CONCAVE
-        && at->inside <= margin * at->length && along >= -margin
-        && along <= at->length + margin
-        && ellipsoid_dot(at->from, at->from) - along * along <= reach * reach
-        && ellipsoid_dot(at->from, facet->edge_inward[k]) <= margin;
+    return facet->edge[k] != ELLIPSOID_EDGE_CONCAVE && inside <= margin
+        && along >= -margin && along <= sides->length[k] + margin
+        && ellipsoid_dot(from, from) - along * along <= reach * reach
+        && ellipsoid_dot(from, facet->edge_inward[k]) <= margin;
 }
 
 int ellipsoid_facet_may_be_nearest(const ellipsoid_facet *facet,
-                             const double centre[3], double reach,
-                             double margin)
+                                   const ellipsoid_facet_sides *sides,
+                                   const double centre[3], double reach,
+                                   double margin, double *distance)
 {
     /* each condition changes by no more than the point moves */
     const double wide = margin + 2 * rounding * (reach + margin);
     const double far = reach + wide;
-    int face = 1;
+    double height = 0, aside = 0;
+    int face, found = 0;
 
     for (int k = 0; k < 3; k++)
     {
-        edge_position at;
-        double along[3], inward[3];
+        double from[3], inside;
 
-        ellipsoid_difference(centre, facet->vertex[k], at.from);
-        if (k == 0 && !(fabs(ellipsoid_dot(at.from, facet->normal)) <= far))
+        ellipsoid_difference(centre, facet->vertex[k], from);
+        if (k == 0)
         {
-            return 0;
+            height = ellipsoid_dot(from, facet->normal);
+            if (!(fabs(height) <= far))
+            {
+                return 0;
+            }
         }
-        ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
-                             along);
-        ellipsoid_cross(facet->normal, along, inward);
-
-        at.length = sqrt(ellipsoid_dot(along, along));
-        at.inside = ellipsoid_dot(inward, at.from);
-        at.foot = ellipsoid_dot(at.from, along);
-        if (edge_may_be_nearest(facet, k, &at, far, wide)
-            || (ellipsoid_dot(at.from, at.from) <= far * far
-                && ellipsoid_facet_is_apex(facet, k, at.from, wide)))
-        {
-            return 1;
-        }
-        face = face && at.inside >= -wide * at.length;
+        inside = ellipsoid_dot(sides->inward[k], from);
+        aside = inside < -aside ? -inside : aside;
+        found = found
+             || edge_may_be_nearest(facet, sides, k, from, inside, far, wide)
+             || (ellipsoid_dot(from, from) <= far * far
+                 && ellipsoid_facet_is_apex(facet, k, from, wide));
     }
-    return face;
+    face = aside <= wide;
+    *distance = sqrt(height * height + aside * aside);
+    return found || face;
 }
 
 int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3])

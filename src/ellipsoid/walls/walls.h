@@ -40,12 +40,24 @@ int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
                             const double centre[3], double reach,
                             ellipsoid_nearest *nearest);
 
+/* What of a facet's edges serves many points. */
+typedef struct ellipsoid_facet_sides
+{
+    double length[3];                 /* [m] */
+    double along[3][3], inward[3][3]; /* unit, in the facet's plane */
+} ellipsoid_facet_sides;
+
+void ellipsoid_facet_sides_set(const ellipsoid_facet *facet,
+                               ellipsoid_facet_sides *sides);
+
 /* Could ellipsoid_facet_nearest() find one if the point moved by up to
-   margin [m]? Errs towards 1. Beside the facet's ball, by more than 1.5 times
-   the margin as seen along its normal, only a convex edge can. */
+   margin [m]? Errs towards 1, and then sets *distance [m], farther than which
+   the facet is. Beside the facet's ball, by more than 1.5 times the margin as
+   seen along its normal, only a convex edge can. */
 int ellipsoid_facet_may_be_nearest(const ellipsoid_facet *facet,
-                             const double centre[3], double reach,
-                             double margin);
+                                   const ellipsoid_facet_sides *sides,
+                                   const double centre[3], double reach,
+                                   double margin, double *distance);
 
 /* Does it have a convex edge? (facets.c) */
 int ellipsoid_facet_has_convex_edge(const ellipsoid_facet *facet);
