@@ -1,19 +1,23 @@
 #!/bin/bash
-# The program of tests/benchmarks/tracers, built in the folder of a test, and boxes of hexahedra,
+# The program of tests/benchmarks/tracers, built once, and boxes of hexahedra,
 # tetrahedra and polyhedra. Sourced from the top folder.
 # License: GPL-3.0-or-later, see COPYING.
 
 . tests/cases/cells.sh
 
-export BUILD=$tap_folder
 source=$PWD
+export BUILD=$source/build/tests/tracers
+# Where it stays, so that only what changed is compiled; one test at a time. Not in the sources, where a
+# benchmark may build it, too
 builds()
 {
-    # Not in the sources, where another test may build it, too
-    cp -r "$source"/tests/benchmarks/tracers "$tap_folder/program" && cd "$tap_folder/program" \
-        && sed -i "s|../../..|$source|" Make/options && wmake
+    mkdir -p "$BUILD/program" && cd "$BUILD/program" || return
+    (
+        flock 9 && cp -a "$source"/tests/benchmarks/tracers/* . \
+            && sed -i "s|../../..|$source|" Make/options && wmake
+    ) 9>> "$BUILD/lock"
 }
-tracers()       { "$tap_folder/tracers" "$@" > log.tracers 2>&1 || { tail log.tracers; return 1; }; }
+tracers()       { "$BUILD/tracers" "$@" > log.tracers 2>&1 || { tail log.tracers; return 1; }; }
 
 # A box of 8 x 10 x 6 um, N mesh cells a side; its walls at y = 0 and 10 um
 box_mesh()      # CASE N

@@ -89,6 +89,18 @@ make_sieve()    # CASE
     blockMesh > log.blockMesh && solve_flow
 }
 
+# The same with three layers of mesh cells, after a run of twenty cells that wrote every 0.1 s up to 0.4
+make_written()  # CASE
+{
+    rm -rf "${tap_folder:?}/$1"
+    new_case "$1" "$tutorials/singleSieve"
+    sed -i 's/ 10) simpleGrading/ 3) simpleGrading/' system/blockMeshDict
+    sed -i 's/number  .*45;/number 15;/; s/duration .*/duration 0.3;/' constant/ellipsoidCloudProperties
+    set_entry system/controlDict endTime 0.4
+    set_entry system/controlDict purgeWrite 0
+    blockMesh > log.blockMesh && run_cells 1
+}
+
 # Gives an entry that stands on a line of its own another value
 set_entry()     # FILE ENTRY VALUE
 {
