@@ -10,8 +10,8 @@
     thirteen stiff equations (velocity, position, angular velocity,
     quaternion) advanced by a fourth-order adaptive Rosenbrock method; or,
     without inertia, the seven of position and quaternion, advanced by an
-    explicit Runge-Kutta method of fifth order, of fourth where the surroundings
-    are `kinked`, except where the body touches.
+    explicit Runge-Kutta method of fifth order, of fourth where the velocity is
+    `piecewise`, except where the body touches.
 
     SI units throughout. Frames:
       lab    x  = (x1, x2, x3)
@@ -223,9 +223,9 @@ typedef struct ellipsoid_surroundings
                                   is moved by one of these, and the cells of a
                                   group meet at the nearest of their images; */
     int repeat_count;          /* 0 */
-    int kinked;   /* does the gradient of the velocity jump, as where it is
-                     interpolated piece by piece? 0; explicit steps are of another
-                     method then */
+    int piecewise; /* does the gradient of the velocity jump, as where it is
+                      interpolated piece by piece? 0; explicit steps are of
+                      another method then */
     double time;  /* [s] when callbacks are asked by functions that are given no
                      time, such as ellipsoid_rhs(); 0 */
     /* The key of the cell's Brownian motion. Noise interval n begins at the
@@ -487,7 +487,7 @@ typedef struct ellipsoid_step
 } ellipsoid_step;
 
 /* The state at time start <= t <= end: of third order, or fourth in x and q
-   where the step was explicit and nothing is `kinked`; u and omega of
+   where the step was explicit and no velocity is `piecewise`; u and omega of
    INERTIALESS motion and of the slow manifold one less. */
 void ellipsoid_step_state(const ellipsoid_step *step, double t,
                           ellipsoid_state *state);

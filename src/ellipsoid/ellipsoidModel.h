@@ -158,7 +158,7 @@ typedef struct ellipsoid_model
     double rotation_relaxation_time; /* [s] slowest I/(mu C) */
     double noise_force[3];  /* [N] body, standard deviation of a component */
     double noise_torque[3]; /* [N m] likewise */
-    int electric, aligned;  /* does a field act? On a dipole? */
+    int electric, has_dipole; /* does a field act? On a dipole? */
     int dissipative;        /* do contacts depend on velocities? */
     double reach;           /* [m] farthest contact surface from the centre */
     int flow_points;        /* 0 unless FLOW_BODY */

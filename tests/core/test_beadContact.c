@@ -184,7 +184,7 @@ static void test_slit(void **unused)
     wall_mesh_free(&wall);
 }
 
-/* A plate thinner than the bead: its far side is not felt through it, and a
+/* A plate thinner than the bead: its far side does not act through it, and a
    centre pushed into it is pushed out again by the way it came. */
 static void test_thin_plate(void **unused)
 {

@@ -69,7 +69,7 @@ static void accelerations(scene *s, double all[6 * CELLS], int touching[CELLS])
 }
 
 /* Six rows of a cell by the thirteen unknowns of one. */
-static void add_rows(const ellipsoid_blocks *b, double rows[6][SIZE])
+static void add_rows(const ellipsoid_jacobian_blocks *b, double rows[6][SIZE])
 {
     for (int i = 0; i < 3; i++)
     {

@@ -151,7 +151,8 @@ static void slopes(ellipsoid_group *g, double f[26])
     memcpy(f + 13, g->next[1].slope, sizeof(g->next[1].slope));
 }
 
-static int is_coupled(int n, const ellipsoid_blocks *b, int row, double *value)
+static int is_coupled(int n, const ellipsoid_jacobian_blocks *b, int row,
+                      double *value)
 {
     const int i = row % 3;
     const int of_omega = row >= AT_OMEGA;
@@ -221,7 +222,7 @@ static void test_jacobian(void **unused)
                 const int cell = row / 13, k = row % 13;
                 const int rows = k < 3 ? 0 : k < 6 ? 1 : k < 9 ? 2 : 3;
                 const int columns = m < 3 ? 0 : m < 6 ? 1 : m < 9 ? 2 : 3;
-                const ellipsoid_blocks *b = cell == of
+                const ellipsoid_jacobian_blocks *b = cell == of
                                               ? &g.start[cell].blocks
                                               : &pairs.coupling[cell].blocks;
                 const double difference = (up[row] - down[row]) / (2 * h);
@@ -286,7 +287,7 @@ static void test_coupled_system(void **unused)
             for (int column = 0; column < 26; column++)
             {
                 const int of = column / 13, m = column % 13;
-                const ellipsoid_blocks *b = cell == of
+                const ellipsoid_jacobian_blocks *b = cell == of
                                               ? &g.start[cell].blocks
                                               : &pairs.coupling[cell].blocks;
                 double value;

@@ -146,7 +146,7 @@ static void test_cuts(void **unused)
     (void)unused;
     begin(&r, ELLIPSOID_INTEGRATOR_SLOW_MANIFOLD, 1e-6, 6e4);
     check_cuts(&r);
-    r.around.kinked = 1;
+    r.around.piecewise = 1;
     check_cuts(&r);
     begin(&r, ELLIPSOID_INTEGRATOR_SLOW_MANIFOLD, 1e-7, 6e4);
     memset(r.state.u, 0, sizeof(r.state.u));

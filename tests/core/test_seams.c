@@ -4,7 +4,7 @@
     SPDX-License-Identifier: GPL-3.0-or-later
 
     test_seams.c - the wall's force on one bead does not jump as the bead slides
-    over seams, edges, corners and steps, and feels nothing of flat seams.
+    over seams, edges, corners and steps, and has no part from flat seams.
 
     Lengths are in bead radii and stiffness is 1.
 */
@@ -99,7 +99,7 @@ static void test_convex_edges_and_corners(void **unused)
     wall_mesh_free(&wall);
 }
 
-/* Nothing is felt of the seams of a flat wall. */
+/* The seams of a flat wall add nothing. */
 static void test_flat_seams(void **unused)
 {
     wall_mesh wall = floor_of(4, 33, 2);
@@ -129,7 +129,7 @@ static void on_arc(const double *uv, double point[3], void *context)
     The chamber's round wall: 40 um radius, faces of 0.2 to 0.8 um, bead of
     0.285 um sliding 1 to 14 nm deep. Its polygon is what it is - between faces
     turned by t the normal turns by t, and a chord is flatter than the arc - but
-    nothing else is felt: with depth measured from the nearest face, the force
+    nothing else is added: with depth measured from the nearest face, the force
     keeps to Hertz within 1 % and turns no further than the faces do.
 */
 static void test_round_wall(void **unused)

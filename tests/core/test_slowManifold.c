@@ -205,14 +205,14 @@ static void test_order_of_manifold(void **unused)
 /* ------------------------------------------------------------- the steps */
 
 /* Equal steps: the distance from those an eighth as long. */
-static double error_of_steps(int kinked, int count)
+static double error_of_steps(int piecewise, int count)
 {
     static run r[2];
 
     for (int n = 0; n < 2; n++)
     {
         begin(&r[n], ELLIPSOID_INTEGRATOR_SLOW_MANIFOLD, 0.1, 3e5);
-        r[n].around.kinked = kinked;
+        r[n].around.piecewise = piecewise;
         r[n].options.maximum_step = 4e-3 / (n ? 8 * count : count);
         r[n].options.initial_step = r[n].options.maximum_step;
         r[n].model = test_model(&r[n].options);
@@ -269,13 +269,13 @@ static int look_inside(void *context, const ellipsoid_step *step)
 }
 
 /* Hermite's cubic of the 3/8 rule is of order 3, one below the step. */
-static void check_dense(int kinked, double allowed)
+static void check_dense(int piecewise, double allowed)
 {
     static middle m;
 
     m.worst = 0;
     begin(&m.own, ELLIPSOID_INTEGRATOR_SLOW_MANIFOLD, 1e-6, 6e4);
-    m.own.around.kinked = kinked;
+    m.own.around.piecewise = piecewise;
     assert_ok(ellipsoid_advance(
         &(ellipsoid_member){&m.own.model, &m.own.around, &m.own.state,
                             &m.own.controller, &m.own.cache, &m,

@@ -161,7 +161,7 @@ static void place_cells(cell cells[CELLS])
 }
 
 /* With inertia; with Brownian motion; without inertia; and without in a flow
-   felt over the whole surface. */
+   averaged over the whole surface. */
 static void prepare(common *shared)
 {
     const double low[3] = {-6 * um, -6 * um, -6 * um};

@@ -472,7 +472,7 @@ static void read_flow(fuzz_scene *s, fuzz_input *in)
         s->shore[3] = fuzz_between(in, -1, 3) * s->length;
         s->around.velocities = velocities;
     }
-    s->around.kinked = fuzz_choice(in, 2);
+    s->around.piecewise = fuzz_choice(in, 2);
 }
 
 void fuzz_scene_read(fuzz_scene *s, fuzz_input *in, const ellipsoid_options *o)

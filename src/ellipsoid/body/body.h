@@ -21,17 +21,17 @@
     torque; only then are they divided by mass and inertia. The rest follows
     from paper eqs. (2) and (4): dx/dt = u and dq/dt = 1/2 Q(omega) q.
 */
-typedef struct ellipsoid_blocks
+typedef struct ellipsoid_jacobian_blocks
 {
     double uu[3][3], ux[3][3], uw[3][3], uq[3][4];
     double wu[3][3], wx[3][3], ww[3][3], wq[3][4];
-} ellipsoid_blocks;
+} ellipsoid_jacobian_blocks;
 
 /* Adds derivatives of force and torque to the blocks: rows of u times
-   of_force, row i of omega times of_torque[i] (blocks.c). */
+   of_force, row i of omega times of_torque[i] (jacobianBlocks.c). */
 void ellipsoid_add_to_blocks(const ellipsoid_wrench_jacobian *jacobian,
                              double of_force, const double of_torque[3],
-                             ellipsoid_blocks *blocks);
+                             ellipsoid_jacobian_blocks *blocks);
 
 /* The body axes in the lab, the columns of R(q), and their derivatives. Not
    const where it is an argument, as C11 takes no const matrix for a plain one.

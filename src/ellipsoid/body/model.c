@@ -94,9 +94,9 @@ ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
     {
         set_noise_scales(&m);
     }
-    m.aligned = options->dipole[0] != 0 || options->dipole[1] != 0
+    m.has_dipole = options->dipole[0] != 0 || options->dipole[1] != 0
              || options->dipole[2] != 0;
-    m.electric = options->charge != 0 || m.aligned;
+    m.electric = options->charge != 0 || m.has_dipole;
 
     m.reach = fmax(a[0], fmax(a[1], a[2]));
     if (options->contact)

@@ -43,7 +43,7 @@ ellipsoid_status ellipsoid_noise_at(const ellipsoid_model *model,
 
 void ellipsoid_add_noise(const ellipsoid_noise *noise, ellipsoid_frame *frame,
                          ellipsoid_body_wrench *wrench,
-                         ellipsoid_blocks *blocks)
+                         ellipsoid_jacobian_blocks *blocks)
 {
     const double *f = noise->force;
     double lab[3];

@@ -48,7 +48,7 @@ ellipsoid_status ellipsoid_noise_at(const ellipsoid_model *model,
 /* Adds it to the wrench and, if wanted, to the blocks. */
 void ellipsoid_add_noise(const ellipsoid_noise *noise, ellipsoid_frame *frame,
                          ellipsoid_body_wrench *wrench,
-                         ellipsoid_blocks *blocks);
+                         ellipsoid_jacobian_blocks *blocks);
 
 /* Does the resistance know of walls? */
 static inline int
@@ -134,7 +134,7 @@ void ellipsoid_add_kept_drag(const ellipsoid_model *model,
                              const ellipsoid_free_motion *free,
                              const ellipsoid_state *state,
                              ellipsoid_body_wrench *wrench,
-                             ellipsoid_blocks *blocks);
+                             ellipsoid_jacobian_blocks *blocks);
 
 /* Adds to the state's u and omega what a wrench does against the resistance
    near these planes (wallDrag.c). NON_FINITE: the resistance is singular. */
@@ -153,6 +153,6 @@ ellipsoid_status ellipsoid_add_wall_drag(const ellipsoid_model *model,
                                          const ellipsoid_free_motion *free,
                                          const ellipsoid_state *state,
                                          ellipsoid_body_wrench *wrench,
-                                         ellipsoid_blocks *blocks);
+                                         ellipsoid_jacobian_blocks *blocks);
 
 #endif

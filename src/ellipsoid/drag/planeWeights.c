@@ -89,17 +89,17 @@ static void set_likeness(const scaled *a, const scaled *b, int slopes,
 }
 
 /* d_ij e_j */
-static void set_felt(const ellipsoid_plane *of, const ellipsoid_plane *plane,
-                     int slopes, ellipsoid_quantity *felt)
+static void set_counted(const ellipsoid_plane *of, const ellipsoid_plane *plane,
+                     int slopes, ellipsoid_quantity *counted)
 {
     const double y = plane->window.value / of->window.value;
     const double d = y < 1 ? y * (2 - y) : 1;
     const double by = y < 1 ? 2 * (1 - y) / of->window.value : 0;
 
-    felt->value = d * plane->extent.value;
+    counted->value = d * plane->extent.value;
     for (int n = 0; n < slopes; n++)
     {
-        felt->slope[n] =
+        counted->slope[n] =
             d * plane->extent.slope[n]
             + by * (plane->window.slope[n] - y * of->window.slope[n])
                   * plane->extent.value;
@@ -107,16 +107,16 @@ static void set_felt(const ellipsoid_plane *of, const ellipsoid_plane *plane,
 }
 
 /* Adds t_ij d_ij e_j to a sum and takes it from what is bare. */
-static void include(const ellipsoid_quantity *felt, const likeness *like,
+static void include(const ellipsoid_quantity *counted, const likeness *like,
                     int slopes, ellipsoid_quantity *sum,
                     ellipsoid_quantity *bare)
 {
-    const double part = like->t * felt->value, left = 1 - part;
+    const double part = like->t * counted->value, left = 1 - part;
 
     for (int n = 0; n < slopes; n++)
     {
-        const double slope = like->t * felt->slope[n]
-                           + like->t_slope * like->by[n] * felt->value;
+        const double slope = like->t * counted->slope[n]
+                           + like->t_slope * like->by[n] * counted->value;
 
         sum->slope[n] += slope;
         bare->slope[n] = bare->slope[n] * left - bare->value * slope;
@@ -204,12 +204,12 @@ void ellipsoid_weigh_planes(const ellipsoid_model *model,
             const likeness *with = j == i  ? &itself
                                  : i < j ? &like[i][j]
                                          : &like[j][i];
-            ellipsoid_quantity felt;
+            ellipsoid_quantity counted;
 
             if (with->t > 0)
             {
-                set_felt(&planes->at[i], &planes->at[j], slopes, &felt);
-                include(&felt, with, slopes, &sum, &bare);
+                set_counted(&planes->at[i], &planes->at[j], slopes, &counted);
+                include(&counted, with, slopes, &sum, &bare);
             }
         }
         set_part(&planes->at[i], &sum, &bare, slopes, &part[i]);

@@ -168,7 +168,7 @@ static void set_rates(ellipsoid_frame *frame,
 static void add_blocks(const ellipsoid_model *m, double matrix[6][6],
                        double (*change)[6], ellipsoid_frame *frame,
                        const ellipsoid_free_motion *free,
-                       const wall_drag *drag, ellipsoid_blocks *b)
+                       const wall_drag *drag, ellipsoid_jacobian_blocks *b)
 {
     double(*axis)[3] = frame->axis;
 
@@ -232,7 +232,7 @@ ellipsoid_status ellipsoid_add_wall_drag(const ellipsoid_model *model,
                                          const ellipsoid_free_motion *free,
                                          const ellipsoid_state *state,
                                          ellipsoid_body_wrench *wrench,
-                                         ellipsoid_blocks *blocks)
+                                         ellipsoid_jacobian_blocks *blocks)
 {
     wall_drag drag;
 
@@ -339,7 +339,7 @@ void ellipsoid_add_kept_drag(const ellipsoid_model *model,
                              const ellipsoid_free_motion *free,
                              const ellipsoid_state *state,
                              ellipsoid_body_wrench *wrench,
-                             ellipsoid_blocks *blocks)
+                             ellipsoid_jacobian_blocks *blocks)
 {
     double matrix[6][6];
     wall_drag drag;

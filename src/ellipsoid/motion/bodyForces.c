@@ -23,7 +23,7 @@ static void add_pressure_gradient(const ellipsoid_model *m,
 
 static void add_pressure_gradient_blocks(const ellipsoid_model *m, int unsteady,
                                          ellipsoid_flow_sample *flow,
-                                         ellipsoid_blocks *b)
+                                         ellipsoid_jacobian_blocks *b)
 {
     const double *u = flow->velocity;
 
@@ -75,7 +75,7 @@ static ellipsoid_status add_electric(const ellipsoid_model *m,
                                      const ellipsoid_surroundings *surroundings,
                                      const double x[3], ellipsoid_frame *frame,
                                      ellipsoid_body_wrench *wrench,
-                                     ellipsoid_blocks *b)
+                                     ellipsoid_jacobian_blocks *b)
 {
     const ellipsoid_options *o = &m->options;
     double field[3] = {0, 0, 0}, jacobian[3][3] = {{0}};
@@ -128,7 +128,7 @@ static ellipsoid_status add_electric(const ellipsoid_model *m,
 static ellipsoid_status add_external(const ellipsoid_surroundings *surroundings,
                                      const ellipsoid_state *state,
                                      ellipsoid_body_wrench *wrench,
-                                     ellipsoid_blocks *b)
+                                     ellipsoid_jacobian_blocks *b)
 {
     static const double ones[3] = {1, 1, 1};
     double more[3] = {0, 0, 0}, turning[3] = {0, 0, 0};
@@ -156,7 +156,7 @@ ellipsoid_add_body_forces(const ellipsoid_model *model,
                           const ellipsoid_state *state, ellipsoid_frame *frame,
                           ellipsoid_flow_sample *flow,
                           ellipsoid_body_wrench *wrench,
-                          ellipsoid_blocks *blocks)
+                          ellipsoid_jacobian_blocks *blocks)
 {
     ellipsoid_status status = ELLIPSOID_OK;
 

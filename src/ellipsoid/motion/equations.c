@@ -162,7 +162,7 @@ INLINED void add_drag(evaluation *e, double slip[3], double resisted[3])
 /* Derivatives of F = sum_i r_i mu K^_i (r_i . slip) and of T^. */
 static void add_drag_blocks(evaluation *e, double d[4][3][3],
                             const double slip[3], const double resisted[3],
-                            ellipsoid_blocks *b)
+                            ellipsoid_jacobian_blocks *b)
 {
     const ellipsoid_model *m = e->model;
     double scaled[3][3];
@@ -247,7 +247,7 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
 INLINED ellipsoid_status add_contact(evaluation *e,
                                            const ellipsoid_cell *cell,
                                            ellipsoid_contact *contact,
-                                           ellipsoid_blocks *b)
+                                           ellipsoid_jacobian_blocks *b)
 {
     ellipsoid_wrench_jacobian jacobian;
     const ellipsoid_status status = ellipsoid_contact_evaluate(
@@ -300,7 +300,7 @@ INLINED void accelerations(const evaluation *e, int inertial,
 }
 
 static void finish_blocks(const evaluation *e, int inertial,
-                          ellipsoid_blocks *b)
+                          ellipsoid_jacobian_blocks *b)
 {
     const double *inertia = e->model->inertia;
     const double *w = e->state->omega;
@@ -384,7 +384,7 @@ set_free(evaluation *e, const ellipsoid_surroundings *surroundings,
 INLINED ellipsoid_status
 set_forces(evaluation *e, const ellipsoid_surroundings *surroundings,
            const ellipsoid_noise *noise, double d[4][3][3],
-           ellipsoid_blocks *blocks)
+           ellipsoid_jacobian_blocks *blocks)
 {
     const ellipsoid_model *m = e->model;
 
@@ -463,7 +463,7 @@ sample_flow(const ellipsoid_surroundings *surroundings,
    balances. */
 INLINED void add_free_drag(evaluation *e, ellipsoid_state *state,
                                  int balanced, double d[4][3][3],
-                                 ellipsoid_blocks *blocks)
+                                 ellipsoid_jacobian_blocks *blocks)
 {
     double slip[3], resisted[3];
 
@@ -496,7 +496,7 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
     const int inertial = model->options.motion == ELLIPSOID_MOTION_INERTIAL;
     const int drag = model->options.drag && surroundings->flow;
     ellipsoid_state *state = &at->state, *derivative = &at->derivative;
-    ellipsoid_blocks *blocks = with_blocks ? &at->blocks : NULL;
+    ellipsoid_jacobian_blocks *blocks = with_blocks ? &at->blocks : NULL;
     const double *q = state->q;
     double d[4][3][3];
     ellipsoid_status status = ELLIPSOID_OK;

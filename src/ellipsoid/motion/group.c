@@ -62,9 +62,9 @@ static ellipsoid_status check(const ellipsoid_group *g)
 static void set_kind(ellipsoid_group *g, const ellipsoid_model *model,
                      const ellipsoid_surroundings *surroundings)
 {
-    g->stiff = g->stiff || model->aligned || surroundings->force != NULL;
+    g->stiff = g->stiff || model->has_dipole || surroundings->force != NULL;
     g->unsteady = g->unsteady || surroundings->unsteady;
-    g->kinked = g->kinked || surroundings->kinked;
+    g->piecewise = g->piecewise || surroundings->piecewise;
     g->dissipative = g->dissipative || model->dissipative
                   || ellipsoid_force_is_dissipative(surroundings);
 }
@@ -112,7 +112,7 @@ static ellipsoid_status advance(ellipsoid_group *g,
         return ELLIPSOID_OK;
     }
     g->failed = -1;
-    g->stiff = g->dissipative = g->unsteady = g->kinked = 0;
+    g->stiff = g->dissipative = g->unsteady = g->piecewise = 0;
     g->manifold = 1;
     g->observed = observer != NULL;
     for (int cell = 0; cell < g->count; cell++)

@@ -70,7 +70,7 @@ static void add_vector(double sign, double m[6][6], const double w[6],
 }
 
 static void fill(ellipsoid_group *g, int row, int column,
-                 const ellipsoid_blocks *blocks, double h,
+                 const ellipsoid_jacobian_blocks *blocks, double h,
                  ellipsoid_reduced *reduced, int *used)
 {
     double(*m)[6] = make_block(g, row, column, used);

@@ -67,7 +67,7 @@ ellipsoid_add_body_forces(const ellipsoid_model *model,
                           const ellipsoid_state *state, ellipsoid_frame *frame,
                           ellipsoid_flow_sample *flow,
                           ellipsoid_body_wrench *wrench,
-                          ellipsoid_blocks *blocks);
+                          ellipsoid_jacobian_blocks *blocks);
 
 /* --------------------------------------------------------------- a cell */
 
@@ -103,7 +103,7 @@ typedef struct ellipsoid_evaluation
         ellipsoid_state derivative;
         double slope[UNKNOWNS];
     };
-    ellipsoid_blocks blocks;
+    ellipsoid_jacobian_blocks blocks;
     ellipsoid_contact contact; /* left as it is where there are no walls */
     double inertia[6]; /* on the slow manifold: u_b - u, omega_b - omega */
     ellipsoid_kept_resistance resistance; /* of ELLIPSOID_KEEPING */
@@ -207,7 +207,7 @@ void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *system,
 
 /* The same by parts, for a group: rows against the unknowns of `column`; what
    the cell needs for k_x and k_q; these from r and (k_u, k_omega). */
-void ellipsoid_stage_matrix_reduce(const ellipsoid_blocks *blocks,
+void ellipsoid_stage_matrix_reduce(const ellipsoid_jacobian_blocks *blocks,
                                    const ellipsoid_state *column, double h,
                                    ellipsoid_reduced *reduced);
 void ellipsoid_stage_matrix_kinematics(ellipsoid_stage_matrix *system,
@@ -231,7 +231,7 @@ typedef struct ellipsoid_plan
 typedef struct ellipsoid_coupling
 {
     int row, column;
-    ellipsoid_blocks blocks;
+    ellipsoid_jacobian_blocks blocks;
     ellipsoid_reduced reduced;
 } ellipsoid_coupling;
 
@@ -263,14 +263,14 @@ typedef struct ellipsoid_group
 {
     int count;
     int inertial; /* all or none */
-    int stiff;    /* is one aligned by a dipole or under an external force? */
+    int stiff;    /* is one a dipole in a field or under an external force? */
     int unsteady; /* do the surroundings of one depend on time? */
     int keeps;       /* may the resistance near walls be kept over a step? */
     int kept_last;   /* was it, in the last step? */
     int dissipative; /* do forces other than drag depend on velocities? */
     int observed; /* is the whole of ellipsoid_step asked for? */
     int manifold; /* may it be advanced on the slow manifold? */
-    int kinked;   /* does the gradient of a flow jump? */
+    int piecewise; /* does the gradient of a flow jump? */
     int on_manifold;   /* is the start there? */
     int left_manifold; /* has the last evaluation not been there? */
     double from, until; /* [s] the run, in one noise interval */

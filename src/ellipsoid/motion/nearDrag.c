@@ -93,7 +93,7 @@ ellipsoid_status ellipsoid_add_near_drag(const ellipsoid_cell *cell,
                                          ellipsoid_body_wrench *wrench,
                                          ellipsoid_near_drag *asked)
 {
-    ellipsoid_blocks *blocks = asked->with_blocks ? &at->blocks : NULL;
+    ellipsoid_jacobian_blocks *blocks = asked->with_blocks ? &at->blocks : NULL;
     ellipsoid_state *state = &at->state;
     ellipsoid_planes planes;
     ellipsoid_status status = ELLIPSOID_OK;

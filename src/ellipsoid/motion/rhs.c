@@ -81,7 +81,7 @@ ellipsoid_jacobian(const ellipsoid_model *model,
         .model = model, .surroundings = *surroundings, .cache = cache};
     ellipsoid_evaluation at = {.state = *state};
     const ellipsoid_status status = ellipsoid_evaluate(&cell, &at, 0, 1);
-    const ellipsoid_blocks b = at.blocks;
+    const ellipsoid_jacobian_blocks b = at.blocks;
     const double *w = state->omega, *q = state->q;
     /* 1/2 Q(omega) and the derivative of 1/2 Q(omega) q by omega */
     const double qq[4][4] = {{0, w[2], -w[1], w[0]},

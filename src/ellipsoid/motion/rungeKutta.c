@@ -72,7 +72,7 @@ static const int in_time[MOST] = {0, 1, 2, 3, 4, 5, 6};
 
 static inline const method *method_of(const ellipsoid_group *g)
 {
-    return g->kinked ? &kutta : &tsitouras;
+    return g->piecewise ? &kutta : &tsitouras;
 }
 
 /* sum_j<count weight[j] k_j; inlined with a constant count. */

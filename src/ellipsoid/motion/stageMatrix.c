@@ -76,7 +76,8 @@ static inline void reduce_row(const elimination *e, int row,
     to->rates[5][row] = coupling(turned, q, 2, 0, 1) - of_w[2];
 }
 
-static inline void reduce(const elimination *e, const ellipsoid_blocks *b,
+static inline void reduce(const elimination *e,
+                          const ellipsoid_jacobian_blocks *b,
                           ellipsoid_reduced *to)
 {
     for (int i = 0; i < 3; i++)
@@ -199,7 +200,7 @@ void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *s,
     kinematics(s, a, r, k);
 }
 
-void ellipsoid_stage_matrix_reduce(const ellipsoid_blocks *blocks,
+void ellipsoid_stage_matrix_reduce(const ellipsoid_jacobian_blocks *blocks,
                                    const ellipsoid_state *column, double h,
                                    ellipsoid_reduced *reduced)
 {

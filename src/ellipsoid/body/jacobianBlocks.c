@@ -3,13 +3,13 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    blocks.c - what a force and its torque add to the blocks of the Jacobian.
+    jacobianBlocks.c - what a force and its torque add to the Jacobian.
 */
 #include "body/body.h"
 
 void ellipsoid_add_to_blocks(const ellipsoid_wrench_jacobian *jacobian,
                              double of_force, const double of_torque[3],
-                             ellipsoid_blocks *b)
+                             ellipsoid_jacobian_blocks *b)
 {
     for (int i = 0; i < 3; i++)
     {
