@@ -386,7 +386,7 @@ static void test_written_out(void **unused)
     }
 }
 
-/* A body that moves and turns with a fluid in rigid rotation has no torque,
+/* A body that moves and turns with a fluid in rigid rotation has no torque
    and no drag. */
 static void test_rigid_rotation(void **unused)
 {

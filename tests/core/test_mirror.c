@@ -3,8 +3,8 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    test_mirror.c - a cell that is pushed onto a plane of symmetry meets what it
-    meets of its mirror image, the other cell of the whole device.
+    test_mirror.c - a plane of symmetry acts on a cell that is pushed onto it as
+    its mirror image does, the other cell of the whole device.
 */
 #include "contact/contact.h"
 #include "contactTest.h"

@@ -4,7 +4,7 @@
     SPDX-License-Identifier: GPL-3.0-or-later
 
     test_seams.c - the wall's force on one bead does not jump as the bead slides
-    over seams, edges, corners and steps, and has no part from flat seams.
+    over seams, edges, corners and steps, and flat seams add none.
 
     Lengths are in bead radii and stiffness is 1.
 */

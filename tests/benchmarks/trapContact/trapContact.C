@@ -144,7 +144,7 @@ struct journey
         since(0)
     {}
 
-    //- Is there a facet that a bead could touch, were the cell turned?
+    //- Is there a facet that could act on a bead, were the cell turned?
     bool nearWalls(const scalar x[3]) const
     {
         DynamicList<label> listed;
