@@ -70,14 +70,30 @@ narrow_trap()   # CASE
     sed -i 's/displacement .*;/speedFraction 0.01;/' constant/ellipsoidCloudProperties
 }
 
-# The same on its quick mesh, with few cells, up to the end
+# The same on its quick mesh, of $layers layers, with few cells, up to the end
 make_trap()     # CASE
 {
     rm -rf "${tap_folder:?}/$1"
     narrow_trap "$1"
+    sed -i "/^    quick/,/}/s/layers .*8;/layers ${layers:-8};/" constant/trapGeometry
     set_entry constant/ellipsoidCloudProperties number 80
     set_entry constant/ellipsoidCloudProperties duration 2
     set_entry system/controlDict endTime 2.2
+    ./Allrun -quick -noPictures
+}
+
+# The same with half the layers, where bytes are compared or pictures drawn: every run begins in half the time
+make_shallow()  { layers=4 make_trap "$1"; }
+shallow_trap()  { shared_case shallow make_shallow && mv "$tap_folder"/{shallow,trap}; }
+
+# That with more cells and for longer
+make_drawn()    # CASE
+{
+    rm -rf "${tap_folder:?}/$1" && shallow_trap && mv "$tap_folder"/{trap,"$1"} \
+        && cd "$tap_folder/$1" && rm made || return
+    set_entry constant/ellipsoidCloudProperties number 150
+    set_entry constant/ellipsoidCloudProperties duration 4
+    set_entry system/controlDict endTime 4.3
     ./Allrun -quick -noPictures
 }
 
