@@ -118,6 +118,63 @@ static void test_kept_resistance(void **unused)
     wall_mesh_free(&mesh);
 }
 
+/* Stops after every step. */
+static int stop(void *context, const ellipsoid_step *step)
+{
+    (void)step;
+    (void)context;
+    return 1;
+}
+
+/*
+    One that goes past a block, stopped after every step and continued, takes the
+    way of one that is not stopped, to the last bit, although its resistance is
+    kept over several steps.
+*/
+static void test_kept_and_stopped(void **unused)
+{
+    const double low[3] = {-2e-6, 5e-6, 0}, high[3] = {2e-6, 9e-6, 1.5e-6};
+    ellipsoid_state end[2];
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_floor(&mesh, 0, 10, 10);
+    wall_mesh_box(&mesh, low, high, 0, 3, 0);
+    wall_mesh_finish(&mesh);
+    for (int n = 0; n < 2; n++)
+    {
+        test_quadratic flow = {.answer = 0};
+        ellipsoid_surroundings s = around(&mesh, &flow);
+        ellipsoid_options o = near_walls();
+        ellipsoid_controller controller = {0};
+        ellipsoid_statistics statistics = {0};
+        ellipsoid_model model;
+        ellipsoid_status status;
+        double t = 0;
+
+        flow.g[1][2] = 200;
+        ellipsoid_set(o.gravity, 0, 0, -9.81);
+        o.buoyancy = 1;
+        model = test_model(&o);
+        end[n] = (ellipsoid_state){.x = {0.3e-6, 0, 4e-6},
+                                   .q = {0.3, 0.1, 0.2, 0.9}};
+        ellipsoid_normalise(end[n].q);
+        ellipsoid_facet_cache_clear(&cache);
+        assert_ok(ellipsoid_balance(&model, &s, &end[n], &cache));
+        do
+        {
+            status = ellipsoid_advance(
+                &(ellipsoid_member){&model, &s, &end[n], &controller, &cache,
+                                    NULL, &statistics},
+                &t, 20e-3, n ? stop : NULL);
+        } while (status == ELLIPSOID_STOPPED);
+        assert_ok(status);
+    }
+    assert_memory_equal(&end[0], &end[1], sizeof(end[0]));
+    wall_mesh_free(&mesh);
+}
+
 /*
     Where contact sees no wall within its horizon, how long the resistance is kept
     is a matter of the planes alone: the way, in steps in which the cell goes
@@ -265,6 +322,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_coming_down),
         cmocka_unit_test(test_kept_resistance),
+        cmocka_unit_test(test_kept_and_stopped),
         cmocka_unit_test(test_kept_beyond_horizon),
         cmocka_unit_test(test_without_flow),
         cmocka_unit_test(test_two_cells),

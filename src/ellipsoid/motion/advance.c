@@ -83,28 +83,20 @@ static int blocks_kind(const ellipsoid_group *g)
 }
 
 /* Keeps the resistance near walls over a step for which it may be kept, or sees
-   to it that its derivatives are in the blocks. One that was set before may be
-   too old for a step that is longer than the last. */
+   to it that its derivatives are in the blocks. Whether they were before does
+   not matter. */
 static ellipsoid_status keep_or_not(ellipsoid_group *g,
                                     const ellipsoid_plan *planned)
 {
-    ellipsoid_kept_resistance *kept = &g->start[0].resistance;
+    const ellipsoid_kept_resistance *kept = &g->start[0].resistance;
     ellipsoid_status status = ELLIPSOID_OK;
 
-    if (kept->in_blocks && planned->h > kept->longest
-        && memcmp(kept->x, g->start[0].state.x, sizeof(kept->x)) != 0)
-    {
-        kept->is_set = 0;
-        status = ellipsoid_group_evaluate(g, planned->start, g->start, 0,
-                                          ELLIPSOID_KEEPING);
-    }
     g->kept_last = planned->h <= kept->longest;
-    if (status == ELLIPSOID_OK && g->kept_last != kept->in_blocks)
+    if (g->kept_last != kept->in_blocks)
     {
         status = ellipsoid_group_evaluate(g, planned->start, g->start, 0,
                                           blocks_kind(g));
     }
-    kept->step = planned->h;
     g->cell[0].kept = g->kept_last ? kept : NULL;
     return status;
 }
@@ -149,10 +141,6 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
         memcpy(&g->next[cell].state, y, sizeof(g->next[cell].state));
     }
     g->next_has_blocks = !planned->last;
-    if (g->keeps)
-    {
-        g->next[0].resistance = g->start[0].resistance;
-    }
     status = ellipsoid_group_evaluate(g, planned->end, g->next, !g->inertial,
                                       g->next_has_blocks ? blocks_kind(g) : 0);
     /* there is room for the couplings of one time only */
@@ -396,7 +384,6 @@ static ellipsoid_status begin(ellipsoid_group *g,
     {
         status = ellipsoid_noise_layer(g, t, end);
     }
-    g->start[0].resistance.is_set = 0;
     g->from = t;
     g->until = end;
     g->on_manifold = 0;
