@@ -22,11 +22,6 @@ namespace Foam
     //- Part of a length that the points of a mesh may be off
     static const scalar offness = 1e-4;
 
-    static bool isSymmetry(const polyPatch& pp)
-    {
-        return isA<symmetryPolyPatch>(pp) || isA<symmetryPlanePolyPatch>(pp);
-    }
-
     //- End the run because of a patch
     static void refuse
     (
@@ -154,7 +149,7 @@ Foam::domainImages::domainImages
         if (isSeam(pp) && pp.size() && !unreached.match(pp.name()))
         {
             seamAt_[pp.index()] = seams.size();
-            seams.append(isSymmetry(pp) ? symmetry(pp) : translational(pp));
+            seams.append(isMirror(pp) ? symmetry(pp) : translational(pp));
         }
     }
     seams_.transfer(seams);
@@ -163,9 +158,15 @@ Foam::domainImages::domainImages
 
 // * * * * * * * * * * * * * * Static Functions * * * * * * * * * * * * * * * //
 
+bool Foam::domainImages::isMirror(const polyPatch& pp)
+{
+    return isA<symmetryPolyPatch>(pp) || isA<symmetryPlanePolyPatch>(pp);
+}
+
+
 bool Foam::domainImages::isSeam(const polyPatch& pp)
 {
-    return isSymmetry(pp) || pp.type() == cyclicPolyPatch::typeName;
+    return isMirror(pp) || pp.type() == cyclicPolyPatch::typeName;
 }
 
 
@@ -206,11 +207,11 @@ Foam::List<Foam::vector> Foam::domainImages::periods() const
 
         for (label i = 0; i < n; ++i)
         {
-            const vector sum(sums[i] + s.inward.b());
+            const vector sum(sums[i] + s.inward.b);
             bool isNew = true;
             for (const vector& known : sums)
             {
-                isNew = isNew && mag(sum - known) > offness*mag(s.inward.b());
+                isNew = isNew && mag(sum - known) > offness*mag(s.inward.b);
             }
             if (isNew)
             {
@@ -248,14 +249,9 @@ Foam::DynamicList<Foam::isometry> Foam::domainImages::near
                 image.add(next(corner));
             }
 
-            bool isNew = image.overlaps(wide);
-            for (const isometry& known : found)
+            if (image.overlaps(wide))
             {
-                isNew = isNew && !next.alike(known, box.mag());
-            }
-            if (isNew)
-            {
-                found.append(next);
+                placeOf(next, box.mag(), found);
             }
         }
     }

@@ -261,7 +261,7 @@ namespace Foam
         const polyPatch& pp = mesh.boundaryMesh()[patchi];
         return
             !pp.coupled() && polyPatch::constraintType(pp.type())
-         && !isMirror(pp);
+         && !domainImages::isMirror(pp);
     }
 
     //- Vertices whose velocity a wall gives, or a patch of a constraint type
@@ -442,7 +442,8 @@ namespace Foam
 void Foam::frozenFlow::matchFluxes
 (
     const undecomposedFlow& undecomposed,
-    const pointImages& images
+    const pointImages& images,
+    const bitSet& fixed
 )
 {
     const polyMesh& mesh = undecomposed.mesh();
@@ -501,11 +502,6 @@ void Foam::frozenFlow::matchFluxes
     images.add(normals, mesh.nCells());
     images.add(missing, mesh.nCells());
 
-    const bitSet fixed
-    (
-        fixedVertices(mesh, tets_, images, vertices_.size())
-    );
-
     moveVertices
     (
         normals,
@@ -529,6 +525,7 @@ void Foam::frozenFlow::makeExcess
     (
         fixedVertices(mesh, tets_, images, vertices_.size())
     );
+    matchFluxes(undecomposed, images, fixed);
 
     List<FixedList<scalar, 4>> areas(tets_.size());
     List<FixedList<scalar, 4>> fluxes(tets_.size());

@@ -12,15 +12,13 @@ Description
 
 \*---------------------------------------------------------------------------*/
 #include "frozenFlow.H"
-#include "baffleSides.H"
 #include "undecomposedFlow.H"
 #include "vertexFit.H"
 #include "bitSet.H"
-#include "pointImages.H"
 #include "cyclicPolyPatch.H"
 #include "volPointInterpolation.H"
 #include "fvcGrad.H"
-#include "wallPolyPatch.H"
+#include "wallsAtVertices.H"
 #include "DynamicList.H"
 #include "transform.H"
 
@@ -371,11 +369,11 @@ namespace Foam
               ? j
               : baffles.sides()[j - mesh.nPoints()].point;
 
-            vertices[i].x =
-                j < 0 ? mesh.cellCentres()[i] : mesh.points()[pointi];
-            vertices[i].u = Zero;
-            vertices[i].gradient = Zero;
-            vertices[i].pressureGradient = Zero;
+            vertices[i] = flowVertex
+            {
+                j < 0 ? mesh.cellCentres()[i] : mesh.points()[pointi],
+                Zero, Zero, Zero
+            };
         }
     }
 
@@ -390,9 +388,8 @@ namespace Foam
         UList<flowVertex>& vertices
     )
     {
-        const fvMesh& mesh = undecomposed.mesh();
         const volVectorField& flow = undecomposed.U();
-        const label nCells = mesh.nCells();
+        const label nCells = flow.size();
         const vectorField U(atVertices(flow, images, baffles));
         const tensorField gradU
         (
@@ -405,33 +402,16 @@ namespace Foam
             atVertices((rho*fvc::grad(undecomposed.p()))(), images, baffles)
         );
 
-        // A point that a wall shares with an open patch moves with the wall,
-        // either side of a baffle by itself
-        vectorField wallU(U.size() - nCells, Zero);
-        labelList nWallFaces(wallU.size(), Zero);
-
-        for (const polyPatch& pp : mesh.boundaryMesh())
-        {
-            const vectorField& Up = flow.boundaryField()[pp.index()];
-            const label nFaces = isA<wallPolyPatch>(pp) ? pp.size() : 0;
-
-            for (label i = 0; i < nFaces; ++i)
-            {
-                for (const label pointi : pp[i])
-                {
-                    const label j = baffles.vertex(pointi, pp.faceCells()[i]);
-                    wallU[j] += Up[i];
-                    ++nWallFaces[j];
-                }
-            }
-        }
+        const wallsAtVertices walls(flow, baffles);
 
         forAll(vertices, i)
         {
+            // A point that a wall shares with an open patch moves with the
+            // wall, either side of a baffle by itself
             const label j = i - nCells;
+            const bool atWall = j >= 0 && walls.faces(j).size();
 
-            vertices[i].u =
-                j >= 0 && nWallFaces[j] ? wallU[j]/scalar(nWallFaces[j]) : U[i];
+            vertices[i].u = atWall ? walls.mean(walls.faces(j)) : U[i];
             vertices[i].gradient = gradU[i].T();
             vertices[i].pressureGradient = gradp[i];
         }
@@ -462,7 +442,6 @@ void Foam::frozenFlow::setFlow
             vertices_[i].u = fit.u[i];
             vertices_[i].gradient = fit.gradient[i];
         }
-        matchFluxes(undecomposed, images);
         makeExcess(undecomposed, images);
     }
     else if (scheme_ == stPartitionOfUnity)

@@ -287,7 +287,7 @@ bool Foam::frozenFlow::find(const point& x, probe& at) const
         at.tet = teti;
 
         isometry image;
-        if (locate(x, at, image) == pInside && image.isIdentity())
+        if (locate(x, at, &image) == pInside && image.isIdentity())
         {
             return true;
         }
@@ -300,25 +300,13 @@ bool Foam::frozenFlow::find(const point& x, probe& at) const
 Foam::frozenFlow::locationType Foam::frozenFlow::locate
 (
     const point& x,
-    probe& at
-) const
-{
-    tetCoordinates c;
-
-    return walk(x, at, c);
-}
-
-
-Foam::frozenFlow::locationType Foam::frozenFlow::locate
-(
-    const point& x,
     probe& at,
-    isometry& image
+    isometry* image
 ) const
 {
     tetCoordinates c;
 
-    return walk(x, at, c, &image);
+    return walk(x, at, c, image);
 }
 
 

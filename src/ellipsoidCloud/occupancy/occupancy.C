@@ -11,23 +11,6 @@ License
 #include "surfaceFields.H"
 #include "volFields.H"
 
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-    //- From the body to the lab
-    static tensor rotationOf(const scalar q[4])
-    {
-        scalar rotation[3][3];
-        ellipsoid_rotation(q, rotation);
-
-        tensor R;
-        std::copy_n(&rotation[0][0], 9, R.v_);
-        return R;
-    }
-}
-
-
 // * * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * //
 
 const Foam::Enum<Foam::occupancy::flowType> Foam::occupancy::flowNames
