@@ -89,25 +89,11 @@ Foam::domainImages::seam Foam::domainImages::translational(const polyPatch& pp)
     const cyclicPolyPatch& half = refCast<const cyclicPolyPatch>(pp);
     const cyclicPolyPatch& other = half.neighbPatch();
 
-    vector shift(Zero);
-    forAll(half, i)
-    {
-        shift += other.faceCentres()[i] - half.faceCentres()[i];
-    }
-    shift /= half.size();
-
-    scalar off = 0;
-    forAll(half, i)
-    {
-        off = max
-        (
-            off,
-            mag(other.faceCentres()[i] - half.faceCentres()[i] - shift)
-        );
-    }
-
+    const vectorField shifts(other.faceCentres() - half.faceCentres());
+    const vector shift(sum(shifts)/scalar(half.size()));
     const pointField& points = half.boundaryMesh().mesh().points();
-    if (off > offness*boundBox(points, false).mag())
+
+    if (max(mag(shifts - shift)) > offness*boundBox(points, false).mag())
     {
         refuse
         (

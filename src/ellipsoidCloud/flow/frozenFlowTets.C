@@ -274,18 +274,6 @@ namespace Foam
         }
     }
 
-    //- The number of tetrahedra of a mesh
-    static label nTetsOf(const polyMesh& mesh)
-    {
-        label n = 0;
-        forAll(mesh.faces(), facei)
-        {
-            const label nSides = 1 + mesh.isInternalFace(facei);
-            n += nSides*(mesh.faces()[facei].size() - 2);
-        }
-        return n;
-    }
-
     //- The tetrahedra of a mesh, and the first of each cell
     static void makeTets
     (
@@ -428,26 +416,27 @@ void Foam::frozenFlow::setFlow
     const baffleSides& baffles
 )
 {
+    UList<flowVertex>& vertices = values_.vertices;
     const bool interpolated =
         scheme_ == stCellPoint || scheme_ == stCellPointQuadratic;
-    setVertices(undecomposed, rho, images_, baffles, interpolated, vertices_);
+    setVertices(undecomposed, rho, images_, baffles, interpolated, vertices);
 
     if (scheme_ == stDivergenceFree)
     {
         const pointImages images(undecomposed.mesh(), images_);
         const vertexFit fit(undecomposed.U(), baffles, images);
 
-        forAll(vertices_, i)
+        forAll(vertices, i)
         {
-            vertices_[i].u = fit.u[i];
-            vertices_[i].gradient = fit.gradient[i];
+            vertices[i].u = fit.u[i];
+            vertices[i].gradient = fit.gradient[i];
         }
         makeExcess(undecomposed, images);
     }
     else if (scheme_ == stPartitionOfUnity)
     {
         const pointImages images(undecomposed.mesh(), images_);
-        unity_.setFits(undecomposed.U(), baffles, images, fits_);
+        unity_.setFits(undecomposed.U(), baffles, images, values_.fits);
     }
 }
 
@@ -470,15 +459,19 @@ void Foam::frozenFlow::make
         const fvMesh& mesh = undecomposed.mesh();
         baffles.reset(new baffleSides(mesh));
         nVertices = mesh.nCells() + mesh.nPoints() + baffles->sides().size();
-        nTets = nTetsOf(mesh);
+        forAll(mesh.faces(), facei)
+        {
+            const label nSides = 1 + mesh.isInternalFace(facei);
+            nTets += nSides*(mesh.faces()[facei].size() - 2);
+        }
     }
 
     cellTets_.reset(master ? undecomposed.mesh().nCells() + 1 : 0);
     tets_.reset(nTets);
-    vertices_.reset(nVertices);
+    values_.vertices.reset(nVertices);
     if (scheme_ == stDivergenceFree)
     {
-        excess_.reset(nTets);
+        values_.excess.reset(nTets);
     }
     if (hasField)
     {
@@ -494,8 +487,8 @@ void Foam::frozenFlow::make
         (
             mesh, *baffles, scheme_ == stDivergenceFree, cellTets_, tets_
         );
-        makeVertices(mesh, *baffles, vertices_);
-        static_cast<UList<flowTetExcess>&>(excess_) =
+        makeVertices(mesh, *baffles, values_.vertices);
+        static_cast<UList<flowTetExcess>&>(values_.excess) =
             flowTetExcess{{0, 0, 0, 0}, 0};
 
         if (hasField)
@@ -522,16 +515,14 @@ void Foam::frozenFlow::make
             baffles.get(),
             images_,
             tets_,
-            vertices_
+            values_.vertices
         );
-        fits_.reset(unity_.nFits());
+        values_.fits.reset(unity_.nFits());
     }
 
     cellTets_.share();
     tets_.share();
-    vertices_.share();
-    excess_.share();
-    fits_.share();
+    values_.share();
     field_.share();
 }
 

@@ -134,15 +134,11 @@ void Foam::partitionCells::addImages
             {
                 for (const labelPair& beyond : *found)
                 {
+                    const isometry& way = ways[node.second()];
                     const auto& seam = images.seams()[beyond.second()];
-                    const isometry way
-                    (
-                        ways[node.second()].after(seam.inward.inverse())
-                    );
-                    next.append
-                    (
-                        labelPair(beyond.first(), placeOf(way, size, ways))
-                    );
+                    const isometry on(way.after(seam.inward.inverse()));
+                    const label to = placeOf(on, size, ways);
+                    next.append(labelPair(beyond.first(), to));
                 }
             }
         };
@@ -156,6 +152,7 @@ void Foam::partitionCells::addImages
                 if (n.second() && labels.insert(n, nCells + nodes.size()))
                 {
                     nodes.append(n);
+                    images_.append(imageCell{n.first(), ways[n.second()]});
                 }
             }
         };
@@ -188,11 +185,6 @@ void Foam::partitionCells::addImages
         }
     }
     start.append(all.size());
-
-    for (const labelPair& node : nodes)
-    {
-        images_.append(imageCell{node.first(), ways[node.second()]});
-    }
     start_.transfer(start);
     around_.transfer(all);
 }

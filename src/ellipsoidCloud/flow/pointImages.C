@@ -61,11 +61,9 @@ void Foam::pointImages::findImages
                 const vector shift(x[from.point] - x[other]);
                 add(other, from.image.after(isometry::translation(shift)));
             }
-            const auto found = mirrors.cfind(from.point);
-            const label n = found.found() ? (*found).size() : 0;
-            for (label k = 0; k < n; ++k)
+            for (const isometry& mirror : mirrors(from.point))
             {
-                add(from.point, from.image.after((*found)[k]));
+                add(from.point, from.image.after(mirror));
             }
         }
 

@@ -314,14 +314,12 @@ Foam::List<Foam::heldBody> Foam::occupancy::bodies
     {
         if (held_.found(cell.id))
         {
-            const double* a = population_.model(cell.id).options.semi_axes;
-
             found.append
             (
                 heldBody
                 {
                     cell.id, cell.patch, cell.centre(), rotationOf(cell.body.q),
-                    vector(a[0], a[1], a[2])
+                    pointOf(population_.model(cell.id).options.semi_axes)
                 }
             );
         }

@@ -9,7 +9,6 @@ License
 \*---------------------------------------------------------------------------*/
 #include "cellTracks.H"
 #include "atomicWrite.H"
-#include "PstreamReduceOps.H"
 #include "stringOps.H"
 #include "vtkPolyData.H"
 
