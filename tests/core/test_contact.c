@@ -410,6 +410,7 @@ static void test_failures_have_names(void **unused)
     x[1] = 0;
     mesh.facets[0].middle[2] = INFINITY;
     walls.farther = 100 * um;
+    ellipsoid_facet_cache_clear(&cache);
     assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
                                                 &cache, &contact, NULL),
                      ELLIPSOID_NON_FINITE);
@@ -421,6 +422,7 @@ static void test_failures_have_names(void **unused)
     wall_mesh_finish(&mesh);
     walls.farther = 0;
     lay(q, 0.1);
+    ellipsoid_facet_cache_clear(&cache);
     assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
                                          &contact, NULL));
     wall_mesh_free(&mesh);
