@@ -201,7 +201,11 @@ list_about(ellipsoid_facet_cache *cache,
         cache->about_reach = list->reach;
         cache->about_facets = list->facets;
         ellipsoid_copy(x, cache->about_x);
-        memcpy(cache->about, list->index, list->count * sizeof *list->index);
+        if (list->count > 0)
+        {
+            memcpy(cache->about, list->index,
+                   list->count * sizeof *list->index);
+        }
     }
     return ELLIPSOID_OK;
 }
