@@ -8,9 +8,9 @@
     The cache holds, for the pose at which it was filled, for each bead every
     facet that it may be in contact with, within the horizon, while no bead has
     moved farther than the margin (facetSearch.c); where there is none, the
-    margin is how far the beads may move until there is one. Facets without a contact add
-    nothing, and the others come in their own order, so a result does not
-    depend, not by a bit, on the pose at which the cache was filled.
+    margin is how far the beads may move until there is one. Facets without a
+    contact add nothing, and the others come in their own order, so a result does
+    not depend, not by a bit, on the pose at which the cache was filled.
 */
 #include "walls/walls.h"
 
