@@ -296,6 +296,10 @@ bool Foam::functionObjects::ellipsoidTracking::end()
     else
     {
         cells_->finish();
+
+        // A solver's mesh is gone before its function objects are
+        cells_.clear();
+        idle_ = true;
     }
 
     return true;
