@@ -8,7 +8,6 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "ellipsoidCloud.H"
-#include "atomicWrite.H"
 #include "caseSummary.H"
 #include "electricField.H"
 #include "masterGate.H"

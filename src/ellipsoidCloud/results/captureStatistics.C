@@ -120,11 +120,9 @@ void Foam::captureStatistics::update(const UList<cellState>& cells)
         if (cell.fate != cellState::waiting)
         {
             cellState& last = cells_[cell.id].last;
-            last.body = cell.body;
-            last.unfold = cell.unfold;
-            last.deepest = cell.deepest;
-            last.deepestCell = cell.deepestCell;
-            last.imbalance = cell.imbalance;
+            const scalar since = last.time;
+            last = cell;
+            last.time = since;
         }
     }
 }
