@@ -15,11 +15,7 @@ void Foam::captureStatistics::count(const cellEvent& event)
 {
     const cellState& now = event.cell;
 
-    if (!cells_.found(now.id))
-    {
-        cells_.insert(now.id, record{now, now, now.time, -1, -1});
-    }
-    else
+    if (!cells_.insert(now.id, record{now, now, now.time, -1, -1}))
     {
         --counts_[cells_[now.id].last.fate];
     }
