@@ -9,7 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "checkedEntries.H"
-#include "dimensionSets.H"
+#include "dimensionedTypes.H"
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
