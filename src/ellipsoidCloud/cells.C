@@ -25,6 +25,7 @@ Description
 #include "cloud/caseSummary.C"
 #include "cloud/cellParticles.C"
 #include "cloud/cellState.C"
+#include "cloud/checkedEntries.C"
 #include "cloud/ellipsoidCloud.C"
 #include "cloud/ellipsoidCloudFiles.C"
 #include "cloud/ellipsoidCloudRun.C"

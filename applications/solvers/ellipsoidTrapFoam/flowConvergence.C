@@ -9,7 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "flowConvergence.H"
-#include "ellipsoidProperties.H"
+#include "checkedEntries.H"
 #include "fvcDiv.H"
 #include "fvMesh.H"
 #include "masterGate.H"
@@ -151,18 +151,16 @@ Foam::flowConvergence::flowConvergence
     through_(),
     history_()
 {
-    typedef ellipsoidProperties entries;
-
     const masterGate once;
 
     const dictionary targets(dict.subOrEmptyDict("residualControl"));
 
-    fluxTolerance_ = entries::number(dict, "fluxTolerance", above(0), 1e-4);
-    fluxWindow_ = entries::number(dict, "fluxWindow", atLeast(1), fluxWindow);
+    fluxTolerance_ = checkedNumber(dict, "fluxTolerance", above(0), 1e-4);
+    fluxWindow_ = checkedNumber(dict, "fluxWindow", atLeast(1), fluxWindow);
 
     target_ = fluxTolerance_;
-    target_[mPressure] = entries::number(targets, "p", above(0), 1e-5);
-    target_[mVelocity] = entries::number(targets, "U", above(0), 1e-5);
+    target_[mPressure] = checkedNumber(targets, "p", above(0), 1e-5);
+    target_[mVelocity] = checkedNumber(targets, "U", above(0), 1e-5);
 }
 
 

@@ -9,9 +9,9 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "flowFields.H"
+#include "checkedEntries.H"
 #include "checkFinite.H"
 #include "dictionary.H"
-#include "ellipsoidProperties.H"
 #include "fileOperation.H"
 #include "fvcFlux.H"
 #include "fvcSurfaceIntegrate.H"
@@ -263,7 +263,7 @@ Foam::flowFields::solveType Foam::flowFields::solveOf(const fvMesh& mesh)
     const dictionary& dict = controls(mesh);
     const masterGate once;
 
-    ellipsoidProperties::checkKeywords
+    checkKeywords
     (
         dict, {"solve", "continuityTolerance", "fluxTolerance"}
     );
@@ -285,13 +285,11 @@ bool Foam::flowFields::accept()
 
     scalar continuityTolerance, fluxTolerance;
     {
-        typedef ellipsoidProperties entries;
         const dictionary& dict = controls(mesh_);
         const masterGate once;
         continuityTolerance =
-            entries::number(dict, "continuityTolerance", above(0), 1e-3);
-        fluxTolerance =
-            entries::number(dict, "fluxTolerance", above(0), 0.1);
+            checkedNumber(dict, "continuityTolerance", above(0), 1e-3);
+        fluxTolerance = checkedNumber(dict, "fluxTolerance", above(0), 0.1);
     }
 
     const surfaceScalarField ofU(fvc::flux(U_));

@@ -18,7 +18,7 @@ License
 void Foam::occupiedFlow::makeOwn()
 {
     const undecomposedFlow::serialScope serial;
-    const fvMesh& mesh = cells_.undecomposedMesh();
+    const fvMesh& mesh = cells_.undecomposed().mesh();
 
     if (mesh.solverDict("p").get<word>("solver") == "GAMG")
     {
@@ -31,14 +31,9 @@ void Foam::occupiedFlow::makeOwn()
     own_.reset(new steadyFlow(mesh, flowFields::YES));
     flow_ = own_.get();
 
-    const scalarField differences
-    (
-        mag
-        (
-            flow_->U().primitiveField() - cells_.undecomposedU().primitiveField()
-        )
-    );
-    const scalar fastest = max(mag(cells_.undecomposedU().primitiveField()));
+    const vectorField& ofParts = cells_.undecomposed().U().primitiveField();
+    const scalarField differences(mag(flow_->U().primitiveField() - ofParts));
+    const scalar fastest = max(mag(ofParts));
 
     // decomposePar rounds to writePrecision
     if (!(max(differences) <= 1e-4*fastest))

@@ -9,9 +9,9 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "steadyFlow.H"
+#include "checkedEntries.H"
 #include "clockTime.H"
 #include "coupledFlow.H"
-#include "ellipsoidProperties.H"
 #include "findRefCell.H"
 #include "IOdictionary.H"
 #include "fvMatrices.H"
@@ -56,7 +56,7 @@ static label wholeNumber
 )
 {
     const masterGate once;
-    return ellipsoidProperties::number(dict, keyword, atLeast(least), deflt);
+    return checkedNumber(dict, keyword, atLeast(least), deflt);
 }
 
 } // End namespace Foam

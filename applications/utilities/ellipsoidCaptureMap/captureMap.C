@@ -23,22 +23,19 @@ const Foam::label Foam::captureMap::mostFirst_;
 
 Foam::label Foam::captureMap::readSquares(const dictionary& dict)
 {
-    return ellipsoidProperties::number(dict, "squares", within(1, 1000), 64);
+    return checkedNumber(dict, "squares", within(1, 1000), 64);
 }
 
 
 Foam::label Foam::captureMap::readLevels(const dictionary& dict)
 {
-    return ellipsoidProperties::number(dict, "levels", within(0, 10), 3);
+    return checkedNumber(dict, "levels", within(0, 10), 3);
 }
 
 
 Foam::label Foam::captureMap::readMostCells(const dictionary& dict)
 {
-    return ellipsoidProperties::number
-    (
-        dict, "mostCells", within(1, 10000000), 20000
-    );
+    return checkedNumber(dict, "mostCells", within(1, 10000000), 20000);
 }
 
 
@@ -64,7 +61,7 @@ Foam::List<Foam::captureMap::pose> Foam::captureMap::readPoses
         const dictionary& one = e.dict();
         const cellOrientation orientation(one);
 
-        ellipsoidProperties::checkKeywords
+        checkKeywords
         (
             one,
             orientation.random()
@@ -72,10 +69,7 @@ Foam::List<Foam::captureMap::pose> Foam::captureMap::readPoses
           : wordList({"orientation", "axis", "quaternion", "eulerAngles"})
         );
 
-        const label n = ellipsoidProperties::number
-        (
-            one, "number", within(1, 1000), 1
-        );
+        const label n = checkedNumber(one, "number", within(1, 1000), 1);
 
         for (label i = 0; i < n; ++i)
         {
@@ -428,7 +422,7 @@ void Foam::captureMap::check
     const label seed
 )
 {
-    ellipsoidProperties::checkKeywords
+    checkKeywords
     (
         dict,
         {
@@ -440,7 +434,7 @@ void Foam::captureMap::check
     readSquares(dict);
     readLevels(dict);
     readMostCells(dict);
-    ellipsoidProperties::number<scalar>(dict, "endTime", above(0));
+    checkedNumber<scalar>(dict, "endTime", above(0));
     readPoses(dict, seed);
 }
 

@@ -81,10 +81,7 @@ static void checkCase
     const masterGate once;
 
     captureMap::check(dict, mesh.boundaryMesh(), seed);
-    ellipsoidProperties::number<scalar>
-    (
-        runTime.controlDict(), "deltaT", above(0)
-    );
+    checkedNumber<scalar>(runTime.controlDict(), "deltaT", above(0));
 
     if (!solved)
     {

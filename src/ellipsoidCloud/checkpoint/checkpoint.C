@@ -60,23 +60,17 @@ namespace Foam
     //- Is the run to go on from the latest time there is? Collective
     static bool fromLatestTime(const argList& args)
     {
-        // What is wrong with the file the Time will say
-        string text;
-        if (Pstream::master())
-        {
-            text = textOf
-            (
-                args.rootPath()/args.globalCaseName()/"system"/"controlDict"
-            );
-        }
+        const fileName path(args.rootPath()/args.globalCaseName());
+        string text(textOf(path/"system"/"controlDict"));
         broadcast(text);
 
+        // What is wrong with the file the Time will say
+        const dictionary control(parsed(text, "controlDict"));
+        const word latest("latestTime");
+
         return
-            !text.empty()
-         && parsed(text, "controlDict").getOrDefault<word>
-            (
-                "startFrom", "latestTime"
-            ) == "latestTime";
+            control.size()
+         && control.getOrDefault("startFrom", latest) == latest;
     }
 
     //- The time directories of all ranks, in ascending order; collective
@@ -112,21 +106,16 @@ namespace Foam
         for (const entry& e : then)
         {
             const entry& other = *now.findEntry(e.keyword());
-            string text;
 
-            if (e.isDict() && other.isDict())
+            if (e != other && e.isDict())
             {
-                text = difference(e.dict(), other.dict());
+                return ' ' + e.keyword() + difference(e.dict(), other.dict());
             }
-            else if (e != other)
+            if (e != other)
             {
-                os  << ": " << e.stream().first() << " then, "
-                    << other.stream().first() << " now";
-                text = os.str();
-            }
-            if (!text.empty())
-            {
-                return ' ' + e.keyword() + text;
+                os  << ' ' << e.keyword() << ": " << e.stream().first()
+                    << " then, " << other.stream().first() << " now";
+                return os.str();
             }
         }
 
@@ -244,17 +233,13 @@ Foam::checkpoint::checkpoint(const Time& time)
     const List<string> marks(fromAllRanks(readMark(path_)));
     const fileName name(path_/markFile);
     const dictionary mark(parsed(marks[Pstream::myProcNo()], name));
-    bool all = true;
 
-    for (const string& text : marks)
+    for (label ranki = 0; notes_.empty() && ranki < marks.size(); ++ranki)
     {
-        all = all && !text.empty();
-        if (notes_.empty())
-        {
-            notes_ = parsed(text, name);
-        }
+        notes_ = parsed(marks[ranki], name);
     }
 
+    const bool all = !marks.found(string());
     const bool copies = copied(mark, path_);
 
     // Where ranks share a file the folder is another, and asking is collective

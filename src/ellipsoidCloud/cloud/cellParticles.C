@@ -12,50 +12,13 @@ License
 #include "atomicWrite.H"
 #include "cellPoses.H"
 #include "ellipsoidParcel.H"
-#include "foamVersions.H"
 #include "frozenFlow.H"
 #include "IOField.H"
 #include "polyMesh.H"
-#include "Time.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
 const Foam::word Foam::cellParticles::cloudName("ellipsoidCloud");
-
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-    //- Takes fields into a registry
-    struct registryTaker
-    {
-        objectRegistry& obr;
-
-        template<class Type>
-        void operator()(const word& name, const Field<Type>& values) const
-        {
-            cloud::createIOField<Type>(name, values.size(), obr)
-                .Field<Type>::operator=(values);
-        }
-    };
-
-    //- Takes fields into files of a cloud
-    struct fileTaker
-    {
-        const Cloud<ellipsoidParcel>& c;
-
-        template<class Type>
-        void operator()(const word& name, const Field<Type>& values) const
-        {
-            IOField<Type> field
-            (
-                fieldFile(c, name, IOobject::NO_READ), values
-            );
-            atomicWrite(field, values.size() > 0);
-        }
-    };
-}
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -79,18 +42,26 @@ Foam::cellParticles::local(const bool waiting) const
 }
 
 
-template<class Taker>
 void Foam::cellParticles::giveFields
 (
     const UList<particle>& cells,
-    const Taker& take
+    objectRegistry& obr
 ) const
 {
     const label n = cells.size();
-    labelField id(n), fate(n), sieve(n);
-    vectorField U(n), omega(n), O(n), semiAxes(n);
-    FixedList<scalarField, 4> q(scalarField(n, Zero));
-    tensorField axes(n);
+
+    labelField& id = createIOField<label>("id", n, obr);
+    labelField& fate = createIOField<label>("fate", n, obr);
+    labelField& sieve = createIOField<label>("sieve", n, obr);
+    vectorField& U = createIOField<vector>("U", n, obr);
+    vectorField& omega = createIOField<vector>("omega", n, obr);
+    vectorField& O = createIOField<vector>("O", n, obr);
+    scalarField& eps1 = createIOField<scalar>("eps1", n, obr);
+    scalarField& eps2 = createIOField<scalar>("eps2", n, obr);
+    scalarField& eps3 = createIOField<scalar>("eps3", n, obr);
+    scalarField& eta = createIOField<scalar>("eta", n, obr);
+    vectorField& semiAxes = createIOField<vector>("semiAxes", n, obr);
+    tensorField& axes = createIOField<tensor>("axes", n, obr);
 
     forAll(cells, i)
     {
@@ -102,26 +73,13 @@ void Foam::cellParticles::giveFields
         U[i] = pointOf(cell.body.u);
         omega[i] = pointOf(cell.body.omega);
         O[i] = longAxis(cell.body.q);
-        for (label d = 0; d < 4; ++d)
-        {
-            q[d][i] = cell.body.q[d];
-        }
+        eps1[i] = cell.body.q[0];
+        eps2[i] = cell.body.q[1];
+        eps3[i] = cell.body.q[2];
+        eta[i] = cell.body.q[3];
         semiAxes[i] = pointOf(population_.model(cell.id).options.semi_axes);
         axes[i] = fullAxes(cell, population_);
     }
-
-    take("id", id);
-    take("fate", fate);
-    take("sieve", sieve);
-    take("U", U);
-    take("omega", omega);
-    take("O", O);
-    take("eps1", q[0]);
-    take("eps2", q[1]);
-    take("eps3", q[2]);
-    take("eta", q[3]);
-    take("semiAxes", semiAxes);
-    take("axes", axes);
 }
 
 
@@ -158,7 +116,7 @@ void Foam::cellParticles::writeObjects(objectRegistry& obr) const
         position[i] = cells[i].first.centre();
     }
 
-    giveFields(cells, registryTaker{obr});
+    giveFields(cells, obr);
 }
 
 
@@ -192,7 +150,15 @@ void Foam::cellParticles::writeFiles(const label nEver) const
         else
         {
             ellipsoidParcel::writeFields(c);
-            giveFields(particles, fileTaker{c});
+            giveFields(particles, c);
+            for (const word& name : c.sortedNames())
+            {
+                atomicWrite
+                (
+                    c.lookupObjectRef<regIOobject>(name),
+                    particles.size() > 0
+                );
+            }
         }
     }
 }

@@ -8,7 +8,6 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "ellipsoidCloud.H"
-#include "atomicWrite.H"
 #include "caseSummary.H"
 #include "electricField.H"
 #include "masterGate.H"
@@ -168,8 +167,7 @@ void Foam::ellipsoidCloud::checkImages(const domainImages& images) const
          && properties_.section("occupancy").getOrDefault("active", false)
         )
         {
-            const word& name =
-                undecomposedMesh().boundaryMesh()[seam.patch].name();
+            const word& name = mesh_.boundaryMesh()[seam.patch].name();
 
             FatalIOErrorInFunction(properties_)
                 << "cells pass cyclic patch " << name
@@ -284,9 +282,11 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
 
         if (Pstream::master())
         {
-            images = domainImages(undecomposedMesh(), properties_.unreached());
+            const fvMesh& whole = undecomposed_->mesh();
+
+            images = domainImages(whole, properties_.unreached());
             checkImages(images);
-            meshNotes_ = checkpoint::notesOf(undecomposed_->mesh());
+            meshNotes_ = checkpoint::notesOf(whole);
             earlier_.checkMesh(meshNotes_);
         }
     }
@@ -300,7 +300,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
 
         if (Pstream::master())
         {
-            const fvMesh& whole = undecomposedMesh();
+            const fvMesh& whole = undecomposed_->mesh();
             const scalar width = 2*shortestSemiAxis(properties_.options());
 
             // The function object has told it before the solver began

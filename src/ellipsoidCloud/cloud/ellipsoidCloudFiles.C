@@ -70,11 +70,8 @@ void Foam::ellipsoidCloud::makeTables()
 
 void Foam::ellipsoidCloud::readCells()
 {
-    for
-    (
-        const List<cellState>& some
-      : fromAllRanks(ellipsoidParcel::read(mesh_))
-    )
+    const List<cellState> own(ellipsoidParcel::read(mesh_));
+    for (const List<cellState>& some : fromAllRanks(own))
     {
         cells_.append(some);
     }
@@ -83,28 +80,26 @@ void Foam::ellipsoidCloud::readCells()
     const masterGate once;
     for (const cellState& cell : cells_)
     {
-        const string complaint
-        (
-            ellipsoidProperties::complaint(population_.optionsOf(cell.size))
-        );
+        const string complaint(population_.complaint(cell.size));
         if (!complaint.empty())
         {
-            refuseCells
-            (
-                "cell " + Foam::name(cell.id) + " has a size for which "
-              + complaint
-            );
+            refuse(cell.id, "has a size for which " + complaint);
         }
         population_.take(cell.id, cell.size);
     }
 }
 
 
-void Foam::ellipsoidCloud::refuseCells(const string& complaint) const
+void Foam::ellipsoidCloud::refuse
+(
+    const label id,
+    const string& complaint
+) const
 {
     FatalErrorInFunction
-        << "time " << mesh_.time().timeName() << ": " << complaint.c_str()
-        << nl << "    Its folder lagrangian/" << ellipsoidParcel::cloudName
+        << "time " << mesh_.time().timeName() << ": cell " << id << ' '
+        << complaint.c_str() << nl
+        << "    Its folder lagrangian/" << ellipsoidParcel::cloudName
         << " is incomplete or of another run: go on from another time"
         << exit(FatalError);
 }
@@ -127,11 +122,7 @@ void Foam::ellipsoidCloud::checkPlaces() const
          || domain_->flow.locate(x, at) != frozenFlow::pInside
         )
         {
-            refuseCells
-            (
-                "cell " + Foam::name(cell.id) + " at " + shortText(x)
-              + " is outside the mesh"
-            );
+            refuse(cell.id, "at " + shortText(x) + " is outside the mesh");
         }
     }
 }
@@ -150,27 +141,20 @@ void Foam::ellipsoidCloud::checkCells() const
 
     forAll(cells_, i)
     {
-        const string its("cell " + Foam::name(cells_[i].id));
+        const label id = cells_[i].id;
 
-        if (i > 0 && cells_[i].id == cells_[i - 1].id)
+        if (i > 0 && id == cells_[i - 1].id)
         {
-            refuseCells(its + " is there twice");
+            refuse(id, "is there twice");
         }
-        if (!missing.erase(cells_[i].id))
+        if (!missing.erase(id))
         {
-            refuseCells
-            (
-                its + " is there, but by the log of events not in the device"
-            );
+            refuse(id, "is there, but by the log of events not in the device");
         }
     }
-    if (!missing.empty())
+    for (const label id : missing.sortedToc())
     {
-        refuseCells
-        (
-            "cell " + Foam::name(missing.sortedToc()[0])
-          + " is missing, but by the log of events in the device"
-        );
+        refuse(id, "is missing, but by the log of events in the device");
     }
 }
 

@@ -95,7 +95,7 @@ namespace Foam
         const word keyword(option.entry);
 
         return
-            ellipsoidProperties::hasUnit
+            hasUnit
             (
                 dict, keyword, nameOf(option), option.unit
             )
@@ -148,7 +148,7 @@ namespace Foam
                 }
                 if (!option.words[value])
                 {
-                    ellipsoidProperties::refuse
+                    refuseEntry
                     (
                         dict, keyword, nameOf(option), option.range
                     );
@@ -248,7 +248,7 @@ void Foam::ellipsoidProperties::checkOptions() const
 
     if (dict.found(option.entry))
     {
-        refuse(dict, option.entry, nameOf(option), range);
+        refuseEntry(dict, option.entry, nameOf(option), range);
     }
 
     FatalIOErrorInFunction(*this)
@@ -259,59 +259,6 @@ void Foam::ellipsoidProperties::checkOptions() const
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-bool Foam::ellipsoidProperties::hasUnit
-(
-    const dictionary& dict,
-    const word& keyword,
-    const string& name,
-    const word& unit
-)
-{
-    static const HashTable<dimensionSet> units
-    ({
-        {"", dimless},
-        {"C", dimCurrent*dimTime},
-        {"C m", dimCurrent*dimTime*dimLength},
-        {"K", dimTemperature},
-        {"N", dimForce},
-        {"N m", dimForce*dimLength},
-        {"Pa", dimPressure},
-        {"V/m", dimForce/(dimCurrent*dimTime)},
-        {"kg/m3", dimDensity},
-        {"m", dimLength},
-        {"m/s", dimVelocity},
-        {"m/s2", dimAcceleration},
-        {"m2/s", dimViscosity},
-        {"s", dimTime},
-        {"s/m", dimless/dimVelocity}
-    });
-    ITstream is(dict.lookup(keyword));
-
-    if (is.empty() || is.first() != token::BEGIN_SQR)
-    {
-        return false;
-    }
-
-    const dimensionSet& expected = units[unit];
-    dimensionSet given(dimless);
-    is >> given;
-
-    if (given != expected)
-    {
-        refuse
-        (
-            dict,
-            keyword,
-            name,
-            (unit.empty() ? "no unit" : unit) + ", the dimensions "
-          + shortText(expected)
-        );
-    }
-
-    return true;
-}
-
 
 Foam::string Foam::ellipsoidProperties::complaint
 (

@@ -111,23 +111,6 @@ namespace Foam
 
     static_assert(fills(0, 0), "cellFields lacks a member of cellState");
 
-    //- Name of the file of a component
-    static word fileOf(const cellField& field, const int component)
-    {
-        return
-            field.count > 1
-          ? word(field.name + Foam::name(component))
-          : word(field.name);
-    }
-
-    //- Is a member kept in files? What unfolds a way only where it can fold
-    static bool isKept(const cellField& field, const polyMesh& mesh)
-    {
-        return
-            field.offset != offsetof(cellState, unfold)
-         || domainImages::any(mesh.boundaryMesh());
-    }
-
     //- Read a member of the states from its files, or write it
     template<class Type>
     static void transfer
@@ -140,9 +123,10 @@ namespace Foam
     {
         for (int d = 0; d < field.count; ++d)
         {
+            const std::string component(field.count > 1 ? name(d) : "");
             IOField<Type> values
             (
-                fieldFile(c, fileOf(field, d), option), cells.size() > 0
+                fieldFile(c, field.name + component, option), cells.size() > 0
             );
             const bool read = option == IOobject::MUST_READ;
             if (read)
@@ -170,7 +154,7 @@ namespace Foam
         }
     }
 
-    //- All members that are kept
+    //- All members; what unfolds a way only where it can fold
     static void transferAll
     (
         const Cloud<ellipsoidParcel>& c,
@@ -178,9 +162,11 @@ namespace Foam
         const IOobject::readOption option
     )
     {
+        const bool folds = domainImages::any(c.pMesh().boundaryMesh());
+
         for (const cellField& field : cellFields)
         {
-            if (!isKept(field, c.pMesh()))
+            if (field.offset == offsetof(cellState, unfold) && !folds)
             {
                 continue;
             }

@@ -150,8 +150,7 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
             "ellipsoidCloudProperties",
             mesh.time().constant(),
             mesh,
-            IOobject::MUST_READ,
-            IOobject::NO_WRITE
+            IOobject::MUST_READ
         )
     ),
     options_(ellipsoid_options_default())
@@ -170,81 +169,6 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     readOptions();
     checkOptions();
     checkPatches(mesh.boundaryMesh());
-}
-
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-Foam::wordRes Foam::ellipsoidProperties::unreached() const
-{
-    return getOrDefault("unreached", wordRes());
-}
-
-
-void Foam::ellipsoidProperties::checkKeywords
-(
-    const dictionary& dict,
-    const wordList& allowed
-)
-{
-    for (const entry& e : dict)
-    {
-        // _NAME is a variable for other entries
-        if (!allowed.found(e.keyword()) && e.keyword()[0] != '_')
-        {
-            FatalIOErrorInFunction(dict)
-                << "unknown keyword " << e.keyword();
-
-            if (e.startLineNumber() > 0)
-            {
-                FatalIOError<< " (line " << e.startLineNumber() << ")";
-            }
-
-            FatalIOError<< nl
-                << "    allowed: " << flatOutput(allowed)
-                << exit(FatalIOError);
-        }
-    }
-}
-
-
-void Foam::ellipsoidProperties::refuse
-(
-    const dictionary& dict,
-    const word& keyword,
-    const string& name,
-    const string& range
-)
-{
-    const ITstream& is = dict.lookupEntry(keyword, keyType::LITERAL).stream();
-
-    FatalIOErrorInFunction(is) << name.c_str();
-
-    // With fewer digits than files have
-    for (const token& t : static_cast<const tokenList&>(is))
-    {
-        FatalIOError<< ' ' << shortText(t).c_str();
-    }
-
-    FatalIOError
-        << " is out of range" << nl
-        << "    allowed: " << range.c_str() << exit(FatalIOError);
-}
-
-
-Foam::string Foam::entryRange::text(const bool whole) const
-{
-    const string from(whole ? Foam::name(label(low)) : Foam::name(low));
-
-    if (high < VGREAT)
-    {
-        const string to(whole ? Foam::name(label(high)) : Foam::name(high));
-        return (whole ? "whole numbers from " : "") + from + " to " + to;
-    }
-
-    return
-        open ? "above " + from
-      : (whole ? "a whole number, " : "") + from + " or more";
 }
 
 

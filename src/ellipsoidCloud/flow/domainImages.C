@@ -216,10 +216,7 @@ Foam::DynamicList<Foam::isometry> Foam::domainImages::near
     const scalar far
 ) const
 {
-    boundBox wide(box);
-    wide.min() -= far*vector::one;
-    wide.max() += far*vector::one;
-
+    const boundBox wide(widened(box, far));
     const pointField corners(box.points());
     DynamicList<isometry> found;
     found.append(isometry());

@@ -8,7 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "electricField.H"
-#include "ellipsoidProperties.H"
+#include "checkedEntries.H"
 #include "fvcGrad.H"
 #include "masterGate.H"
 #include "StringStream.H"
@@ -22,9 +22,6 @@ namespace Foam
     //- The entry of the section forces
     static const word keyword("electricField");
 
-    //- What may stand in it
-    static const wordList entries({"field", "potential"});
-
     //- Read what an entry names, or end the run; collective
     template<class FieldType>
     static autoPtr<FieldType> readField
@@ -37,25 +34,19 @@ namespace Foam
     {
         const word name(dict.get<word>(entry));
 
-        IOobject io
+        const word instance
         (
-            name,
             mesh.time().findInstance
             (
                 mesh.dbDir(), name, IOobject::READ_IF_PRESENT
-            ),
-            mesh,
-            IOobject::MUST_READ,
-            IOobject::NO_WRITE
+            )
         );
+        IOobject io(name, instance, mesh, IOobject::MUST_READ);
 
         const bool there =
             returnReduce(io.typeHeaderOk<FieldType>(false), andOp<bool>());
-        const bool fits = returnReduce
-        (
-            there && io.headerClassName() == FieldType::typeName,
-            andOp<bool>()
-        );
+        const bool fits =
+            there && io.headerClassName() == FieldType::typeName;
 
         autoPtr<FieldType> field;
         if (fits)
@@ -87,10 +78,7 @@ namespace Foam
 
         if (fault.str().size())
         {
-            FatalIOErrorInFunction
-            (
-                dict.lookupEntry(entry, keyType::LITERAL).stream()
-            )
+            FatalIOErrorInFunction(streamOf(dict, entry))
                 << keyword << '/' << entry << ' ' << name << ": "
                 << fault.str().c_str() << exit(FatalIOError);
         }
@@ -112,7 +100,7 @@ void Foam::electricField::checkEntries(const dictionary& forces)
 {
     const dictionary& dict = forces.subDict(keyword);
 
-    ellipsoidProperties::checkKeywords(dict, entries);
+    checkKeywords(dict, {"field", "potential"});
 
     if (dict.size() != 1)
     {

@@ -26,8 +26,7 @@ Foam::inletFlux::inletFlux
     patches(openPatches(U.mesh().boundaryMesh())),
     flux(patches.size()),
     magFlux(patches.size()),
-    area(patches.size()),
-    inflow(0)
+    area(patches.size())
 {
     const fvMesh& mesh = U.mesh();
 

@@ -8,7 +8,8 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "readViscosity.H"
-#include "ellipsoidProperties.H"
+#include "checkedEntries.H"
+#include "ellipsoidCore.H"
 #include "masterGate.H"
 #include "Time.H"
 
@@ -45,13 +46,10 @@ Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
 
     if (!isNumber || !(nuEntry.last().number() > 0))
     {
-        ellipsoidProperties::refuse
-        (
-            dict, "nu", "nu", "a positive number [m2/s]"
-        );
+        refuseEntry(dict, "nu", "nu", "a positive number [m2/s]");
     }
 
-    ellipsoidProperties::hasUnit(dict, "nu", "nu", "m2/s");
+    hasUnit(dict, "nu", "nu", "m2/s");
 
     const dimensionedScalar nu("nu", dimViscosity, dict);
 
@@ -63,7 +61,7 @@ Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
 
     if (ellipsoid_options_check(&options, nullptr, &range) != ELLIPSOID_OK)
     {
-        ellipsoidProperties::refuse(dict, "nu", "nu", range);
+        refuseEntry(dict, "nu", "nu", range);
     }
 
     return nu;

@@ -30,8 +30,7 @@ struct Foam::sharedMemory::window
 
 Foam::sharedMemory::sharedMemory(const std::size_t size)
 :
-    size_(size),
-    bytes_(nullptr)
+    size_(size)
 {
     if (!Pstream::parRun())
     {

@@ -8,6 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "undecomposedFlow.H"
+#include "foamVersions.H"
 #include "fromRanks.H"
 #include "processorPolyPatch.H"
 #include "surfaceFields.H"
@@ -17,21 +18,6 @@ License
 
 namespace Foam
 {
-    //- UPstream::parRun(bool) sets the flag in newer versions, ...
-    template<class PstreamType>
-    auto setParRun(const bool on, int)
-        -> decltype(PstreamType::parRun(on), void())
-    {
-        PstreamType::parRun(on);
-    }
-
-    //- ... and parRun() gives a reference to it in older ones
-    template<class PstreamType>
-    void setParRun(const bool on, long)
-    {
-        PstreamType::parRun() = on;
-    }
-
     //- Values of a field at the faces of this rank, 0 where it has none
     template<class Type, template<class> class PatchField, class GeoMesh>
     static Field<Type> valuesAtFaces
@@ -67,13 +53,13 @@ Foam::undecomposedFlow::serialScope::serialScope()
 :
     parRun_(Pstream::parRun())
 {
-    setParRun<UPstream>(false, 0);
+    setParRun(false);
 }
 
 
 Foam::undecomposedFlow::serialScope::~serialScope()
 {
-    setParRun<UPstream>(parRun_, 0);
+    setParRun(parRun_);
 }
 
 

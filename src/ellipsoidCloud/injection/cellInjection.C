@@ -149,7 +149,6 @@ Foam::cellState Foam::cellInjection::drawn
 
 void Foam::cellInjection::setTimes(const label number)
 {
-    typedef ellipsoidProperties entries;
     const dictionary& dict = from_.dict;
 
     const scalar start =
@@ -159,7 +158,7 @@ void Foam::cellInjection::setTimes(const label number)
           ? from_.runStart
           : 0
         );
-    const scalar duration = entries::number(dict, "duration", atLeast(0), 0.0);
+    const scalar duration = checkedNumber(dict, "duration", atLeast(0), 0.0);
     const label seed = from_.population.properties().seed();
     times_.setSize(number);
 
@@ -195,7 +194,7 @@ Foam::label Foam::cellInjection::readNumber(const scalar flux) const
     const auto read =
         [&](const char* entry)
         {
-            return ellipsoidProperties::number<scalar>(dict, entry, above(0));
+            return checkedNumber<scalar>(dict, entry, above(0));
         };
 
     if (nGiven != 1 || (dict.found("concentration") && flux <= 0))
@@ -208,7 +207,7 @@ Foam::label Foam::cellInjection::readNumber(const scalar flux) const
 
     if (dict.found("number"))
     {
-        return ellipsoidProperties::number<label>(dict, "number", atLeast(1));
+        return checkedNumber<label>(dict, "number", atLeast(1));
     }
 
     const scalar duration = read("duration");
@@ -263,10 +262,8 @@ void Foam::cellInjection::checkEntries(const dictionary& dict)
 
     if (!keywords().found(type))
     {
-        FatalIOErrorInFunction
-        (
-            dict.lookupEntry("type", keyType::LITERAL).stream()
-        )   << "unknown injection type " << type << nl
+        FatalIOErrorInFunction(streamOf(dict, "type"))
+            << "unknown injection type " << type << nl
             << "    allowed: " << flatOutput(keywords().sortedToc())
             << exit(FatalIOError);
     }
@@ -277,7 +274,7 @@ void Foam::cellInjection::checkEntries(const dictionary& dict)
         "orientation", "axis", "quaternion", "eulerAngles"
     });
     allowed.append(keywords()[type]);
-    ellipsoidProperties::checkKeywords(dict, allowed);
+    checkKeywords(dict, allowed);
 }
 
 
@@ -291,10 +288,8 @@ Foam::word Foam::cellInjection::findPatch
 
     if (patches.findPatchID(patch) < 0)
     {
-        FatalIOErrorInFunction
-        (
-            dict.lookupEntry("patch", keyType::LITERAL).stream()
-        )   << "no patch " << patch << " in the mesh" << nl
+        FatalIOErrorInFunction(streamOf(dict, "patch"))
+            << "no patch " << patch << " in the mesh" << nl
             << "    patches: " << flatOutput(patches.names())
             << exit(FatalIOError);
     }
@@ -401,17 +396,10 @@ void Foam::cellInjection::append
     DynamicList<cellState>& cells
 ) const
 {
-    for
-    (
-        auto next = std::lower_bound
-        (
-            times_.begin(),
-            times_.end(),
-            Tuple2<scalar, label>(start, labelMin)
-        );
-        next != times_.end() && next->first() < end;
-        ++next
-    )
+    const Tuple2<scalar, label> first(start, labelMin);
+    auto next = std::lower_bound(times_.begin(), times_.end(), first);
+
+    for (; next != times_.end() && next->first() < end; ++next)
     {
         cells.append(drawn(*next));
     }

@@ -25,15 +25,12 @@ Foam::cellPopulation::distributionNames_
 
 void Foam::cellPopulation::readDistribution(const dictionary& dict)
 {
-    typedef ellipsoidProperties entries;
     const word name(dict.get<word>("type"));
 
     if (!distributionNames_.found(name))
     {
-        FatalIOErrorInFunction
-        (
-            dict.lookupEntry("type", keyType::LITERAL).stream()
-        )   << "unknown type " << name << " of sizes" << nl
+        FatalIOErrorInFunction(streamOf(dict, "type"))
+            << "unknown type " << name << " of sizes" << nl
             << "    allowed: " << flatOutput(distributionNames_.names())
             << exit(FatalIOError);
     }
@@ -43,17 +40,17 @@ void Foam::cellPopulation::readDistribution(const dictionary& dict)
     {
         const entryRange sigma(within(0, 1));
 
-        entries::checkKeywords
+        checkKeywords
         (
             dict, {"type", "lengthDeviation", "widthDeviation", "truncation"}
         );
-        lengthDeviation_ = entries::number(dict, "lengthDeviation", sigma, 0.0);
-        widthDeviation_ = entries::number(dict, "widthDeviation", sigma, 0.0);
-        truncation_ = entries::number(dict, "truncation", within(1, 5), 3.0);
+        lengthDeviation_ = checkedNumber(dict, "lengthDeviation", sigma, 0.0);
+        widthDeviation_ = checkedNumber(dict, "widthDeviation", sigma, 0.0);
+        truncation_ = checkedNumber(dict, "truncation", within(1, 5), 3.0);
         return;
     }
 
-    entries::checkKeywords(dict, {"type", "values"});
+    checkKeywords(dict, {"type", "values"});
     dict.lookup("values");
     values_ = listedSizes(dict, "values");
 
@@ -90,10 +87,6 @@ Foam::List<Foam::cellSize> Foam::cellPopulation::extremes() const
 Foam::cellPopulation::cellPopulation(const ellipsoidProperties& properties)
 :
     properties_(properties),
-    type_(dtNone),
-    lengthDeviation_(0),
-    widthDeviation_(0),
-    truncation_(0),
     median_(modelOf(properties.options()))
 {
     const masterGate once;
@@ -117,19 +110,16 @@ Foam::cellPopulation::cellPopulation(const ellipsoidProperties& properties)
 
     for (const cellSize& size : extremes())
     {
-        const string complaint
-        (
-            ellipsoidProperties::complaint(optionsOf(size))
-        );
+        const string why(complaint(size));
 
-        if (!complaint.empty())
+        if (!why.empty())
         {
             FatalIOErrorInFunction
             (
                 type_ == dtNone ? properties : cell.subDict("sizes")
             )   << "sizes make a cell of length " << Foam::name(size.length)
                 << " m and width " << Foam::name(size.width)
-                << " m, for which " << complaint.c_str() << exit(FatalIOError);
+                << " m, for which " << why.c_str() << exit(FatalIOError);
         }
     }
 }

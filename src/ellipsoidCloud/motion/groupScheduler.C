@@ -167,7 +167,7 @@ Foam::groupScheduler::nearPairs
     {
         const cellSweep& cell = cells[indices[k]];
         const scalar reach = population_.model(cell.state.id).reach;
-        boxes[k] = cell.box(reach + 0.5*margin);
+        boxes[k] = widened(cell.swept, reach + 0.5*margin);
     }
 
     const List<vector>& periods = groups_.periods();

@@ -32,13 +32,10 @@ Foam::occupancy::setting::setting
     active(dict.getOrDefault("active", false)),
     flow(flowNames.getOrDefault("flow", dict, SOLVED)),
     fates({cellState::caught}),
-    every(ellipsoidProperties::number<label>(dict, "every", atLeast(1), 1)),
-    tolerance
-    (
-        ellipsoidProperties::number(dict, "tolerance", above(0), 1e-3)
-    )
+    every(checkedNumber<label>(dict, "every", atLeast(1), 1)),
+    tolerance(checkedNumber(dict, "tolerance", above(0), 1e-3))
 {
-    ellipsoidProperties::checkKeywords
+    checkKeywords
     (
         dict,
         {"active", "flow", "fates", "every", "tolerance", "apertures"}
@@ -63,10 +60,7 @@ Foam::occupancy::setting::setting
     for (const entry& e : dict.subOrEmptyDict("apertures"))
     {
         const dictionary& of = e.dict();
-        ellipsoidProperties::checkKeywords
-        (
-            of, {"min", "max", "normal"}
-        );
+        checkKeywords(of, {"min", "max", "normal"});
 
         const boundBox box(of.get<point>("min"), of.get<point>("max"));
         const vector normal(of.get<vector>("normal"));
@@ -107,7 +101,6 @@ Foam::occupancy::occupancy
     setting_(from),
     criterion_(criterion),
     population_(set.population),
-    outdated_(false),
     fluxes_(set, "fluxes", "t,sieve,flux,share,cells", 9)
 {
     const labelList ids(notes.getOrDefault("held", labelList()));
@@ -294,12 +287,6 @@ void Foam::occupancy::update
         still(cells);
         outdated_ = false;
     }
-}
-
-
-void Foam::occupancy::forget(const label id)
-{
-    trials_->forget(id);
 }
 
 

@@ -26,7 +26,6 @@ Foam::appendedFile::appendedFile
 )
 :
     name_(set.folder/(name + ".csv")),
-    header_(header),
     size_(0)
 {
     const dictionary earlier(set.earlier.subOrEmptyDict(name));
@@ -38,7 +37,11 @@ Foam::appendedFile::appendedFile
     buffer_.precision(precision);
     digest_.append(text());
 
-    if (size_ > 0 && digest_.str() != earlier.get<string>("digest"))
+    if (size_ == 0)
+    {
+        buffer_ << header << '\n';
+    }
+    else if (digest_.str() != earlier.get<string>("digest"))
     {
         FatalErrorInFunction
             << "cannot go on with " << name_ << ": its first "
@@ -58,17 +61,10 @@ void Foam::appendedFile::open()
         return;
     }
 
-    if (size_ > 0)
+    mkDir(name_.path());
+    if (size_ > 0 && ::truncate(name_.c_str(), off_t(size_)))
     {
-        if (::truncate(name_.c_str(), off_t(size_)))
-        {
-            cannotWrite(name_);
-        }
-    }
-    else
-    {
-        mkDir(name_.path());
-        buffer_ << header_ << '\n';
+        cannotWrite(name_);
     }
 
     file_.open(name_, size_ > 0 ? std::ios::app : std::ios::out);

@@ -8,7 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "captureCriterion.H"
-#include "ellipsoidProperties.H"
+#include "checkedEntries.H"
 #include "Map.H"
 #include "polyBoundaryMesh.H"
 #include "stringListOps.H"
@@ -121,25 +121,15 @@ Foam::captureCriterion::captureCriterion
     const polyBoundaryMesh& patches
 )
 :
-    displacement_
-    (
-        ellipsoidProperties::number(dict, "displacement", above(0), 0.0)
-    ),
-    speed_(ellipsoidProperties::number(dict, "speed", above(0), 0.0)),
-    speedFraction_
-    (
-        ellipsoidProperties::number(dict, "speedFraction", above(0), 0.01)
-    ),
-    slowSpeed_(0),
+    displacement_(checkedNumber(dict, "displacement", above(0), 0.0)),
+    speed_(checkedNumber(dict, "speed", above(0), 0.0)),
+    speedFraction_(checkedNumber(dict, "speedFraction", above(0), 0.01)),
     holdTime_
     (
-        ellipsoidProperties::number
-        (
-            dict, "holdTime", above(0), displacement_ > 0 ? 1 : 0.05
-        )
+        checkedNumber(dict, "holdTime", above(0), displacement_ > 0 ? 1 : 0.05)
     )
 {
-    ellipsoidProperties::checkKeywords
+    checkKeywords
     (
         dict, {"sieves", "displacement", "speed", "speedFraction", "holdTime"}
     );

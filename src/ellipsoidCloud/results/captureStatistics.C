@@ -15,11 +15,7 @@ void Foam::captureStatistics::count(const cellEvent& event)
 {
     const cellState& now = event.cell;
 
-    if (!cells_.found(now.id))
-    {
-        cells_.insert(now.id, record{now, now, now.time, -1, -1});
-    }
-    else
+    if (!cells_.insert(now.id, record{now, now, now.time, -1, -1}))
     {
         --counts_[cells_[now.id].last.fate];
     }
@@ -120,11 +116,9 @@ void Foam::captureStatistics::update(const UList<cellState>& cells)
         if (cell.fate != cellState::waiting)
         {
             cellState& last = cells_[cell.id].last;
-            last.body = cell.body;
-            last.unfold = cell.unfold;
-            last.deepest = cell.deepest;
-            last.deepestCell = cell.deepestCell;
-            last.imbalance = cell.imbalance;
+            const scalar since = last.time;
+            last = cell;
+            last.time = since;
         }
     }
 }

@@ -75,17 +75,6 @@ void Foam::captureStatistics::writeCells() const
 
 void Foam::captureStatistics::writeCaptures(Ostream& os) const
 {
-    Map<DynamicList<scalar>> held;
-
-    forAllConstIters(cells_, iter)
-    {
-        const cellState& last = iter().last;
-        if (last.fate == cellState::caught)
-        {
-            held(last.patch).append(last.time);
-        }
-    }
-
     std::ostringstream table;
     table << "sieve,cells,t\n";
 
@@ -96,8 +85,16 @@ void Foam::captureStatistics::writeCaptures(Ostream& os) const
 
     for (const label patchi : sieves_)
     {
-        DynamicList<scalar> times(held.lookup(patchi, DynamicList<scalar>()));
-        std::sort(times.begin(), times.end());
+        DynamicList<scalar> times;
+        forAllConstIters(cells_, iter)
+        {
+            const cellState& last = iter().last;
+            if (last.fate == cellState::caught && last.patch == patchi)
+            {
+                times.append(last.time);
+            }
+        }
+        Foam::sort(times);
 
         // No time lies halfway between two that are printed, as multiples of
         // 5 ms may with fewer digits: the log rounds them to twelve

@@ -9,40 +9,8 @@ License
 \*---------------------------------------------------------------------------*/
 #include "cellEvent.H"
 #include "appendedFile.H"
-#include "DynamicList.H"
 
 #include <sstream>
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-    //- The members of a cell that are numbers of an event, in their order
-    static DynamicList<scalar*> numbersOf(cellState& cell, const bool sizes)
-    {
-        DynamicList<scalar*> numbers;
-
-        for (scalar& x : cell.body.x)
-        {
-            numbers.append(&x);
-        }
-        for (scalar& q : cell.body.q)
-        {
-            numbers.append(&q);
-        }
-        numbers.append(&cell.deepest);
-        numbers.append(&cell.deepestCell);
-
-        if (sizes)
-        {
-            numbers.append(&cell.size.length);
-            numbers.append(&cell.size.width);
-        }
-
-        return numbers;
-    }
-}
-
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
@@ -58,18 +26,18 @@ std::string Foam::cellEvent::header(const tableSet& set)
 
 void Foam::cellEvent::write(std::ostream& os, const tableSet& set) const
 {
-    cellState now(cell);
+    os  << cell.time << ',' << cell.id << ',' << type << ','
+        << set.patchName(cell.patch)
+        << commas{cell.body.x, 3} << commas{cell.body.q, 4}
+        << ',' << cell.deepest << ',' << cell.deepestCell;
 
-    os  << now.time << ',' << now.id << ',' << type << ','
-        << set.patchName(now.patch);
-
-    for (const scalar* number : numbersOf(now, set.population.varies()))
+    if (set.population.varies())
     {
-        os << ',' << *number;
+        os << ',' << cell.size.length << ',' << cell.size.width;
     }
     if (set.unfolds)
     {
-        os << commas{now.unfolded().v_, 3};
+        os << commas{cell.unfolded().v_, 3};
     }
     os << '\n';
 }
@@ -83,9 +51,19 @@ bool Foam::cellEvent::read(std::string line, const tableSet& set)
 
     is >> cell.time >> cell.id >> static_cast<std::string&>(type) >> patch;
 
-    for (scalar* number : numbersOf(cell, set.population.varies()))
+    for (scalar& x : cell.body.x)
     {
-        is >> *number;
+        is >> x;
+    }
+    for (scalar& q : cell.body.q)
+    {
+        is >> q;
+    }
+    is >> cell.deepest >> cell.deepestCell;
+
+    if (set.population.varies())
+    {
+        is >> cell.size.length >> cell.size.width;
     }
     if (set.unfolds)
     {

@@ -46,31 +46,27 @@ namespace Foam
         }
 
         vtkPolyData file(os, "Verts", ends);
-        file.array
-        (
-            "Float64", "x", 3,
-            [&](const label i) { numbers(cells[i].body.x, 3); }
-        );
+        const auto labels =
+            [&](const char* name, const label cellState::* of)
+            {
+                const auto row = [&](const label i) { os << cells[i].*of; };
+                file.array("Int32", name, 1, row);
+            };
+        const auto vectors =
+            [&](const char* name, const double (ellipsoid_state::* of)[3])
+            {
+                const auto row =
+                    [&](const label i) { numbers(cells[i].body.*of, 3); };
+                file.array("Float64", name, 3, row);
+            };
+
+        vectors("x", &ellipsoid_state::x);
         file.pointData();
-        file.array("Int32", "id", 1, [&](const label i) { os << cells[i].id; });
-        file.array
-        (
-            "Int32", "fate", 1, [&](const label i) { os << cells[i].fate; }
-        );
-        file.array
-        (
-            "Int32", "patch", 1, [&](const label i) { os << cells[i].patch; }
-        );
-        file.array
-        (
-            "Float64", "U", 3,
-            [&](const label i) { numbers(cells[i].body.u, 3); }
-        );
-        file.array
-        (
-            "Float64", "omega", 3,
-            [&](const label i) { numbers(cells[i].body.omega, 3); }
-        );
+        labels("id", &cellState::id);
+        labels("fate", &cellState::fate);
+        labels("patch", &cellState::patch);
+        vectors("U", &ellipsoid_state::u);
+        vectors("omega", &ellipsoid_state::omega);
         file.array
         (
             "Float64", "axes", 9,

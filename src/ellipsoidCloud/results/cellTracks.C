@@ -14,6 +14,7 @@ License
 
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <vector>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -54,20 +55,11 @@ namespace Foam
 
 Foam::cellTracks::setting::setting(const dictionary& dict)
 :
-    interval(ellipsoidProperties::number(dict, "interval", above(0), 1e-3)),
-    heldInterval
-    (
-        ellipsoidProperties::number(dict, "heldInterval", above(0), 0.1)
-    ),
-    minimumMove
-    (
-        ellipsoidProperties::number(dict, "minimumMove", above(0), 0.01)
-    )
+    interval(checkedNumber(dict, "interval", above(0), 1e-3)),
+    heldInterval(checkedNumber(dict, "heldInterval", above(0), 0.1)),
+    minimumMove(checkedNumber(dict, "minimumMove", above(0), 0.01))
 {
-    ellipsoidProperties::checkKeywords
-    (
-        dict, {"interval", "heldInterval", "minimumMove"}
-    );
+    checkKeywords(dict, {"interval", "heldInterval", "minimumMove"});
 }
 
 
@@ -132,16 +124,12 @@ void Foam::cellTracks::add
         const cellState there(at(inStep));
         const ellipsoid_state& body = there.body;
 
-        scalar move = 0;
-        scalar alike = 0;
-        for (int d = 0; d < 3; ++d)
-        {
-            move += sqr(body.x[d] - cell.lastRow[1 + d]);
-        }
-        for (int d = 0; d < 4; ++d)
-        {
-            alike += body.q[d]*cell.lastRow[4 + d];
-        }
+        const scalar move =
+            magSqr(pointOf(body.x) - pointOf(cell.lastRow + 1));
+        const scalar alike = std::inner_product
+        (
+            body.q, body.q + 4, cell.lastRow + 4, scalar(0)
+        );
 
         // |q1.q2| is the cosine of half the angle between two poses
         const scalar turn = 2*sqrt(max(1 - sqr(alike), scalar(0)));

@@ -249,17 +249,14 @@ public:
         :
             points_(surface.localPoints()),
             maxEdge_(maxEdge),
-            triangles_(surface.size()),
+            triangles_(surface.localFaces()),
             normals_(surface.size()),
             pointTriangles_(surface.nPoints())
         {
             forAll(triangles_, trii)
             {
-                const triFace& f = surface.localFaces()[trii];
-                const label region = surface[trii].region();
-                const labelledTri t(f[0], f[1], f[2], region);
-                triangles_[trii] = t;
-                normals_[trii] = normalised(t.areaNormal(points_));
+                normals_[trii] =
+                    normalised(triangles_[trii].areaNormal(points_));
 
                 for (const label pointi : triangles_[trii])
                 {

@@ -399,8 +399,7 @@ Foam::wallFacets::wallFacets
     if (surface_.size())
     {
         span_.inflate(0.01);
-        span_.min() -= beyond_*vector::one;
-        span_.max() += beyond_*vector::one;
+        span_ = widened(span_, beyond_);
 
         // A tree does not know what is outside its box
         boundBox all(span_);

@@ -69,10 +69,7 @@ Foam::triSurface Foam::withImages
     const scalar far
 )
 {
-    boundBox wide(box);
-    wide.min() -= far*vector::one;
-    wide.max() += far*vector::one;
-
+    const boundBox wide(widened(box, far));
     const scalar tolerance = 1e-3*shortestEdge(surface);
     DynamicList<point> points;
     DynamicList<labelledTri> triangles;

@@ -368,7 +368,7 @@ int main(int argc, char *argv[])
     cellDomain domain(population, whole, autoPtr<volVectorField>(), false);
     domain.flow.renew(whole, properties.options().fluid_density);
     const scalar slowSpeed =
-        ellipsoidProperties::number
+        checkedNumber
         (
             properties.section("capture"), "speedFraction", above(0), 0.01
         )
