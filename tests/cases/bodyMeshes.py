@@ -87,11 +87,11 @@ def driven(sides=""):
            ' wall { type zeroGradient; }' + sides)
 
 
-def box(cells, fine, far, patches):
+def box(cells, fine, far, patches, largest=(6, 6, 6)):
     """One block to +-far, graded but for +-fine: points of a face as blockMesh counts them."""
-    h, largest = 2 / cells, 6
+    h = 2 / cells
 
-    def graded(half, end):
+    def graded(half, end, largest):
         n = 1
         while h * sum(largest ** (i / max(n - 1, 1)) for i in range(n)) < end - half:
             n += 1
@@ -99,7 +99,7 @@ def box(cells, fine, far, patches):
         return 2 * n + middle, (f"(({end - half} {n} {1 / largest}) ({2 * half} {middle} 1)"
                                 f" ({end - half} {n} {largest}))")
 
-    counts, grading = zip(*map(graded, fine, far))
+    counts, grading = zip(*map(graded, fine, far, largest))
     a, b, c = far
     points = [(x, y, z) for z in (-c, c) for x, y in ((-a, -b), (a, -b), (a, b), (-a, b))]
     mesh(points, [f"hex (0 1 2 3 4 5 6 7) ({' '.join(map(str, counts))}) simpleGrading ({' '.join(grading)})"],
@@ -119,7 +119,7 @@ def periodic(*names):
 def duct(cells, ratio):
     """A square tube of a block."""
     half = 1 / ratio
-    box(cells, (1.6, 1.6, 1.6), (half, half, 2 * half + 6),
+    box(cells, (1.6, 1.6, 1.6), (half, half, half + 6),
         [("inlet", "type patch;", [BACK]), ("outlet", "type patch;", [FRONT]),
          ("wall", "type wall;", [LEFT, RIGHT, BOTTOM, TOP])])
     driven()
@@ -130,7 +130,7 @@ def plates(cells, ratio):
     half = 1 / ratio
     box(cells, (1.6, 1.6, 1.6), (8 * half, half, 8 * half),
         [("inlet", "type patch;", [BACK]), ("outlet", "type patch;", [FRONT]), ("wall", "type wall;", [BOTTOM, TOP])]
-        + periodic(("left", LEFT), ("right", RIGHT)))
+        + periodic(("left", LEFT), ("right", RIGHT)), (16, 6, 16))
     driven(' "(left|right)" { type cyclic; }')
 
 

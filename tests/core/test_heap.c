@@ -41,12 +41,12 @@ static void test_fifty(void **unused)
 
     (void)unused;
     crowd_heap(&c, 50);
-    crowd_advance(&c, &t, 0.15, note_deepest);
+    crowd_advance(&c, &t, 0.1, note_deepest);
     for (int i = 0; i < 50; i++)
     {
         far = fmax(far, ellipsoid_length(c.state[i].x));
     }
-    print_message("# fifty: %ld steps in 150 ms, deepest %.2g r_b, centres "
+    print_message("# fifty: %ld steps in 100 ms, deepest %.2g r_b, centres "
                   "within %.2g m\n",
                   crowd_steps(&c), deepest / c.model.options.bead_radius, far);
     assert_true(deepest > 0 && deepest < 0.05 * c.model.options.bead_radius);
