@@ -329,14 +329,18 @@ const Foam::wallFacets::region& Foam::wallFacets::regionAt
     region& here = (wide ? wideRegions_ : regions_)
     (
         key,
-        region{-1, labelList()}
+        region{-1, labelList(), List<sphere>()}
     );
 
     if (here.reach < reach)
     {
+        // Somewhat more: inside a step the length of q, and with it the reach,
+        // differs from pose to pose, and the next may ask for a little more
+        here.reach = 1.05*reach;
+
         const point corner(edge*vector(key[0], key[1], key[2]));
         const vector half(0.5*edge*vector::one);
-        const vector margin((reach + 1e-6*edge)*vector::one);
+        const vector margin((here.reach + 1e-6*edge)*vector::one);
         const boundBox cube(corner, corner + 2*half);
         const boundBox about(cube.min() - margin, cube.max() + margin);
         DynamicList<label> facets;
@@ -359,9 +363,9 @@ const Foam::wallFacets::region& Foam::wallFacets::regionAt
             }
         }
 
-        here.reach = reach;
         here.facets = facets;
         std::sort(here.facets.begin(), here.facets.end());
+        here.spheres = UIndirectList<sphere>(spheres_, here.facets);
     }
 
     return here;
@@ -450,13 +454,15 @@ int Foam::wallFacets::list
     }
     else
     {
-        for (const label faceti : regionAt(c, reach).facets)
+        const region& here = regionAt(c, reach);
+
+        forAll(here.facets, i)
         {
-            const sphere& b = spheres_[faceti];
+            const sphere& b = here.spheres[i];
 
             if (magSqr(c - b.centre) <= sqr(reach + b.radius))
             {
-                listed.append(faceti);
+                listed.append(here.facets[i]);
             }
         }
 
