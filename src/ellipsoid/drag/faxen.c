@@ -226,3 +226,27 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
     set_spin(a, &sums, frame, free);
     return ELLIPSOID_OK;
 }
+
+void ellipsoid_average_at(const ellipsoid_average *average, const double x[3],
+                          const double q[4], ellipsoid_free_motion *free)
+{
+    const ellipsoid_free_motion *from = &average->free;
+    double way[3], turn[4];
+
+    *free = *from;
+    ellipsoid_difference(x, average->x, way);
+    for (int n = 0; n < 4; n++)
+    {
+        turn[n] = q[n] - average->q[n];
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        free->u[i] += ellipsoid_dot(from->u_x[i], way);
+        free->omega[i] += ellipsoid_dot(from->omega_x[i], way);
+        for (int n = 0; n < 4; n++)
+        {
+            free->u[i] += from->u_q[i][n] * turn[n];
+            free->omega[i] += from->omega_q[i][n] * turn[n];
+        }
+    }
+}

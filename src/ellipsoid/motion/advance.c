@@ -109,6 +109,37 @@ static ellipsoid_status keep_or_not(ellipsoid_group *g,
     return status;
 }
 
+/* A step from blocks that are there, to where the next states are. Averages of
+   the flow are taken for linear if that may be. */
+static ellipsoid_status solve_step(ellipsoid_group *g,
+                                   const ellipsoid_plan *planned, int averaged,
+                                   double *error)
+{
+    ellipsoid_status status;
+
+    ellipsoid_take_averages(g, averaged ? g->start : NULL);
+    status = g->keeps ? keep_or_not(g, planned) : ELLIPSOID_OK;
+    if (status == ELLIPSOID_OK)
+    {
+        status = ellipsoid_rosenbrock_step(g, planned);
+    }
+    g->cell[0].kept = NULL;
+    ellipsoid_take_averages(g, NULL);
+    if (status == ELLIPSOID_OK)
+    {
+        status = ellipsoid_judge_step(g, planned->h, error);
+    }
+    for (int cell = 0; status == ELLIPSOID_OK && *error <= 1 && cell < g->count;
+         cell++)
+    {
+        double *y = g->stages[cell].y;
+
+        ellipsoid_normalise(y + AT_Q);
+        memcpy(&g->next[cell].state, y, sizeof(g->next[cell].state));
+    }
+    return status;
+}
+
 /*
     One attempt at a Rosenbrock step. A step counts only if the equations can be
     evaluated where it ends.
@@ -116,6 +147,7 @@ static ellipsoid_status keep_or_not(ellipsoid_group *g,
 static ellipsoid_status
 try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
 {
+    int averaged = g->averages, too_linear = 0;
     ellipsoid_status status = ELLIPSOID_OK;
 
     if (!g->has_blocks)
@@ -124,37 +156,33 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
                                           !g->inertial, blocks_kind(g));
         g->has_blocks = status == ELLIPSOID_OK;
     }
-    if (status == ELLIPSOID_OK && g->keeps)
-    {
-        status = keep_or_not(g, planned);
-    }
     if (status == ELLIPSOID_OK)
     {
-        status = ellipsoid_rosenbrock_step(g, planned);
+        status = solve_step(g, planned, averaged, error);
     }
-    g->cell[0].kept = NULL;
-    if (status == ELLIPSOID_OK)
+    if (status == ELLIPSOID_OK && *error <= 1 && averaged)
     {
-        status = ellipsoid_judge_step(g, planned->h, error);
+        status = ellipsoid_complete_averages(g, planned->h, error, &too_linear);
+        if (status == ELLIPSOID_OK && too_linear)
+        {
+            averaged = 0;
+            *error = 0;
+            status = solve_step(g, planned, 0, error);
+        }
     }
     if (status != ELLIPSOID_OK || *error > 1)
     {
         return status;
-    }
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        double *y = g->stages[cell].y;
-
-        ellipsoid_normalise(y + AT_Q);
-        memcpy(&g->next[cell].state, y, sizeof(g->next[cell].state));
     }
     g->next_has_blocks = !planned->last;
     if (g->keeps)
     {
         g->next[0].resistance = g->start[0].resistance;
     }
+    ellipsoid_take_averages(g, averaged ? g->next : NULL);
     status = ellipsoid_group_evaluate(g, planned->end, g->next, !g->inertial,
                                       g->next_has_blocks ? blocks_kind(g) : 0);
+    ellipsoid_take_averages(g, NULL);
     /* there is room for the couplings of one time only */
     g->has_blocks = g->has_blocks && !(g->pairs && g->next_has_blocks);
     if (status == ELLIPSOID_OK && is_one_held_back(g, planned->h))

@@ -85,6 +85,8 @@ typedef struct ellipsoid_cell
     const ellipsoid_kept_resistance *kept; /* that of a step; NULL: of each
                                               pose */
     int keeps; /* may it be kept over a step at all? */
+    const ellipsoid_average *average; /* of FLOW_BODY, linear about a pose;
+                                         NULL: that of each pose */
     int inertial;
     int walls;
 } ellipsoid_cell;
@@ -107,6 +109,7 @@ typedef struct ellipsoid_evaluation
     ellipsoid_contact contact; /* left as it is where there are no walls */
     double inertia[6]; /* on the slow manifold: u_b - u, omega_b - omega */
     ellipsoid_kept_resistance resistance; /* of ELLIPSOID_KEEPING */
+    ellipsoid_average average; /* of FLOW_BODY, set with the blocks */
 } ellipsoid_evaluation;
 
 /* Are derivatives wanted? With KEEPING those of the resistance near walls are
@@ -146,6 +149,10 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
 /* Likewise, balanced and without any contact. */
 ellipsoid_status ellipsoid_evaluate_untouched(const ellipsoid_cell *cell,
                                               ellipsoid_evaluation *at);
+
+/* Does Faxen's average act on this cell that may be taken for linear over a
+   step (flowAverage.c)? */
+int ellipsoid_has_average(const ellipsoid_cell *cell);
 
 #define ELLIPSOID_MAX_STAGES 7
 
@@ -267,6 +274,7 @@ typedef struct ellipsoid_group
     int unsteady; /* do the surroundings of one depend on time? */
     int keeps;       /* may the resistance near walls be kept over a step? */
     int kept_last;   /* was it, in the last step? */
+    int averages;    /* may that of the flow be taken for linear in a step? */
     int dissipative; /* do forces other than drag depend on velocities? */
     int observed; /* is the whole of ellipsoid_step asked for? */
     int manifold; /* may it be advanced on the slow manifold? */
@@ -513,6 +521,16 @@ static inline ellipsoid_status ellipsoid_group_slopes(ellipsoid_group *g,
     return g->inertial ? ellipsoid_manifold_evaluate(g, t, points)
                        : ellipsoid_group_evaluate(g, t, points, 1, 0);
 }
+
+/* Has cells take that of these points for linear from now on; none if NULL
+   (flowAverage.c). */
+void ellipsoid_take_averages(ellipsoid_group *group,
+                             ellipsoid_evaluation *points);
+
+/* Completes the end of a step of h, taken so. Raises *error, or sets
+   *too_linear where the step may not be taken so. */
+ellipsoid_status ellipsoid_complete_averages(ellipsoid_group *group, double h,
+                                             double *error, int *too_linear);
 
 /* -------------------------------------------------------- step control */
 
