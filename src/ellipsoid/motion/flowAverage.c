@@ -8,13 +8,17 @@
 
     The stages of a step take it for linear in the pose, with the derivatives of
     the start. What that leaves out, e, is zero at the start and so is its
-    slope; at the end both are found from the average there, with which the next
-    step begins. Hermite's cubic through them has the integral
-        h (e/2 - h e'/12),
+    slope; at the end both follow from the average there, with which the next
+    step begins, and e once more half-way. The polynomial of degree four through
+    these has the integral
+        h (16 e_1/2 + 7 e_1 - h e'_1/2)/30,
     by which the end is displaced: a defect correction, after which the error is
-    of the order of the method. So the average is evaluated once in a step.
-    Where a cell touches something, which would resist a displacement, a step
-    is taken so only if the defect is small.
+    of the order of the method. So the average is evaluated twice in a step,
+    once with derivatives. Without e half-way the cubic has
+        h (e_1/2 - h e'_1/12),
+    and the difference is the error estimate. Where a cell touches something,
+    which would resist a displacement, a step is taken so only if the defect is
+    small.
 */
 #include "motion/motion.h"
 
@@ -23,6 +27,11 @@
 /* The part of the tolerance that the defect of a cell that touches something
    may take up. */
 static const double slight = 0.05;
+
+/* If the gradient of the flow jumps three quarters down the step, the two
+   polynomials agree, and are off by 1/24 of the defect; three times that is the
+   least error that a defect is taken to make. */
+static const double unseen = 0.125;
 
 int ellipsoid_has_average(const ellipsoid_cell *p)
 {
@@ -41,18 +50,17 @@ void ellipsoid_take_averages(ellipsoid_group *g, ellipsoid_evaluation *points)
     }
 }
 
-/* That at the state of `at`, with derivatives. */
-static ellipsoid_status sample(const ellipsoid_cell *p,
-                               ellipsoid_evaluation *at)
+/* That at the pose of `average`. */
+static ellipsoid_status sample(const ellipsoid_cell *p, int derivatives,
+                               ellipsoid_average *average)
 {
     const ellipsoid_surroundings *around = &p->surroundings;
-    const double *q = at->state.q, opposite[4] = {q[0], q[1], q[2], -q[3]};
-    ellipsoid_average *average = &at->average;
+    const double *q = average->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
     ellipsoid_flow_sample flow = {.velocity = {0}};
     double by_q[4][3][3];
-    ellipsoid_frame frame = {.by_q = by_q};
+    ellipsoid_frame frame = {.by_q = derivatives ? by_q : NULL};
     const int answer = around->flow(around->flow_context, around->time,
-                                    at->state.x, 0, &flow);
+                                    average->x, 0, &flow);
 
     if (answer != 0)
     {
@@ -60,8 +68,6 @@ static ellipsoid_status sample(const ellipsoid_cell *p,
     }
     ellipsoid_rotation_inline(opposite, frame.axis);
     ellipsoid_axis_derivatives(q, by_q);
-    ellipsoid_copy(at->state.x, average->x);
-    memcpy(average->q, q, sizeof(average->q));
     return ellipsoid_faxen(p->model, around, average->x, flow.velocity, &frame,
                            &average->free);
 }
@@ -92,26 +98,52 @@ static void turn_of(const double omega[3], const double q[4], double turn[4])
     }
 }
 
-/* What a linear average leaves out, at the end of a step of h, and how it
-   changes there in h. */
-static void set_defect(const ellipsoid_evaluation *start,
-                       const ellipsoid_evaluation *next, double h,
-                       double defect[6], double slope[6])
+/* What an average that is linear about the start leaves out where the other
+   is. */
+static void set_defect(const ellipsoid_average *start,
+                       const ellipsoid_average *is, double defect[6])
 {
-    const ellipsoid_free_motion *is = &next->average.free;
-    const ellipsoid_state *state = &next->state;
     ellipsoid_free_motion taken;
+
+    ellipsoid_average_at(start, is->x, is->q, &taken);
+    ellipsoid_difference(is->free.u, taken.u, defect);
+    ellipsoid_difference(is->free.omega, taken.omega, defect + 3);
+}
+
+/* How that changes at the end in a step of h. */
+static void set_slope(const ellipsoid_evaluation *start,
+                      const ellipsoid_evaluation *next, double h,
+                      double slope[6])
+{
+    const ellipsoid_state *state = &next->state;
     double turn[4], was[6];
 
-    ellipsoid_average_at(&start->average, state->x, state->q, &taken);
-    ellipsoid_difference(is->u, taken.u, defect);
-    ellipsoid_difference(is->omega, taken.omega, defect + 3);
     turn_of(state->omega, state->q, turn);
-    change_along(is, state->u, turn, slope);
+    change_along(&next->average.free, state->u, turn, slope);
     change_along(&start->average.free, state->u, turn, was);
     for (int i = 0; i < 6; i++)
     {
         slope[i] = h * (slope[i] - was[i]);
+    }
+}
+
+/* Half-way between two states, by their velocities, too. */
+static void set_middle(const ellipsoid_state *from, const ellipsoid_state *to,
+                       double h, ellipsoid_average *middle)
+{
+    double before[4], after[4];
+
+    turn_of(from->omega, from->q, before);
+    turn_of(to->omega, to->q, after);
+    for (int i = 0; i < 3; i++)
+    {
+        middle->x[i] = 0.5 * (from->x[i] + to->x[i])
+                     + 0.125 * h * (from->u[i] - to->u[i]);
+    }
+    for (int n = 0; n < 4; n++)
+    {
+        middle->q[n] = 0.5 * (from->q[n] + to->q[n])
+                     + 0.125 * h * (before[n] - after[n]);
     }
 }
 
@@ -161,44 +193,81 @@ static double effect(const ellipsoid_cell *p, double h, const double mean[6])
          / p->model->options.tolerance;
 }
 
+/* May a step of h be taken so by a cell that touches something? */
+static int is_slight(const ellipsoid_cell *p, double h, const double defect[6])
+{
+    return effect(p, h, defect) <= 3 * slight;
+}
+
+/* Displaces the end of one that touches nothing, and raises *error. */
+static ellipsoid_status correct(const ellipsoid_cell *p,
+                                const ellipsoid_evaluation *start,
+                                ellipsoid_evaluation *next, double h,
+                                double *error)
+{
+    ellipsoid_average middle;
+    double defect[6], halfway[6], slope[6], mean[6], unsure[6];
+    ellipsoid_status status;
+
+    set_middle(&start->state, &next->state, h, &middle);
+    status = sample(p, 0, &middle);
+    if (status == ELLIPSOID_OK)
+    {
+        status = sample(p, 1, &next->average);
+    }
+    if (status != ELLIPSOID_OK)
+    {
+        return status;
+    }
+    set_defect(&start->average, &middle, halfway);
+    set_defect(&start->average, &next->average, defect);
+    set_slope(start, next, h, slope);
+    for (int i = 0; i < 6; i++)
+    {
+        mean[i] = (16 * halfway[i] + 7 * defect[i] - 0.5 * slope[i]) / 30;
+        unsure[i] = defect[i] / 2 - slope[i] / 12 - mean[i];
+    }
+    *error = fmax(*error, effect(p, h, unsure));
+    if (p->surroundings.piecewise)
+    {
+        *error = fmax(*error, unseen * effect(p, h, defect));
+    }
+    displace(start, next, h, defect, mean);
+    return ELLIPSOID_OK;
+}
+
 ellipsoid_status ellipsoid_complete_averages(ellipsoid_group *g, double h,
                                              double *error, int *too_linear)
 {
+    ellipsoid_status status = ELLIPSOID_OK;
+
     *too_linear = 0;
-    for (int cell = 0; cell < g->count; cell++)
+    for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
         const ellipsoid_cell *p = &g->cell[cell];
         const ellipsoid_evaluation *start = &g->start[cell];
         ellipsoid_evaluation *next = &g->next[cell];
-        const int touches = ellipsoid_in_contact(&start->contact)
-                         || ellipsoid_in_contact(&next->contact);
-        double defect[6], slope[6], mean[6], unsure[6];
-        ellipsoid_status status;
+        double defect[6];
 
         if (!ellipsoid_has_average(p))
         {
             continue;
         }
-        status = sample(p, next);
-        if (status != ELLIPSOID_OK)
+        g->failed = cell;
+        ellipsoid_copy(next->state.x, next->average.x);
+        memcpy(next->average.q, next->state.q, sizeof(next->average.q));
+        if (!ellipsoid_in_contact(&start->contact)
+            && !ellipsoid_in_contact(&next->contact))
         {
-            g->failed = cell;
-            return status;
-        }
-        set_defect(start, next, h, defect, slope);
-        for (int i = 0; i < 6; i++)
-        {
-            mean[i] = defect[i] / 2 - slope[i] / 12;
-            unsure[i] = touches ? defect[i] / (3 * slight)
-                                : defect[i] / 3 - mean[i];
-        }
-        if (touches)
-        {
-            *too_linear = *too_linear || !(effect(p, h, unsure) <= 1);
+            status = correct(p, start, next, h, error);
             continue;
         }
-        *error = fmax(*error, effect(p, h, unsure));
-        displace(start, next, h, defect, mean);
+        status = sample(p, 1, &next->average);
+        if (status == ELLIPSOID_OK)
+        {
+            set_defect(&start->average, &next->average, defect);
+            *too_linear = *too_linear || !is_slight(p, h, defect);
+        }
     }
-    return ELLIPSOID_OK;
+    return status;
 }
