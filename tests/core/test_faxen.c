@@ -362,6 +362,117 @@ static void test_paper_cell_in_a_slit(void **unused)
     }
 }
 
+/* u_1 = U sin(k x_3) and so on, cyclic (an ABC flow), counted. */
+typedef struct vortices
+{
+    double speed, k;
+    long averages;
+} vortices;
+
+static int in_vortices(void *context, double t, const double x[3],
+                       int derivatives, ellipsoid_flow_sample *f)
+{
+    const vortices *v = context;
+
+    (void)t;
+    (void)derivatives;
+    for (int i = 0; i < 3; i++)
+    {
+        const int j = (i + 2) % 3, k = (i + 1) % 3;
+
+        f->velocity[i] = v->speed * (sin(v->k * x[j]) + cos(v->k * x[k]));
+        ellipsoid_set(f->gradient[i], 0, 0, 0);
+        f->gradient[i][j] = v->speed * v->k * cos(v->k * x[j]);
+        f->gradient[i][k] = -v->speed * v->k * sin(v->k * x[k]);
+    }
+    memcpy(f->velocity_jacobian, f->gradient, sizeof(f->gradient));
+    return 0;
+}
+
+static int velocities_in_vortices(void *context, double t,
+                                  const double centre[3], int count,
+                                  double (*points)[3], double (*velocity)[3],
+                                  double (*jacobian)[3][3])
+{
+    vortices *v = context;
+
+    (void)centre;
+    v->averages++;
+    for (int p = 0; p < count; p++)
+    {
+        ellipsoid_flow_sample f;
+
+        in_vortices(v, t, points[p], 1, &f);
+        ellipsoid_copy(f.velocity, velocity[p]);
+        if (jacobian)
+        {
+            memcpy(jacobian[p], f.gradient, sizeof(f.gradient));
+        }
+    }
+    return 0;
+}
+
+/* To the end at a tolerance; returns the attempts. */
+static long through_vortices(vortices *v, double tolerance, int piecewise,
+                             ellipsoid_state *s)
+{
+    ellipsoid_model m = body(0.5e-6, 2e-6, 0.5e-6, 26);
+    ellipsoid_options o = m.options;
+    const ellipsoid_surroundings around = {
+        .flow = in_vortices, .flow_context = v, .piecewise = piecewise,
+        .velocities = velocities_in_vortices};
+    ellipsoid_controller controller = {0};
+    ellipsoid_statistics statistics = {0};
+    double t = 0;
+
+    o.motion = ELLIPSOID_MOTION_INERTIAL;
+    o.integrator = ELLIPSOID_INTEGRATOR_ROSENBROCK;
+    o.tolerance = tolerance;
+    m = test_model(&o);
+    *s = (ellipsoid_state){.x = {1e-6, 2e-6, 5e-6}, .q = {0.6, 0, 0, 0.8}};
+    v->averages = 0;
+    assert_ok(ellipsoid_advance(&(ellipsoid_member){&m, &around, s, &controller,
+                                                    NULL, NULL,
+                                                    &statistics},
+                                &t, 0.03, NULL));
+    return statistics.accepted + statistics.rejected;
+}
+
+/* A step takes the average for linear in the pose, corrects what that left out
+   and is of order 4 all the same. */
+static void test_over_a_step(void **unused)
+{
+    vortices v = {.speed = 1e-3, .k = 4e5};
+    ellipsoid_state exact;
+    double before = 0;
+    long previous = 0;
+
+    (void)unused;
+    through_vortices(&v, 1e-11, 0, &exact);
+    for (int n = 0; n < 4; n++)
+    {
+        const double tolerance = 1e-5 * pow(10, -n);
+        ellipsoid_state s;
+        const long attempts = through_vortices(&v, tolerance, 0, &s);
+        double off[3], error;
+
+        ellipsoid_difference(s.x, exact.x, off);
+        error = ellipsoid_length(off) / 2e-6;
+        print_message("# %g: %ld attempts, %.2f averages each, off by %.3g\n",
+                      tolerance, attempts, (double)v.averages / attempts,
+                      error);
+        assert_true(v.averages < 2.2 * attempts);
+        assert_true(error < 1.2 * tolerance);
+        if (n > 0)
+        {
+            assert_true(log(before / error)
+                        > 4 * log((double)attempts / previous));
+        }
+        before = error;
+        previous = attempts;
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -371,6 +482,7 @@ int main(void)
         cmocka_unit_test(test_degree_of_flow),
         cmocka_unit_test(test_beyond_a_wall),
         cmocka_unit_test(test_paper_cell_in_a_slit),
+        cmocka_unit_test(test_over_a_step),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

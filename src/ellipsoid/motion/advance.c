@@ -109,21 +109,33 @@ static ellipsoid_status keep_or_not(ellipsoid_group *g,
     return status;
 }
 
-/* A step from blocks that are there, to where the next states are. Averages of
-   the flow are taken for linear if that may be. */
-static ellipsoid_status solve_step(ellipsoid_group *g,
-                                   const ellipsoid_plan *planned, int averaged,
-                                   double *error)
+/* What stages may take for linear in the pose. */
+typedef struct linear_parts
 {
+    int averages, planes;
+} linear_parts;
+
+/* A step from blocks that are there, to where the next states are. */
+static ellipsoid_status solve_step(ellipsoid_group *g,
+                                   const ellipsoid_plan *planned,
+                                   linear_parts *linear, double *error)
+{
+    const ellipsoid_linear_planes *planes = &g->start[0].planes;
     ellipsoid_status status;
 
-    ellipsoid_take_averages(g, averaged ? g->start : NULL);
+    *error = 0;
+    ellipsoid_take_averages(g, linear->averages ? g->start : NULL);
     status = g->keeps ? keep_or_not(g, planned) : ELLIPSOID_OK;
+    linear->planes =
+        linear->planes && !g->kept_last && planes->count >= 0
+        && ellipsoid_in_contact(&g->start[0].contact);
+    g->cell[0].planes = linear->planes ? planes : NULL;
     if (status == ELLIPSOID_OK)
     {
         status = ellipsoid_rosenbrock_step(g, planned);
     }
     g->cell[0].kept = NULL;
+    g->cell[0].planes = NULL;
     ellipsoid_take_averages(g, NULL);
     if (status == ELLIPSOID_OK)
     {
@@ -140,40 +152,13 @@ static ellipsoid_status solve_step(ellipsoid_group *g,
     return status;
 }
 
-/*
-    One attempt at a Rosenbrock step. A step counts only if the equations can be
-    evaluated where it ends.
-*/
-static ellipsoid_status
-try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
+/* Evaluates the equations where a step ends. */
+static ellipsoid_status evaluate_end(ellipsoid_group *g,
+                                     const ellipsoid_plan *planned,
+                                     int averaged)
 {
-    int averaged = g->averages, too_linear = 0;
-    ellipsoid_status status = ELLIPSOID_OK;
+    ellipsoid_status status;
 
-    if (!g->has_blocks)
-    {
-        status = ellipsoid_group_evaluate(g, planned->start, g->start,
-                                          !g->inertial, blocks_kind(g));
-        g->has_blocks = status == ELLIPSOID_OK;
-    }
-    if (status == ELLIPSOID_OK)
-    {
-        status = solve_step(g, planned, averaged, error);
-    }
-    if (status == ELLIPSOID_OK && *error <= 1 && averaged)
-    {
-        status = ellipsoid_complete_averages(g, planned->h, error, &too_linear);
-        if (status == ELLIPSOID_OK && too_linear)
-        {
-            averaged = 0;
-            *error = 0;
-            status = solve_step(g, planned, 0, error);
-        }
-    }
-    if (status != ELLIPSOID_OK || *error > 1)
-    {
-        return status;
-    }
     g->next_has_blocks = !planned->last;
     if (g->keeps)
     {
@@ -183,9 +168,71 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
     status = ellipsoid_group_evaluate(g, planned->end, g->next, !g->inertial,
                                       g->next_has_blocks ? blocks_kind(g) : 0);
     ellipsoid_take_averages(g, NULL);
+    return status;
+}
+
+/* To the end of a step, which is to be taken again if something was linear that
+   may not be. */
+static ellipsoid_status take_to_end(ellipsoid_group *g,
+                                    const ellipsoid_plan *planned,
+                                    linear_parts *linear, double *error,
+                                    int *again)
+{
+    int too_linear = 0;
+    ellipsoid_status status = solve_step(g, planned, linear, error);
+
+    *again = 0;
+    if (status == ELLIPSOID_OK && *error <= 1 && linear->averages)
+    {
+        status = ellipsoid_complete_averages(g, planned->h, error, &too_linear);
+        if (status == ELLIPSOID_OK && too_linear)
+        {
+            linear->averages = 0;
+            *again = 1;
+            return status;
+        }
+    }
+    if (status == ELLIPSOID_OK && *error <= 1)
+    {
+        status = evaluate_end(g, planned, linear->averages);
+    }
+    if (status == ELLIPSOID_OK && *error <= 1 && linear->planes
+        && !ellipsoid_planes_are_linear(g, planned->h))
+    {
+        linear->planes = 0;
+        *again = 1;
+    }
+    return status;
+}
+
+/*
+    One attempt at a Rosenbrock step. A step counts only if the equations can be
+    evaluated where it ends.
+*/
+static ellipsoid_status
+try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
+{
+    linear_parts linear = {g->averages, g->keeps};
+    int again = 1;
+    ellipsoid_status status = ELLIPSOID_OK;
+
+    if (!g->has_blocks)
+    {
+        status = ellipsoid_group_evaluate(g, planned->start, g->start,
+                                          !g->inertial, blocks_kind(g));
+        g->has_blocks = status == ELLIPSOID_OK;
+    }
+    while (status == ELLIPSOID_OK && again)
+    {
+        status = take_to_end(g, planned, &linear, error, &again);
+    }
+    if (status != ELLIPSOID_OK || *error > 1)
+    {
+        return status;
+    }
     /* there is room for the couplings of one time only */
     g->has_blocks = g->has_blocks && !(g->pairs && g->next_has_blocks);
-    if (status == ELLIPSOID_OK && is_one_held_back(g, planned->h))
+    if (is_one_held_back(g, planned->h))
     {
         *error = far_too_large;
     }

@@ -16,7 +16,9 @@
     of the order of the method. So the average is evaluated twice in a step,
     once with derivatives. Without e half-way the cubic has
         h (e_1/2 - h e'_1/12),
-    and the difference is the error estimate. Where a cell touches something,
+    and the difference is the error estimate where the gradient of the flow
+    jumps; where it does not, that to h e_1/3 is. What e does to u and omega
+    they follow a relaxation time later. Where a cell touches something,
     which would resist a displacement, a step is taken so only if the defect is
     small.
 */
@@ -24,14 +26,18 @@
 
 #include <math.h>
 
-/* The part of the tolerance that the defect of a cell that touches something
-   may take up. */
+/* The part of the tolerance that a defect may take up that is not corrected. */
 static const double slight = 0.05;
 
 /* If the gradient of the flow jumps three quarters down the step, the two
    polynomials agree, and are off by 1/24 of the defect; three times that is the
    least error that a defect is taken to make. */
 static const double unseen = 0.125;
+
+/* Where nothing jumps, the error estimate is that of the mean of a parabola,
+   times this: errors over the tolerance are then those of averages at each
+   stage (tests/core/test_faxen.c). */
+static const double parabola = 2.5;
 
 int ellipsoid_has_average(const ellipsoid_cell *p)
 {
@@ -147,6 +153,27 @@ static void set_middle(const ellipsoid_state *from, const ellipsoid_state *to,
     }
 }
 
+/* Takes from what a free body follows by how much it lags behind: to first order
+   (slowManifold.c) a relaxation time of its change in a step of h. */
+static void lag(const ellipsoid_model *m, const double q[4], double h,
+                const double change[6], double followed[6])
+{
+    const double opposite[4] = {q[0], q[1], q[2], -q[3]};
+    double axis[3][3], part[3], behind[3];
+
+    ellipsoid_rotation_inline(opposite, axis);
+    for (int i = 0; i < 3; i++)
+    {
+        part[i] = fmin(m->mass * m->mobility[i] / h, 1.0 / 3)
+                * ellipsoid_dot(axis[i], change);
+        followed[i + 3] -=
+            fmin(m->inertia[i] * m->rotation_mobility[i] / h, 1.0 / 3)
+            * change[i + 3];
+    }
+    ellipsoid_combination(axis, part[0], part[1], part[2], behind);
+    ellipsoid_difference(followed, behind, followed);
+}
+
 /* Displaces the end by what the defect makes, itself and by what it displaces
    in the step. */
 static void displace(const ellipsoid_evaluation *start,
@@ -193,8 +220,8 @@ static double effect(const ellipsoid_cell *p, double h, const double mean[6])
          / p->model->options.tolerance;
 }
 
-/* May a step of h be taken so by a cell that touches something? */
-static int is_slight(const ellipsoid_cell *p, double h, const double defect[6])
+int ellipsoid_is_slight(const ellipsoid_cell *p, double h,
+                        const double defect[6])
 {
     return effect(p, h, defect) <= 3 * slight;
 }
@@ -205,6 +232,7 @@ static ellipsoid_status correct(const ellipsoid_cell *p,
                                 ellipsoid_evaluation *next, double h,
                                 double *error)
 {
+    const int piecewise = p->surroundings.piecewise;
     ellipsoid_average middle;
     double defect[6], halfway[6], slope[6], mean[6], unsure[6];
     ellipsoid_status status;
@@ -225,13 +253,16 @@ static ellipsoid_status correct(const ellipsoid_cell *p,
     for (int i = 0; i < 6; i++)
     {
         mean[i] = (16 * halfway[i] + 7 * defect[i] - 0.5 * slope[i]) / 30;
-        unsure[i] = defect[i] / 2 - slope[i] / 12 - mean[i];
+        unsure[i] = piecewise ? defect[i] / 2 - slope[i] / 12 - mean[i]
+                              : parabola * (defect[i] / 3 - mean[i]);
     }
     *error = fmax(*error, effect(p, h, unsure));
-    if (p->surroundings.piecewise)
+    if (piecewise)
     {
         *error = fmax(*error, unseen * effect(p, h, defect));
     }
+    lag(p->model, next->state.q, h, defect, mean);
+    lag(p->model, next->state.q, h, slope, defect);
     displace(start, next, h, defect, mean);
     return ELLIPSOID_OK;
 }
@@ -266,7 +297,7 @@ ellipsoid_status ellipsoid_complete_averages(ellipsoid_group *g, double h,
         if (status == ELLIPSOID_OK)
         {
             set_defect(&start->average, &next->average, defect);
-            *too_linear = *too_linear || !is_slight(p, h, defect);
+            *too_linear = *too_linear || !ellipsoid_is_slight(p, h, defect);
         }
     }
     return status;

@@ -85,6 +85,8 @@ typedef struct ellipsoid_cell
     const ellipsoid_kept_resistance *kept; /* that of a step; NULL: of each
                                               pose */
     int keeps; /* may it be kept over a step at all? */
+    const ellipsoid_linear_planes *planes; /* of the walls, linear about a pose;
+                                              NULL: those of each pose */
     const ellipsoid_average *average; /* of FLOW_BODY, linear about a pose;
                                          NULL: that of each pose */
     int inertial;
@@ -110,6 +112,7 @@ typedef struct ellipsoid_evaluation
     double inertia[6]; /* on the slow manifold: u_b - u, omega_b - omega */
     ellipsoid_kept_resistance resistance; /* of ELLIPSOID_KEEPING */
     ellipsoid_average average; /* of FLOW_BODY, set with the blocks */
+    ellipsoid_linear_planes planes; /* as found there, if it `keeps` */
 } ellipsoid_evaluation;
 
 /* Are derivatives wanted? With KEEPING those of the resistance near walls are
@@ -526,6 +529,15 @@ static inline ellipsoid_status ellipsoid_group_slopes(ellipsoid_group *g,
    (flowAverage.c). */
 void ellipsoid_take_averages(ellipsoid_group *group,
                              ellipsoid_evaluation *points);
+
+/* Is what velocities make small that grow in a step of h with the square of
+   time, to this defect at the end? */
+int ellipsoid_is_slight(const ellipsoid_cell *cell, double h,
+                        const double defect[6]);
+
+/* Were planes of walls that were linear over a step of h good enough, by those
+   at its end (nearDrag.c)? */
+int ellipsoid_planes_are_linear(const ellipsoid_group *group, double h);
 
 /* Completes the end of a step of h, taken so. Raises *error, or sets
    *too_linear where the step may not be taken so. */
