@@ -153,8 +153,8 @@ static void set_middle(const ellipsoid_state *from, const ellipsoid_state *to,
     }
 }
 
-/* Takes from what a free body follows by how much it lags behind: to first order
-   (slowManifold.c) a relaxation time of its change in a step of h. */
+/* Takes from what a free body follows by how much it lags behind: to first
+   order (slowManifold.c) a relaxation time of its change in a step of h. */
 static void lag(const ellipsoid_model *m, const double q[4], double h,
                 const double change[6], double followed[6])
 {
