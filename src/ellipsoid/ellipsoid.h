@@ -269,6 +269,7 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 #define ELLIPSOID_MAX_PAIRS 2048
 #define ELLIPSOID_MAX_SURFACES 8
 #define ELLIPSOID_MAX_NEAR 4096
+#define ELLIPSOID_MAX_LISTED 256
 #define ELLIPSOID_LIVE_LEVELS 4
 
 /*
@@ -290,6 +291,12 @@ typedef struct ellipsoid_facet_cache
     int bead_count, bead[ELLIPSOID_MAX_BEADS]; /* with facets, ascending */
     int first[ELLIPSOID_MAX_BEADS + 1];  /* bead b: first[b] to first[b+1] of */
     int facet[ELLIPSOID_MAX_PAIRS];      /* facets, ascending for each bead */
+    float away[ELLIPSOID_MAX_PAIRS]; /* [m] at least, from its bead; of beads */
+    /* All facets within `about_reach` [m] of a point, ascending, for several
+       searches; about_count -1: not looked up */
+    int about_count, about[ELLIPSOID_MAX_LISTED];
+    double about_x[3], about_reach;
+    const ellipsoid_facet *about_facets;
     int near_count;   /* of facets within the wall_range; -1: not looked up */
     double near_x[3]; /* where they were looked up */
     double near_margin; /* [m] how far the centre may move from there */

@@ -10,8 +10,5 @@ if ! "$python" -c "import matplotlib, vtkmodules" 2> /dev/null; then
     tap_end
 fi
 
-tap_check "mesh and flow" shared_case trap make_trap
-cd "$tap_folder/trap" || exit
-set_entry constant/ellipsoidCloudProperties number 150
-set_entry constant/ellipsoidCloudProperties duration 4
-set_entry system/controlDict endTime 4.3
+tap_check "mesh, flow and cells" shared_case drawn make_drawn
+mv "$tap_folder"/{drawn,trap} && cd "$tap_folder/trap" || exit

@@ -314,6 +314,44 @@ static void test_far_from_walls(void **unused)
     wall_mesh_free(&mesh);
 }
 
+/* Along a wall, nearer than the body is long: facets are searched where it has
+   come nearer or gone far, not wherever a bead could be that is not there. */
+static void test_along_a_wall(void **unused)
+{
+    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_model model = test_model(&options);
+    const double radius = options.bead_radius;
+    const double low[3] = {-40 * um, -40 * um, 0};
+    const double high[3] = {40 * um, 40 * um, 80 * um};
+    const double *a = options.semi_axes;
+    wall_mesh mesh;
+    counted_walls walls = {.mesh = &mesh};
+    const ellipsoid_surroundings surroundings = around(&walls);
+    static ellipsoid_facet_cache cache;
+    const double across[3] = {0, 1, 0};
+    const double height = fmin(a[0], fmin(a[1], a[2])) + 4 * radius;
+    double x[3] = {0, 0, height}, q[4];
+    int poses = 0;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    wall_mesh_box(&mesh, low, high, 20, 0, 0);
+    wall_mesh_finish(&mesh);
+    ellipsoid_quaternion_from_axis(across, 0, q);
+    ellipsoid_facet_cache_clear(&cache);
+    assert_true(height < model.reach);
+    for (x[0] = -20 * um; x[0] < 20 * um; x[0] += 0.3 * radius, poses++)
+    {
+        ellipsoid_contact contact;
+
+        assert_ok(
+            evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
+        assert_true(contact.gap == radius);
+    }
+    assert_true(walls.calls < poses / 5);
+    wall_mesh_free(&mesh);
+}
+
 static void test_no_walls(void **unused)
 {
     ellipsoid_options options = ellipsoid_options_default();
@@ -372,6 +410,7 @@ static void test_failures_have_names(void **unused)
     x[1] = 0;
     mesh.facets[0].middle[2] = INFINITY;
     walls.farther = 100 * um;
+    ellipsoid_facet_cache_clear(&cache);
     assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
                                                 &cache, &contact, NULL),
                      ELLIPSOID_NON_FINITE);
@@ -383,6 +422,7 @@ static void test_failures_have_names(void **unused)
     wall_mesh_finish(&mesh);
     walls.farther = 0;
     lay(q, 0.1);
+    ellipsoid_facet_cache_clear(&cache);
     assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
                                          &contact, NULL));
     wall_mesh_free(&mesh);
@@ -432,6 +472,7 @@ int main(void)
         cmocka_unit_test(test_cache_changes_nothing),
         cmocka_unit_test(test_jacobian_is_exact),
         cmocka_unit_test(test_far_from_walls),
+        cmocka_unit_test(test_along_a_wall),
         cmocka_unit_test(test_no_walls),
         cmocka_unit_test(test_failures_have_names),
         cmocka_unit_test(test_touched_surfaces),

@@ -9,6 +9,42 @@
 
 static ellipsoid_facet_cache cache;
 
+/* A cell that goes its way in a shear flow u2 = shear x3. */
+typedef struct journey
+{
+    wall_mesh *mesh;
+    int no_walls; /* as if there were none */
+    ellipsoid_options options;
+    double shear, end;           /* [1/s], [s] */
+    ellipsoid_observer observer; /* one that stops is asked again */
+    ellipsoid_state state;       /* at the start: x and q; then at the end */
+    ellipsoid_statistics statistics;
+} journey;
+
+static void go(journey *j)
+{
+    test_quadratic flow = {.answer = 0};
+    ellipsoid_surroundings s = around(j->mesh, &flow);
+    ellipsoid_controller controller = {0};
+    const ellipsoid_model model = test_model(&j->options);
+    ellipsoid_status status;
+    double t = 0;
+
+    flow.g[1][2] = j->shear;
+    s.walls = j->no_walls ? NULL : s.walls;
+    ellipsoid_normalise(j->state.q);
+    ellipsoid_facet_cache_clear(&cache);
+    assert_ok(ellipsoid_balance(&model, &s, &j->state, &cache));
+    do
+    {
+        status = ellipsoid_advance(
+            &(ellipsoid_member){&model, &s, &j->state, &controller, &cache,
+                                NULL, &j->statistics},
+            &t, j->end, j->observer);
+    } while (status == ELLIPSOID_STOPPED);
+    assert_ok(status);
+}
+
 /*
     The paper's cell, weighed down by 2 pN, comes down on a floor in a shear
     flow, touches it and rolls on: with and without inertia the same way.
@@ -26,56 +62,59 @@ static void test_coming_down(void **unused)
     wall_mesh_finish(&mesh);
     for (int n = 0; n < 2; n++)
     {
-        test_quadratic flow = {.answer = 0};
-        const ellipsoid_surroundings s = around(&mesh, &flow);
-        ellipsoid_options o = near_walls();
-        ellipsoid_state state = {.x = {0, 0, 3e-6}, .q = {0.3, 0.1, 0.2, 0.9}};
-        ellipsoid_controller controller = {0};
-        ellipsoid_statistics statistics = {0};
-        ellipsoid_model model;
-        double t = 0;
+        journey j = {.mesh = &mesh,
+                     .options = near_walls(),
+                     .shear = 20,
+                     .end = 0.5,
+                     .state = {.x = {0, 0, 3e-6}, .q = {0.3, 0.1, 0.2, 0.9}}};
 
-        flow.g[1][2] = 20;
-        o.motion =
+        j.options.motion =
             n ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL;
-        o.contact = 1;
-        o.external_force[2] = -2e-12;
-        model = test_model(&o);
-        ellipsoid_normalise(state.q);
-        ellipsoid_facet_cache_clear(&cache);
-        assert_ok(ellipsoid_balance(&model, &s, &state, &cache));
-        assert_ok(ellipsoid_advance(
-            &(ellipsoid_member){&model, &s, &state, &controller, &cache, NULL,
-                                &statistics},
-            &t, 0.5, NULL));
+        j.options.contact = 1;
+        j.options.external_force[2] = -2e-12;
+        go(&j);
         print_message("%ld steps, %ld rejected, deepest %.1e m\n",
-                      statistics.accepted, statistics.rejected,
-                      statistics.deepest);
-        assert_true(statistics.deepest > 0);
-        end[n] = state;
+                      j.statistics.accepted, j.statistics.rejected,
+                      j.statistics.deepest);
+        assert_true(j.statistics.deepest > 0);
+        end[n] = j.state;
     }
     assert_near(test_distance(end[0].x, end[1].x, 3), 0, 2e-9);
     assert_near(test_distance(end[0].q, end[1].q, 4), 0, 1e-3);
     wall_mesh_free(&mesh);
 }
 
+/* A floor and a block on it; and a cell that goes over the floor and past the
+   block, heavier than the fluid as bacteria are. */
+static journey past_block(wall_mesh *mesh)
+{
+    const double low[3] = {-2e-6, 5e-6, 0}, high[3] = {2e-6, 9e-6, 1.5e-6};
+    journey j = {.mesh = mesh,
+                 .options = near_walls(),
+                 .shear = 200,
+                 .end = 20e-3,
+                 .state = {.x = {0.3e-6, 0, 4e-6}, .q = {0.3, 0.1, 0.2, 0.9}}};
+
+    wall_mesh_init(mesh);
+    add_floor(mesh, 0, 10, 10);
+    wall_mesh_box(mesh, low, high, 0, 3, 0);
+    wall_mesh_finish(mesh);
+    ellipsoid_set(j.options.gravity, 0, 0, -9.81);
+    j.options.buoyancy = 1;
+    return j;
+}
+
 /*
-    A cell that goes with a shear flow over a floor and past a block, heavier than
-    the fluid as bacteria are: over its steps the resistance is kept. Its error,
-    against steps at a tolerance of 1e-9, over which it is not, is at most twice
-    that without walls.
+    Over its steps the resistance is kept. Its error, against steps at a tolerance
+    of 1e-9, over which it is not, is at most twice that without walls.
 */
 static void test_kept_resistance(void **unused)
 {
-    const double low[3] = {-2e-6, 5e-6, 0}, high[3] = {2e-6, 9e-6, 1.5e-6};
     wall_mesh mesh;
+    const journey start = past_block(&mesh);
     double error[2];
 
     (void)unused;
-    wall_mesh_init(&mesh);
-    add_floor(&mesh, 0, 10, 10);
-    wall_mesh_box(&mesh, low, high, 0, 3, 0);
-    wall_mesh_finish(&mesh);
     for (int n = 0; n < 2; n++)
     {
         static const double tolerance[2] = {1e-9, 1e-5};
@@ -83,38 +122,45 @@ static void test_kept_resistance(void **unused)
 
         for (int k = 0; k < 2; k++)
         {
-            test_quadratic flow = {.answer = 0};
-            ellipsoid_surroundings s = around(&mesh, &flow);
-            ellipsoid_options o = near_walls();
-            ellipsoid_controller controller = {0};
-            ellipsoid_statistics statistics = {0};
-            ellipsoid_model model;
-            double t = 0;
+            journey j = start;
 
-            flow.g[1][2] = 200;
-            o.tolerance = tolerance[k];
-            ellipsoid_set(o.gravity, 0, 0, -9.81);
-            o.buoyancy = 1;
-            model = test_model(&o);
-            end[k] = (ellipsoid_state){.x = {0.3e-6, 0, 4e-6},
-                                       .q = {0.3, 0.1, 0.2, 0.9}};
-            ellipsoid_normalise(end[k].q);
-            s.walls = n ? s.walls : NULL;
-            ellipsoid_facet_cache_clear(&cache);
-            assert_ok(ellipsoid_balance(&model, &s, &end[k], &cache));
-            assert_ok(ellipsoid_advance(
-                &(ellipsoid_member){&model, &s, &end[k], &controller, &cache,
-                                    NULL, &statistics},
-                &t, 20e-3, NULL));
+            j.no_walls = !n;
+            j.options.tolerance = tolerance[k];
+            go(&j);
             print_message("%s walls, %.0e: %ld steps, %ld evaluations\n",
                           n ? "with" : "without", tolerance[k],
-                          statistics.accepted, statistics.rhs);
+                          j.statistics.accepted, j.statistics.rhs);
+            end[k] = j.state;
         }
         error[n] = test_distance(end[0].x, end[1].x, 3) / 2e-6
                  + test_distance(end[0].q, end[1].q, 4);
         print_message("error %.1e\n", error[n]);
     }
     assert_true(error[1] < 2 * error[0]);
+    wall_mesh_free(&mesh);
+}
+
+static int stop(void *context, const ellipsoid_step *step)
+{
+    (void)step;
+    (void)context;
+    return 1;
+}
+
+/*
+    Stopped after every step and continued, it takes the way of one that is not
+    stopped, to the last bit, although its resistance is kept over steps.
+*/
+static void test_kept_and_stopped(void **unused)
+{
+    wall_mesh mesh;
+    journey whole = past_block(&mesh), stopped = whole;
+
+    (void)unused;
+    go(&whole);
+    stopped.observer = stop;
+    go(&stopped);
+    assert_memory_equal(&whole.state, &stopped.state, sizeof(whole.state));
     wall_mesh_free(&mesh);
 }
 
@@ -135,28 +181,17 @@ static void test_kept_beyond_horizon(void **unused)
     wall_mesh_finish(&mesh);
     for (int n = 0; n < 2; n++)
     {
-        test_quadratic flow = {.answer = 0};
-        const ellipsoid_surroundings s = around(&mesh, &flow);
-        ellipsoid_options o = near_walls();
-        ellipsoid_controller controller = {0};
-        ellipsoid_statistics statistics = {0};
-        ellipsoid_model model;
-        double t = 0;
+        journey j = {.mesh = &mesh,
+                     .options = near_walls(),
+                     .shear = 200,
+                     .end = 5e-3,
+                     .state = {.x = {0, 0, 4e-6}, .q = {0.3, 0.1, 0.2, 0.9}}};
 
-        flow.g[1][2] = 200;
-        o.tolerance = 1e-5;
-        o.maximum_step = 2e-4;
-        o.contact = n;
-        model = test_model(&o);
-        end[n] = (ellipsoid_state){.x = {0, 0, 4e-6},
-                                   .q = {0.3, 0.1, 0.2, 0.9}};
-        ellipsoid_normalise(end[n].q);
-        ellipsoid_facet_cache_clear(&cache);
-        assert_ok(ellipsoid_balance(&model, &s, &end[n], &cache));
-        assert_ok(ellipsoid_advance(
-            &(ellipsoid_member){&model, &s, &end[n], &controller, &cache, NULL,
-                                &statistics},
-            &t, 5e-3, NULL));
+        j.options.tolerance = 1e-5;
+        j.options.maximum_step = 2e-4;
+        j.options.contact = n;
+        go(&j);
+        end[n] = j.state;
     }
     assert_memory_equal(&end[0], &end[1], sizeof(end[0]));
     wall_mesh_free(&mesh);
@@ -265,6 +300,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_coming_down),
         cmocka_unit_test(test_kept_resistance),
+        cmocka_unit_test(test_kept_and_stopped),
         cmocka_unit_test(test_kept_beyond_horizon),
         cmocka_unit_test(test_without_flow),
         cmocka_unit_test(test_two_cells),

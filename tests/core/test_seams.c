@@ -297,7 +297,7 @@ static void test_random_ground(void **unused)
                     .radius = r,
                     .laws = &laws};
                 const ellipsoid_candidates from = {wall.facets, index,
-                                                   list.count};
+                                                   list.count, NULL, 0};
                 ellipsoid_bead_forces forces = {.repulsion = {.force = {0}}};
                 const double *force = forces.repulsion.force;
                 double gap = 4;

@@ -39,7 +39,8 @@ static void find_contacts(const ellipsoid_bead *bead,
             &from->facets[from->index[k]];
         const double reach = r + *gap > range ? r + *gap : range;
 
-        if (!ellipsoid_facet_nearest(facet, bead->centre, reach, &found))
+        if ((from->away && from->away[k] - from->moved > reach)
+            || !ellipsoid_facet_nearest(facet, bead->centre, reach, &found))
         {
             continue;
         }
@@ -214,7 +215,7 @@ int ellipsoid_bead_force(const double centre[3], double radius,
                          double force[3], double force_x[3][3])
 {
     const ellipsoid_candidates from = {facets->facets, facets->index,
-                                       facets->count};
+                                       facets->count, NULL, 0};
     const ellipsoid_wall_laws laws = {
         .count = 1, .law = {ellipsoid_hertz_law(stiffness)}};
     ellipsoid_bead bead = {.radius = radius, .laws = &laws};

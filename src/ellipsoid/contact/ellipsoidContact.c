@@ -367,7 +367,7 @@ ellipsoid_surface_contact_add(const ellipsoid_model *model,
     if (status == ELLIPSOID_OK && cache->clearance <= 0)
     {
         const ellipsoid_candidates from = {cache->facets, cache->facet,
-                                           cache->first[1]};
+                                           cache->first[1], NULL, 0};
 
         find_contacts(&body, &from, laws.range, &all, contact);
         contact->deepest = fmax(0, -contact->gap);

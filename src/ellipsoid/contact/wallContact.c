@@ -63,13 +63,17 @@ static ellipsoid_bead bead_of(const ellipsoid_wall_contact *at, int b)
     return bead;
 }
 
+/* clear: how far beyond the bead no facet is, as its move tells */
 static void look_at_bead(ellipsoid_wall_contact *at,
-                         const ellipsoid_facet_cache *cache, int b)
+                         const ellipsoid_facet_cache *cache, int b,
+                         double clear)
 {
     const ellipsoid_bead bead = bead_of(at, b);
     const ellipsoid_candidates from = {cache->facets,
                                        cache->facet + cache->first[b],
-                                       cache->first[b + 1] - cache->first[b]};
+                                       cache->first[b + 1] - cache->first[b],
+                                       cache->away + cache->first[b],
+                                       cache->nearest[b] - bead.radius - clear};
     ellipsoid_bead_forces forces;
 
     if (ellipsoid_bead_contact(&bead, &from, &at->contact->gap,
@@ -82,51 +86,57 @@ static void look_at_bead(ellipsoid_wall_contact *at,
 
 /*
     A bead that has moved less than its distance from all facets needs no
-    evaluation. The first pass is over the beads that may be in range of a law,
-    in their order; if none overlaps, the others find the gap, which does not
-    depend on their order: so the nearest comes first.
+    evaluation; `moved` is what none has moved more than. The first pass is over
+    the beads that may be in range of a law, in their order; if none overlaps,
+    the others find the gap, which does not depend on their order: so the
+    nearest comes first.
 */
 static void add_beads(ellipsoid_wall_contact *at,
                       const ellipsoid_facet_cache *cache, double moved)
 {
-    const double radius = at->model->options.bead_radius;
     /* the bounds are rounded, too */
-    const double bound = moved + 1e-9 * radius;
+    const double radius = (1 + 1e-9) * at->model->options.bead_radius;
     ellipsoid_contact *contact = at->contact;
+    double clear[ELLIPSOID_MAX_BEADS], least = HUGE_VAL;
+    ellipsoid_pose_change change;
     int nearest = -1;
-    double least = HUGE_VAL;
 
     ellipsoid_wall_laws_set(&at->laws, &at->model->options);
     ellipsoid_rotation_inline(at->state->q, at->r);
+    ellipsoid_pose_change_set(cache, at->state->x, at->r, &change);
     for (int n = 0; n < cache->bead_count; n++)
     {
         const int b = cache->bead[n];
-        const double clear = cache->nearest[b] - bound - radius;
 
-        if (clear <= at->laws.range)
+        clear[n] = cache->nearest[b] - moved - radius;
+        if (clear[n] <= at->laws.range)
         {
-            look_at_bead(at, cache, b);
+            clear[n] =
+                cache->nearest[b] - radius
+                - sqrt(ellipsoid_squared_move(&change, at->model->bead[b]));
         }
-        else if (clear < least)
+        if (clear[n] <= at->laws.range)
         {
-            least = clear;
-            nearest = b;
+            look_at_bead(at, cache, b, clear[n]);
+        }
+        else if (clear[n] < least)
+        {
+            least = clear[n];
+            nearest = n;
         }
     }
     if (least < contact->gap && contact->gap > 0)
     {
-        look_at_bead(at, cache, nearest);
+        look_at_bead(at, cache, cache->bead[nearest], least);
     }
     for (int n = 0; n < cache->bead_count && least < contact->gap
                     && contact->gap > 0;
          n++)
     {
-        const int b = cache->bead[n];
-        const double clear = cache->nearest[b] - bound - radius;
-
-        if (b != nearest && clear > at->laws.range && clear < contact->gap)
+        if (n != nearest && clear[n] > at->laws.range
+            && clear[n] < contact->gap)
         {
-            look_at_bead(at, cache, b);
+            look_at_bead(at, cache, cache->bead[n], clear[n]);
         }
     }
     contact->deepest = fmax(0, -contact->gap);

@@ -155,32 +155,24 @@ void ellipsoid_linear_planes_defect(const ellipsoid_model *model,
                                     const ellipsoid_state *state,
                                     double defect[6]);
 
-/* The resistance near walls as it is kept over steps (wallDrag.c). */
+/* The resistance near walls as it is kept over a step (wallDrag.c). */
 typedef struct ellipsoid_kept_resistance
 {
     double longest;      /* [s] of a step over which it may be; 0: none */
-    double step;         /* [s] the last over which it was */
-    int is_set;          /* else there is none yet */
     int acts;            /* do walls add to that of the free body? */
     int in_blocks;       /* are the blocks those of a kept one? */
-    double part, spin_part; /* [-] of the free body's, at most, that they add */
-    double gap;          /* [m] to the nearest of them, where it was set */
-    double x[3], q[4];   /* where */
     double matrix[6][6]; /* [N s/m, ...] body frame */
 } ellipsoid_kept_resistance;
 
-/* Sets it from the planes at this pose. NON_FINITE: it is singular. */
-ellipsoid_status ellipsoid_set_kept(const ellipsoid_model *model,
-                                    const ellipsoid_planes *planes,
-                                    const ellipsoid_state *state,
-                                    ellipsoid_kept_resistance *kept);
-
-/* Sets how long it may be kept from this state on, which is where it was set or
-   later. gap [m]: to where it touches, as far as contact knows. */
-void ellipsoid_judge_kept(const ellipsoid_model *model, ellipsoid_frame *frame,
-                          const ellipsoid_free_motion *free,
-                          const ellipsoid_state *state, double gap,
-                          ellipsoid_kept_resistance *kept);
+/* Sets it, and how long it may be kept. gap [m]: to where it touches, as far as
+   contact knows. NON_FINITE: it is singular. */
+ellipsoid_status ellipsoid_keep_resistance(const ellipsoid_model *model,
+                                           const ellipsoid_planes *planes,
+                                           ellipsoid_frame *frame,
+                                           const ellipsoid_free_motion *free,
+                                           const ellipsoid_state *state,
+                                           double gap,
+                                           ellipsoid_kept_resistance *kept);
 
 /* As ellipsoid_add_wall_drag() with a resistance that is the same in all poses,
    as seen by the body. */

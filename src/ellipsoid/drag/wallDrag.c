@@ -264,72 +264,55 @@ ellipsoid_status ellipsoid_add_wall_drag(const ellipsoid_model *model,
     return ELLIPSOID_OK;
 }
 
-ellipsoid_status ellipsoid_set_kept(const ellipsoid_model *model,
-                                    const ellipsoid_planes *planes,
-                                    const ellipsoid_state *state,
-                                    ellipsoid_kept_resistance *kept)
+/*
+    While a body is moved by forces that are weak against the drag, it goes with
+    the fluid, whatever the resistance. If all that walls add to it went away,
+    the displacement relative to the fluid in a step of h would change by the
+    walls' part of it: that is to be below half the tolerance, and what they add
+    changes by a part of itself alone, as no gap becomes less by a quarter. The
+    relative velocity is taken for twice that at the start, and what constant
+    forces do besides, as it may pass through zero there.
+*/
+ellipsoid_status ellipsoid_keep_resistance(const ellipsoid_model *model,
+                                           const ellipsoid_planes *planes,
+                                           ellipsoid_frame *frame,
+                                           const ellipsoid_free_motion *free,
+                                           const ellipsoid_state *state,
+                                           double gap,
+                                           ellipsoid_kept_resistance *kept)
 {
-    static const double least = 0.1; /* walls' part; they may come */
+    static const double small = 0.5;       /* part of the tolerance */
+    static const double least = 0.1;       /* walls' part; they may come */
+    static const double nearer = 0.25;     /* part of the gap */
     const double *k = model->resistance, *c = model->rotation_resistance;
     const double *a = model->options.semi_axes, mu = model->viscosity;
+    const double longest = fmax(a[0], fmax(a[1], a[2]));
+    const double speed = ellipsoid_length(state->u)
+                       + longest * ellipsoid_length(state->omega);
+    double part = least, spin_part = least, slip, spin;
+    wall_drag drag;
 
-    kept->is_set = set_matrix(model, planes, kept->matrix);
+    kept->longest = 0;
+    gap = fmin(gap, model->options.wall_range); /* planes may come there */
     kept->acts = planes->count > 0;
-    kept->part = kept->spin_part = least;
-    kept->gap = model->options.wall_range;
-    ellipsoid_copy(state->x, kept->x);
-    memcpy(kept->q, state->q, sizeof(kept->q));
+    if (!set_matrix(model, planes, kept->matrix))
+    {
+        return ELLIPSOID_NON_FINITE;
+    }
     for (int i = 0; i < 3; i++)
     {
-        kept->part =
-            fmax(kept->part, kept->matrix[i][i] / (mu * k[i]) - 1);
-        kept->spin_part =
-            fmax(kept->spin_part,
-                 kept->matrix[i + 3][i + 3] / (mu * c[i]) - 1);
+        part = fmax(part, kept->matrix[i][i] / (mu * k[i]) - 1);
+        spin_part =
+            fmax(spin_part, kept->matrix[i + 3][i + 3] / (mu * c[i]) - 1);
     }
     for (int p = 0; p < planes->count; p++)
     {
         const double *m = planes->at[p].normal;
         const double along[3] = {a[0] * m[0], a[1] * m[1], a[2] * m[2]};
 
-        kept->gap = fmin(kept->gap, planes->at[p].height.value
-                                        - ellipsoid_length(along));
+        gap = fmin(gap,
+                   planes->at[p].height.value - ellipsoid_length(along));
     }
-    return kept->is_set ? ELLIPSOID_OK : ELLIPSOID_NON_FINITE;
-}
-
-/*
-    While a body is moved by forces that are weak against the drag, it goes with
-    the fluid, whatever the resistance. If all that walls add to it went away,
-    the displacement relative to the fluid in a step of h would change by the
-    walls' part of it: that is to be below half the tolerance, and what they add
-    changes by a part of itself alone, as no gap becomes less by a quarter since
-    it was set. The relative velocity is taken for twice that at the start, and
-    what constant forces do besides, as it may pass through zero there.
-*/
-void ellipsoid_judge_kept(const ellipsoid_model *model, ellipsoid_frame *frame,
-                          const ellipsoid_free_motion *free,
-                          const ellipsoid_state *state, double gap,
-                          ellipsoid_kept_resistance *kept)
-{
-    static const double small = 0.5;   /* part of the tolerance */
-    static const double nearer = 0.25; /* part of the gap */
-    const double *k = model->resistance, *c = model->rotation_resistance;
-    const double *a = model->options.semi_axes, mu = model->viscosity;
-    const double longest = fmax(a[0], fmax(a[1], a[2]));
-    const double speed = ellipsoid_length(state->u)
-                       + longest * ellipsoid_length(state->omega);
-    double way[3], turn[4], slip, spin, left;
-    wall_drag drag;
-
-    ellipsoid_difference(state->x, kept->x, way);
-    for (int n = 0; n < 4; n++)
-    {
-        turn[n] = state->q[n] - kept->q[n];
-    }
-    left = fmin(nearer * fmax(gap, 0),
-                nearer * fmax(kept->gap, 0) - ellipsoid_length(way)
-                    - 2 * longest * sqrt(ellipsoid_square4(turn)));
     set_rates(frame, free, state, &drag);
     slip = 2 * ellipsoid_length(drag.rates)
          + ellipsoid_length(model->constant_force)
@@ -338,9 +321,9 @@ void ellipsoid_judge_kept(const ellipsoid_model *model, ellipsoid_frame *frame,
          + ellipsoid_length(model->options.external_torque)
                / (mu * fmin(c[0], fmin(c[1], c[2])));
     kept->longest = fmin(small * model->options.tolerance
-                             / fmax(kept->part * slip / longest,
-                                    kept->spin_part * spin),
-                         fmax(left, 0) / speed);
+                             / fmax(part * slip / longest, spin_part * spin),
+                         nearer * fmax(gap, 0) / speed);
+    return ELLIPSOID_OK;
 }
 
 void ellipsoid_add_kept_drag(const ellipsoid_model *model,

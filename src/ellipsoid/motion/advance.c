@@ -83,28 +83,20 @@ static int blocks_kind(const ellipsoid_group *g)
 }
 
 /* Keeps the resistance near walls over a step for which it may be kept, or sees
-   to it that its derivatives are in the blocks. One that was set before may be
-   too old for a step that is longer than the last. */
+   to it that its derivatives are in the blocks. Whether they were before does
+   not matter. */
 static ellipsoid_status keep_or_not(ellipsoid_group *g,
                                     const ellipsoid_plan *planned)
 {
-    ellipsoid_kept_resistance *kept = &g->start[0].resistance;
+    const ellipsoid_kept_resistance *kept = &g->start[0].resistance;
     ellipsoid_status status = ELLIPSOID_OK;
 
-    if (kept->in_blocks && planned->h > kept->longest
-        && memcmp(kept->x, g->start[0].state.x, sizeof(kept->x)) != 0)
-    {
-        kept->is_set = 0;
-        status = ellipsoid_group_evaluate(g, planned->start, g->start, 0,
-                                          ELLIPSOID_KEEPING);
-    }
     g->kept_last = planned->h <= kept->longest;
-    if (status == ELLIPSOID_OK && g->kept_last != kept->in_blocks)
+    if (g->kept_last != kept->in_blocks)
     {
         status = ellipsoid_group_evaluate(g, planned->start, g->start, 0,
                                           blocks_kind(g));
     }
-    kept->step = planned->h;
     g->cell[0].kept = g->kept_last ? kept : NULL;
     return status;
 }
@@ -152,22 +144,20 @@ static ellipsoid_status solve_step(ellipsoid_group *g,
     return status;
 }
 
-/* Evaluates the equations where a step ends. */
+/* Evaluates the equations where a step ends; with derivatives if the next step
+   needs them, or averages that were linear. */
 static ellipsoid_status evaluate_end(ellipsoid_group *g,
                                      const ellipsoid_plan *planned,
                                      int averaged)
 {
-    ellipsoid_status status;
+    const int with_blocks = averaged || !planned->last;
+    const ellipsoid_status status =
+        ellipsoid_group_evaluate(g, planned->end, g->next, !g->inertial,
+                                 with_blocks ? blocks_kind(g) : 0);
 
-    g->next_has_blocks = !planned->last;
-    if (g->keeps)
-    {
-        g->next[0].resistance = g->start[0].resistance;
-    }
-    ellipsoid_take_averages(g, averaged ? g->next : NULL);
-    status = ellipsoid_group_evaluate(g, planned->end, g->next, !g->inertial,
-                                      g->next_has_blocks ? blocks_kind(g) : 0);
-    ellipsoid_take_averages(g, NULL);
+    g->next_has_blocks = with_blocks;
+    /* there is room for the couplings of one time only */
+    g->has_blocks = g->has_blocks && !(g->pairs && with_blocks);
     return status;
 }
 
@@ -178,30 +168,33 @@ static ellipsoid_status take_to_end(ellipsoid_group *g,
                                     linear_parts *linear, double *error,
                                     int *again)
 {
-    int too_linear = 0;
+    const linear_parts taken = *linear;
     ellipsoid_status status = solve_step(g, planned, linear, error);
 
     *again = 0;
-    if (status == ELLIPSOID_OK && *error <= 1 && linear->averages)
+    if (status != ELLIPSOID_OK || *error > 1)
     {
-        status = ellipsoid_complete_averages(g, planned->h, error, &too_linear);
-        if (status == ELLIPSOID_OK && too_linear)
-        {
-            linear->averages = 0;
-            *again = 1;
-            return status;
-        }
+        return status;
     }
-    if (status == ELLIPSOID_OK && *error <= 1)
+    if (taken.averages)
     {
-        status = evaluate_end(g, planned, linear->averages);
+        status = ellipsoid_correct_poses(g, planned->h);
     }
-    if (status == ELLIPSOID_OK && *error <= 1 && linear->planes
-        && !ellipsoid_planes_are_linear(g, planned->h))
+    if (status == ELLIPSOID_OK)
     {
-        linear->planes = 0;
-        *again = 1;
+        status = evaluate_end(g, planned, taken.averages);
     }
+    if (status == ELLIPSOID_OK && taken.averages)
+    {
+        linear->averages = ellipsoid_judge_averages(g, planned->h, error);
+    }
+    ellipsoid_forget_corrections(g);
+    if (status == ELLIPSOID_OK && *error <= 1 && linear->planes)
+    {
+        linear->planes = ellipsoid_planes_are_linear(g, planned->h);
+        *again = !linear->planes;
+    }
+    *again = *again || linear->averages != taken.averages;
     return status;
 }
 
@@ -216,22 +209,23 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
     int again = 1;
     ellipsoid_status status = ELLIPSOID_OK;
 
-    if (!g->has_blocks)
-    {
-        status = ellipsoid_group_evaluate(g, planned->start, g->start,
-                                          !g->inertial, blocks_kind(g));
-        g->has_blocks = status == ELLIPSOID_OK;
-    }
     while (status == ELLIPSOID_OK && again)
     {
-        status = take_to_end(g, planned, &linear, error, &again);
+        if (!g->has_blocks)
+        {
+            status = ellipsoid_group_evaluate(g, planned->start, g->start,
+                                              !g->inertial, blocks_kind(g));
+            g->has_blocks = status == ELLIPSOID_OK;
+        }
+        if (status == ELLIPSOID_OK)
+        {
+            status = take_to_end(g, planned, &linear, error, &again);
+        }
     }
     if (status != ELLIPSOID_OK || *error > 1)
     {
         return status;
     }
-    /* there is room for the couplings of one time only */
-    g->has_blocks = g->has_blocks && !(g->pairs && g->next_has_blocks);
     if (is_one_held_back(g, planned->h))
     {
         *error = far_too_large;
@@ -471,7 +465,6 @@ static ellipsoid_status begin(ellipsoid_group *g,
     {
         status = ellipsoid_noise_layer(g, t, end);
     }
-    g->start[0].resistance.is_set = 0;
     g->from = t;
     g->until = end;
     g->on_manifold = 0;

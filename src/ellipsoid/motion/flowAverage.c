@@ -8,23 +8,26 @@
 
     The stages of a step take it for linear in the pose, with the derivatives of
     the start. What that leaves out, e, is zero at the start and so is its
-    slope; at the end both follow from the average there, with which the next
-    step begins, and e once more half-way. The polynomial of degree four through
-    these has the integral
-        h (16 e_1/2 + 7 e_1 - h e'_1/2)/30,
-    by which the end is displaced: a defect correction, after which the error is
-    of the order of the method. So the average is evaluated twice in a step,
-    once with derivatives. Without e half-way the cubic has
-        h (e_1/2 - h e'_1/12),
+    slope. Where 3/4 of the step have passed the average is evaluated; if e is
+    of degree three, its mean is 16/27 of that there, and h times this displaces
+    the end: a defect correction, after which the error is of the order of the
+    method. The average at the end is that of the displaced pose, where the next
+    step begins: a run that is stopped there and continued finds the same. So it
+    is evaluated twice in a step, once with derivatives. By the end alone, e_1
+    and its slope e'_1, the mean of a cubic is
+        e_1/2 - h e'_1/12,
     and the difference is the error estimate where the gradient of the flow
-    jumps; where it does not, that to h e_1/3 is. What e does to u and omega
-    they follow a relaxation time later. Where a cell touches something,
-    which would resist a displacement, a step is taken so only if the defect is
-    small.
+    jumps; where it does not, that to e_1/3 is. What e does to u and omega they
+    follow a relaxation time later. Where a cell touches something, which would
+    resist a displacement, a step is taken so only if the defect is small.
 */
 #include "motion/motion.h"
 
 #include <math.h>
+
+/* Where in the step the average is evaluated, and what part of the defect there
+   its mean is. */
+static const double part = 0.75, weight = 16.0 / 27;
 
 /* The part of the tolerance that a defect may take up that is not corrected. */
 static const double slight = 0.05;
@@ -56,15 +59,14 @@ void ellipsoid_take_averages(ellipsoid_group *g, ellipsoid_evaluation *points)
     }
 }
 
-/* That at the pose of `average`. */
-static ellipsoid_status sample(const ellipsoid_cell *p, int derivatives,
+/* That at the pose of `average`, without derivatives. */
+static ellipsoid_status sample(const ellipsoid_cell *p,
                                ellipsoid_average *average)
 {
     const ellipsoid_surroundings *around = &p->surroundings;
     const double *q = average->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
     ellipsoid_flow_sample flow = {.velocity = {0}};
-    double by_q[4][3][3];
-    ellipsoid_frame frame = {.by_q = derivatives ? by_q : NULL};
+    ellipsoid_frame frame = {.by_q = NULL};
     const int answer = around->flow(around->flow_context, around->time,
                                     average->x, 0, &flow);
 
@@ -73,7 +75,6 @@ static ellipsoid_status sample(const ellipsoid_cell *p, int derivatives,
         return ellipsoid_answer_status(answer);
     }
     ellipsoid_rotation_inline(opposite, frame.axis);
-    ellipsoid_axis_derivatives(q, by_q);
     return ellipsoid_faxen(p->model, around, average->x, flow.velocity, &frame,
                            &average->free);
 }
@@ -117,7 +118,7 @@ static void set_defect(const ellipsoid_average *start,
 }
 
 /* How that changes at the end in a step of h. */
-static void set_slope(const ellipsoid_evaluation *start,
+static void set_slope(const ellipsoid_average *start,
                       const ellipsoid_evaluation *next, double h,
                       double slope[6])
 {
@@ -126,30 +127,31 @@ static void set_slope(const ellipsoid_evaluation *start,
 
     turn_of(state->omega, state->q, turn);
     change_along(&next->average.free, state->u, turn, slope);
-    change_along(&start->average.free, state->u, turn, was);
+    change_along(&start->free, state->u, turn, was);
     for (int i = 0; i < 6; i++)
     {
         slope[i] = h * (slope[i] - was[i]);
     }
 }
 
-/* Half-way between two states, by their velocities, too. */
-static void set_middle(const ellipsoid_state *from, const ellipsoid_state *to,
-                       double h, ellipsoid_average *middle)
+/* The pose on the way between two states, by their velocities, too. */
+static void set_between(const ellipsoid_state *from, const ellipsoid_state *to,
+                        double h, double x[3], double q[4])
 {
+    const double s = part, r = 1 - s, with = s * s * (3 - 2 * s);
     double before[4], after[4];
 
     turn_of(from->omega, from->q, before);
     turn_of(to->omega, to->q, after);
     for (int i = 0; i < 3; i++)
     {
-        middle->x[i] = 0.5 * (from->x[i] + to->x[i])
-                     + 0.125 * h * (from->u[i] - to->u[i]);
+        x[i] = from->x[i] + with * (to->x[i] - from->x[i])
+             + h * s * r * (r * from->u[i] - s * to->u[i]);
     }
     for (int n = 0; n < 4; n++)
     {
-        middle->q[n] = 0.5 * (from->q[n] + to->q[n])
-                     + 0.125 * h * (before[n] - after[n]);
+        q[n] = from->q[n] + with * (to->q[n] - from->q[n])
+             + h * s * r * (r * before[n] - s * after[n]);
     }
 }
 
@@ -159,36 +161,34 @@ static void lag(const ellipsoid_model *m, const double q[4], double h,
                 const double change[6], double followed[6])
 {
     const double opposite[4] = {q[0], q[1], q[2], -q[3]};
-    double axis[3][3], part[3], behind[3];
+    double axis[3][3], piece[3], behind[3];
 
     ellipsoid_rotation_inline(opposite, axis);
     for (int i = 0; i < 3; i++)
     {
-        part[i] = fmin(m->mass * m->mobility[i] / h, 1.0 / 3)
-                * ellipsoid_dot(axis[i], change);
+        piece[i] = fmin(m->mass * m->mobility[i] / h, 1.0 / 3)
+                 * ellipsoid_dot(axis[i], change);
         followed[i + 3] -=
             fmin(m->inertia[i] * m->rotation_mobility[i] / h, 1.0 / 3)
             * change[i + 3];
     }
-    ellipsoid_combination(axis, part[0], part[1], part[2], behind);
+    ellipsoid_combination(axis, piece[0], piece[1], piece[2], behind);
     ellipsoid_difference(followed, behind, followed);
 }
 
-/* Displaces the end by what the defect makes, itself and by what it displaces
-   in the step. */
-static void displace(const ellipsoid_evaluation *start,
-                     ellipsoid_evaluation *next, double h,
-                     const double defect[6], const double mean[6])
+/* Displaces the pose of the end by what the defect makes, itself and by what it
+   displaces in the step. */
+static void displace(const ellipsoid_average *start, double h,
+                     const double defect[6], ellipsoid_state *to)
 {
-    ellipsoid_state *to = &next->state;
     double way[6], turn[4], more[6], swept[3];
 
     for (int i = 0; i < 6; i++)
     {
-        way[i] = h * mean[i];
+        way[i] = h * defect[i];
     }
     turn_of(way + 3, to->q, turn);
-    change_along(&start->average.free, way, turn, more);
+    change_along(&start->free, way, turn, more);
     ellipsoid_cross(to->omega, way + 3, swept);
     for (int i = 0; i < 3; i++)
     {
@@ -196,12 +196,9 @@ static void displace(const ellipsoid_evaluation *start,
         way[i + 3] += 0.25 * h * (more[i + 3] - swept[i]);
     }
     turn_of(way + 3, to->q, turn);
-    change_along(&next->average.free, way, turn, more);
     for (int i = 0; i < 3; i++)
     {
         to->x[i] += way[i];
-        to->u[i] += defect[i] + more[i];
-        to->omega[i] += defect[i + 3] + more[i + 3];
     }
     for (int n = 0; n < 4; n++)
     {
@@ -226,79 +223,124 @@ int ellipsoid_is_slight(const ellipsoid_cell *p, double h,
     return effect(p, h, defect) <= 3 * slight;
 }
 
-/* Displaces the end of one that touches nothing, and raises *error. */
-static ellipsoid_status correct(const ellipsoid_cell *p,
-                                const ellipsoid_evaluation *start,
-                                ellipsoid_evaluation *next, double h,
-                                double *error)
+/* Displaces the end of one that touches nothing. */
+static ellipsoid_status correct(ellipsoid_cell *p,
+                                const ellipsoid_evaluation *start, double h,
+                                ellipsoid_state *end)
 {
-    const int piecewise = p->surroundings.piecewise;
-    ellipsoid_average middle;
-    double defect[6], halfway[6], slope[6], mean[6], unsure[6];
+    ellipsoid_correction *made = &p->correction;
+    ellipsoid_free_motion followed;
+    ellipsoid_average between;
     ellipsoid_status status;
+    double at_end[6], mean[6];
 
-    set_middle(&start->state, &next->state, h, &middle);
-    status = sample(p, 0, &middle);
-    if (status == ELLIPSOID_OK)
-    {
-        status = sample(p, 1, &next->average);
-    }
+    set_between(&start->state, end, h, between.x, between.q);
+    status = sample(p, &between);
     if (status != ELLIPSOID_OK)
     {
         return status;
     }
-    set_defect(&start->average, &middle, halfway);
-    set_defect(&start->average, &next->average, defect);
-    set_slope(start, next, h, slope);
+    set_defect(&start->average, &between, made->mean);
     for (int i = 0; i < 6; i++)
     {
-        mean[i] = (16 * halfway[i] + 7 * defect[i] - 0.5 * slope[i]) / 30;
-        unsure[i] = piecewise ? defect[i] / 2 - slope[i] / 12 - mean[i]
-                              : parabola * (defect[i] / 3 - mean[i]);
+        at_end[i] = made->mean[i] / (part * part);
+        made->mean[i] *= weight;
     }
-    *error = fmax(*error, effect(p, h, unsure));
-    if (piecewise)
-    {
-        *error = fmax(*error, unseen * effect(p, h, defect));
-    }
-    lag(p->model, next->state.q, h, defect, mean);
-    lag(p->model, next->state.q, h, slope, defect);
-    displace(start, next, h, defect, mean);
+    ellipsoid_average_at(&start->average, end->x, end->q, &followed);
+    ellipsoid_copy(followed.u, made->followed);
+    ellipsoid_copy(followed.omega, made->followed + 3);
+    made->start = &start->average;
+    made->h = h;
+    memcpy(mean, made->mean, sizeof(mean));
+    lag(p->model, end->q, h, at_end, mean);
+    displace(&start->average, h, mean, end);
     return ELLIPSOID_OK;
 }
 
-ellipsoid_status ellipsoid_complete_averages(ellipsoid_group *g, double h,
-                                             double *error, int *too_linear)
+ellipsoid_status ellipsoid_correct_poses(ellipsoid_group *g, double h)
 {
     ellipsoid_status status = ELLIPSOID_OK;
 
-    *too_linear = 0;
     for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
+        ellipsoid_cell *p = &g->cell[cell];
+
+        if (ellipsoid_has_average(p)
+            && !ellipsoid_in_contact(&g->start[cell].contact)
+            && !ellipsoid_in_contact(&g->next[cell].contact))
+        {
+            g->failed = cell;
+            status = correct(p, &g->start[cell], h, &g->next[cell].state);
+        }
+    }
+    return status;
+}
+
+void ellipsoid_correct_rates(const ellipsoid_cell *p, ellipsoid_evaluation *end)
+{
+    const ellipsoid_correction *made = &p->correction;
+    const ellipsoid_free_motion *free = &end->average.free;
+    double change[6], slope[6];
+
+    set_slope(made->start, end, made->h, slope);
+    ellipsoid_difference(free->u, made->followed, change);
+    ellipsoid_difference(free->omega, made->followed + 3, change + 3);
+    lag(p->model, end->state.q, made->h, slope, change);
+    ellipsoid_add(end->state.u, change);
+    ellipsoid_add(end->state.omega, change + 3);
+}
+
+/* What the correction of a step may still lack. */
+static double uncertainty(const ellipsoid_cell *p,
+                          const ellipsoid_evaluation *end,
+                          const double defect[6])
+{
+    const ellipsoid_correction *made = &p->correction;
+    double slope[6], unsure[6];
+
+    set_slope(made->start, end, made->h, slope);
+    for (int i = 0; i < 6; i++)
+    {
+        unsure[i] = p->surroundings.piecewise
+                      ? defect[i] / 2 - slope[i] / 12 - made->mean[i]
+                      : parabola * (defect[i] / 3 - made->mean[i]);
+    }
+    return p->surroundings.piecewise
+             ? fmax(effect(p, made->h, unsure),
+                    unseen * effect(p, made->h, defect))
+             : effect(p, made->h, unsure);
+}
+
+int ellipsoid_judge_averages(ellipsoid_group *g, double h, double *error)
+{
+    int good = 1;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
         const ellipsoid_cell *p = &g->cell[cell];
-        const ellipsoid_evaluation *start = &g->start[cell];
-        ellipsoid_evaluation *next = &g->next[cell];
         double defect[6];
 
         if (!ellipsoid_has_average(p))
         {
             continue;
         }
-        g->failed = cell;
-        ellipsoid_copy(next->state.x, next->average.x);
-        memcpy(next->average.q, next->state.q, sizeof(next->average.q));
-        if (!ellipsoid_in_contact(&start->contact)
-            && !ellipsoid_in_contact(&next->contact))
+        set_defect(&g->start[cell].average, &g->next[cell].average, defect);
+        if (p->correction.start)
         {
-            status = correct(p, start, next, h, error);
-            continue;
+            *error = fmax(*error, uncertainty(p, &g->next[cell], defect));
         }
-        status = sample(p, 1, &next->average);
-        if (status == ELLIPSOID_OK)
+        else
         {
-            set_defect(&start->average, &next->average, defect);
-            *too_linear = *too_linear || !ellipsoid_is_slight(p, h, defect);
+            good = good && ellipsoid_is_slight(p, h, defect);
         }
     }
-    return status;
+    return good;
+}
+
+void ellipsoid_forget_corrections(ellipsoid_group *g)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        g->cell[cell].correction.start = NULL;
+    }
 }

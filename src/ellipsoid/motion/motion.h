@@ -71,6 +71,16 @@ ellipsoid_add_body_forces(const ellipsoid_model *model,
 
 /* --------------------------------------------------------------- a cell */
 
+/* How the end of a step is corrected by what an average that is linear over it
+   leaves out (flowAverage.c); velocities (u, omega) of a free body. */
+typedef struct ellipsoid_correction
+{
+    const ellipsoid_average *start; /* NULL: it is not */
+    double h;           /* [s] the step */
+    double mean[6];     /* of what was left out, over the step */
+    double followed[6]; /* that the end follows as yet */
+} ellipsoid_correction;
+
 /* One cell's surroundings, and what an advance does not change. */
 typedef struct ellipsoid_cell
 {
@@ -89,6 +99,7 @@ typedef struct ellipsoid_cell
                                               NULL: those of each pose */
     const ellipsoid_average *average; /* of FLOW_BODY, linear about a pose;
                                          NULL: that of each pose */
+    ellipsoid_correction correction;  /* of the end that is evaluated */
     int inertial;
     int walls;
 } ellipsoid_cell;
@@ -539,10 +550,18 @@ int ellipsoid_is_slight(const ellipsoid_cell *cell, double h,
    at its end (nearDrag.c)? */
 int ellipsoid_planes_are_linear(const ellipsoid_group *group, double h);
 
-/* Completes the end of a step of h, taken so. Raises *error, or sets
-   *too_linear where the step may not be taken so. */
-ellipsoid_status ellipsoid_complete_averages(ellipsoid_group *group, double h,
-                                             double *error, int *too_linear);
+/* Displaces the poses where a step of h ends that was taken so, unless they
+   touch something; what is then evaluated there corrects u and omega. */
+ellipsoid_status ellipsoid_correct_poses(ellipsoid_group *group, double h);
+
+/* Corrects u and omega by the average there. */
+void ellipsoid_correct_rates(const ellipsoid_cell *cell,
+                             ellipsoid_evaluation *end);
+
+/* Raises *error to what that may lack. 0: the step may not be taken so. */
+int ellipsoid_judge_averages(ellipsoid_group *group, double h, double *error);
+
+void ellipsoid_forget_corrections(ellipsoid_group *group);
 
 /* -------------------------------------------------------- step control */
 

@@ -10,42 +10,27 @@
 
 #include <math.h>
 
-/* For how long the resistance may be kept from here on. */
-static void judge(const ellipsoid_cell *cell, ellipsoid_frame *frame,
-                  const ellipsoid_free_motion *free, ellipsoid_evaluation *at)
-{
-    /* contact sees no farther than its horizon; planes do */
-    const int seen = ellipsoid_has_walls(cell->model, &cell->surroundings)
-                  && at->contact.gap < ellipsoid_gap_horizon(cell->model);
-
-    ellipsoid_judge_kept(cell->model, frame, free, &at->state,
-                         !seen                                ? HUGE_VAL
-                         : ellipsoid_in_contact(&at->contact) ? 0
-                                                              : at->contact.gap,
-                         &at->resistance);
-}
-
-/* That of this pose, and for how long it may be. */
+/* The resistance of this pose, and for how long it may be kept. */
 static ellipsoid_status set_kept(const ellipsoid_cell *cell,
                                  const ellipsoid_planes *planes,
                                  ellipsoid_frame *frame,
                                  const ellipsoid_free_motion *free,
                                  ellipsoid_evaluation *at)
 {
-    const ellipsoid_status status = ellipsoid_set_kept(
-        cell->model, planes, &at->state, &at->resistance);
+    /* contact sees no farther than its horizon; planes do */
+    const int seen = ellipsoid_has_walls(cell->model, &cell->surroundings)
+                  && at->contact.gap < ellipsoid_gap_horizon(cell->model);
+    const double gap = !seen                                ? HUGE_VAL
+                     : ellipsoid_in_contact(&at->contact) ? 0
+                                                          : at->contact.gap;
 
     at->resistance.in_blocks = 0;
-    if (status == ELLIPSOID_OK)
-    {
-        judge(cell, frame, free, at);
-    }
-    return status;
+    return ellipsoid_keep_resistance(cell->model, planes, frame, free,
+                                     &at->state, gap, &at->resistance);
 }
 
-/* The drag with a resistance that is kept, if that may be over any step at all:
-   that of the last step if it may be over one as long, or else that of this
-   pose, of which the planes need no slopes. */
+/* The drag with the resistance of this pose kept, if that may be kept over any
+   step at all. Its planes need no slopes. */
 static ellipsoid_status keep(const ellipsoid_cell *cell,
                              ellipsoid_evaluation *at, ellipsoid_frame *frame,
                              const ellipsoid_free_motion *free,
@@ -54,7 +39,7 @@ static ellipsoid_status keep(const ellipsoid_cell *cell,
     ellipsoid_kept_resistance *kept = &at->resistance;
     ellipsoid_frame plain = *frame;
     ellipsoid_planes planes;
-    ellipsoid_status status = ELLIPSOID_OK;
+    ellipsoid_status status;
 
     kept->in_blocks = 0;
     if (ellipsoid_in_contact(&at->contact))
@@ -62,19 +47,11 @@ static ellipsoid_status keep(const ellipsoid_cell *cell,
         return ELLIPSOID_OK;
     }
     plain.by_q = NULL;
-    if (kept->is_set)
+    status = ellipsoid_find_planes(cell->model, &cell->surroundings, &at->state,
+                                   &plain, cell->cache, &planes);
+    if (status == ELLIPSOID_OK)
     {
-        judge(cell, frame, free, at);
-    }
-    if (!kept->is_set || kept->longest < kept->step)
-    {
-        status = ellipsoid_find_planes(cell->model, &cell->surroundings,
-                                       &at->state, &plain, cell->cache,
-                                       &planes);
-        if (status == ELLIPSOID_OK)
-        {
-            status = set_kept(cell, &planes, &plain, free, at);
-        }
+        status = set_kept(cell, &planes, &plain, free, at);
     }
     kept->in_blocks = status == ELLIPSOID_OK && kept->longest > 0;
     *acted = kept->in_blocks && kept->acts;

@@ -7,9 +7,10 @@
 
     The cache holds, for the pose at which it was filled, for each bead every
     facet that it may be in contact with, within the horizon, while no bead has
-    moved farther than the margin (facetSearch.c). Facets without a contact add
-    nothing, and the others come in their own order, so a result does not
-    depend, not by a bit, on the pose at which the cache was filled.
+    moved farther than the margin (facetSearch.c); where there is none, the
+    margin is how far the beads may move until there is one. Facets without a
+    contact add nothing, and the others come in their own order, so a result does
+    not depend, not by a bit, on the pose at which the cache was filled.
 */
 #include "walls/walls.h"
 
@@ -25,6 +26,10 @@
 */
 static const double first_margin = 0.5, widest = 1, narrowest = 1.0 / 32;
 static const double seldom = 0.06, often = 0.4; /* uses for each facet listed */
+
+/* How much farther than asked for facets are listed for searches to come, in
+   bead radii. */
+static const double about = 3;
 
 /* Where facets are too many: smaller margins, each by this factor, down to the
    narrowest. */
@@ -45,33 +50,49 @@ static void invalidate(ellipsoid_facet_cache *cache)
 void ellipsoid_facet_cache_clear(ellipsoid_facet_cache *cache)
 {
     invalidate(cache);
-    cache->near_count = cache->live_count[0] = -1;
+    cache->near_count = cache->live_count[0] = cache->about_count = -1;
+    cache->half_box[0] = -1; /* not known */
     cache->near_facets = NULL;
     memset(cache->near_x, 0, sizeof cache->near_x);
 }
 
 /*
     How far any bead can have moved since the cache was filled. The box that
-    holds the beads bounds it: a spin about a long axis moves them little.
+    holds the beads bounds it: a spin about a long axis moves them little. If
+    that is more than the margin, it is each bead's own move that counts.
 */
 static double farthest_move(const ellipsoid_facet_cache *cache,
-                            const double shift, const double q[4])
+                            const ellipsoid_model *model, const double x[3],
+                            const double q[4])
 {
-    double r[3][3], sum = 0;
+    ellipsoid_pose_change change;
+    double r[3][3], sum = 0, farthest;
 
     ellipsoid_rotation_inline(q, r);
+    ellipsoid_pose_change_set(cache, x, r, &change);
     for (int i = 0; i < 3; i++)
     {
-        const double d = fabs(r[i][0] - cache->rotation[i][0])
-                           * cache->half_box[0]
-                       + fabs(r[i][1] - cache->rotation[i][1])
-                           * cache->half_box[1]
-                       + fabs(r[i][2] - cache->rotation[i][2])
-                           * cache->half_box[2];
+        const double d = fabs(change.r[i][0]) * cache->half_box[0]
+                       + fabs(change.r[i][1]) * cache->half_box[1]
+                       + fabs(change.r[i][2]) * cache->half_box[2];
 
         sum += d * d;
     }
-    return shift + sqrt(sum);
+    farthest = ellipsoid_length(change.x) + sqrt(sum);
+    if (farthest <= cache->margin
+        || model->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID)
+    {
+        return farthest;
+    }
+    farthest = 0;
+    for (int b = 0; b < model->bead_count; b++)
+    {
+        const double squared = ellipsoid_squared_move(&change, model->bead[b]);
+
+        farthest = squared > farthest ? squared : farthest;
+    }
+    /* rounded up; fmax would drop a NaN */
+    return isfinite(sum) ? sqrt(farthest) * (1 + 1e-12) : NAN;
 }
 
 /* Does the cache hold all facets that matter in this pose? */
@@ -79,28 +100,26 @@ static int is_current(const ellipsoid_facet_cache *cache,
                       const ellipsoid_model *model, const double x[3],
                       const double q[4], double *moved)
 {
-    double d[3];
-
     if (!cache->valid)
     {
         return 0;
     }
-    ellipsoid_difference(x, cache->x, d);
-
-    const double squared = ellipsoid_dot(d, d);
-    const double arm = model->reach - model->options.bead_radius;
-
     if (cache->clearance > 0)
     {
+        const double arm = model->reach - model->options.bead_radius;
+        double d[3];
+
+        ellipsoid_difference(x, cache->x, d);
+
         /* R(q) stretches by q.q, which is near 1 but need not be 1 */
         const double longer =
             ellipsoid_square4(q) - ellipsoid_square4(cache->q);
         /* false with NaN */
         const double left = cache->clearance - arm * (longer <= 0 ? 0 : longer);
 
-        return left > 0 && squared < left * left;
+        return left > 0 && ellipsoid_dot(d, d) < left * left;
     }
-    *moved = farthest_move(cache, sqrt(squared), q);
+    *moved = farthest_move(cache, model, x, q);
     return *moved <= cache->margin;
 }
 
@@ -146,11 +165,60 @@ ellipsoid_list_facets(const ellipsoid_surroundings *surroundings,
                         : ELLIPSOID_OK;
 }
 
+/*
+    Lists the facets within reach, and more, for the searches that follow.
+    Walls that do not answer for more are asked for no more.
+*/
+static ellipsoid_status
+list_about(ellipsoid_facet_cache *cache,
+           const ellipsoid_surroundings *surroundings, const double x[3],
+           double reach, double more, ellipsoid_facet_list *list)
+{
+    if (cache->about_count >= 0)
+    {
+        double d[3];
+
+        ellipsoid_difference(x, cache->about_x, d);
+        list->reach =
+            cache->about_reach - (1 + 1e-12) * ellipsoid_length(d);
+        if (list->reach >= reach)
+        {
+            list->facets = cache->about_facets;
+            list->index = cache->about;
+            list->count = cache->about_count;
+            return ELLIPSOID_OK;
+        }
+    }
+    cache->about_count = -1;
+    if (ellipsoid_list_facets(surroundings, x, reach + more, list)
+        != ELLIPSOID_OK)
+    {
+        return ellipsoid_list_facets(surroundings, x, reach, list);
+    }
+    if (list->count <= ELLIPSOID_MAX_LISTED)
+    {
+        cache->about_count = list->count;
+        cache->about_reach = list->reach;
+        cache->about_facets = list->facets;
+        ellipsoid_copy(x, cache->about_x);
+        if (list->count > 0)
+        {
+            memcpy(cache->about, list->index,
+                   list->count * sizeof *list->index);
+        }
+    }
+    return ELLIPSOID_OK;
+}
+
 static double next_margin(const ellipsoid_facet_cache *cache, double radius)
 {
     if (!cache->valid || cache->clearance > 0)
     {
         return first_margin * radius;
+    }
+    if (cache->margin > widest * radius)
+    {
+        return widest * radius;
     }
 
     const double per_facet = (double)cache->uses / (cache->listed + 64);
@@ -160,6 +228,36 @@ static double next_margin(const ellipsoid_facet_cache *cache, double radius)
                               : cache->margin;
 }
 
+/* Are the listed facets, and all others, so far from the beads that none
+   matters while they move by more than the margin? Then that is how far they
+   may. reach: as in fill() */
+static int keep_free(ellipsoid_facet_cache *cache, const ellipsoid_model *model,
+                     const ellipsoid_facet_list *list, double reach,
+                     double horizon, double margin)
+{
+    const double near = model->options.bead_radius + horizon;
+
+    if (model->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID)
+    {
+        return 0;
+    }
+
+    /* an unlisted one is beyond list->reach of the centre */
+    const double free = ellipsoid_facet_bound(model, list,
+                                              list->reach - reach + near, cache)
+                      - (1 + 1e-6) * near;
+
+    if (!(free > margin))
+    {
+        return 0;
+    }
+    cache->margin = free;
+    cache->bead_count = 0;
+    cache->nearest_of_all = HUGE_VAL;
+    cache->valid = 1;
+    return 1;
+}
+
 static ellipsoid_status fill(ellipsoid_facet_cache *cache,
                              const ellipsoid_model *model,
                              const ellipsoid_surroundings *surroundings,
@@ -167,6 +265,7 @@ static ellipsoid_status fill(ellipsoid_facet_cache *cache,
                              double horizon)
 {
     const double radius = model->options.bead_radius;
+    const double more = about * radius;
     double margin = next_margin(cache, radius);
     ellipsoid_facet_list list;
     ellipsoid_status status;
@@ -181,7 +280,7 @@ static ellipsoid_status fill(ellipsoid_facet_cache *cache,
     const double reach =
         (model->reach - radius) * ellipsoid_square4(q) + radius + horizon;
 
-    status = ellipsoid_list_facets(surroundings, x, reach + margin, &list);
+    status = list_about(cache, surroundings, x, reach + margin, more, &list);
     if (status != ELLIPSOID_OK)
     {
         return status;
@@ -201,7 +300,7 @@ static ellipsoid_status fill(ellipsoid_facet_cache *cache,
         /* Far from all walls. If they do not say how far, one search of twice
            the reach saves many later ones; it may fail where the first did
            not. */
-        if (nearest >= list.reach && list.reach <= reach + margin
+        if (nearest >= list.reach && list.reach <= reach + margin + more
             && ellipsoid_list_facets(surroundings, x, 2 * reach, &list)
                    == ELLIPSOID_OK)
         {
@@ -212,6 +311,10 @@ static ellipsoid_status fill(ellipsoid_facet_cache *cache,
         return ELLIPSOID_OK;
     }
 
+    if (keep_free(cache, model, &list, reach, horizon, margin))
+    {
+        return ELLIPSOID_OK;
+    }
     while (!ellipsoid_facet_search(model, &list, horizon, margin, cache))
     {
         /* it fails at the smallest margin only, whichever was the first */

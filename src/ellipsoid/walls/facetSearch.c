@@ -21,28 +21,45 @@ typedef struct bead_set
     double stretch; /* q.q, the factor of lengths in R(q) */
 } bead_set;
 
-static void set_beads(const ellipsoid_model *model, const double x[3],
-                      const double q[4], bead_set *beads)
+/* The box, which is kept in the cache, in its pose. */
+static void set_box(const ellipsoid_model *model, ellipsoid_facet_cache *cache,
+                    bead_set *beads)
 {
-    ellipsoid_copy(x, beads->centre);
-    ellipsoid_rotation_inline(q, beads->rotation);
-    beads->stretch = ellipsoid_square4(q);
+    ellipsoid_copy(cache->x, beads->centre);
+    ellipsoid_rotation_inline(cache->q, beads->rotation);
+    beads->stretch = ellipsoid_square4(cache->q);
+    if (!(cache->half_box[0] >= 0))
+    {
+        ellipsoid_set(cache->half_box, 0, 0, 0);
+        for (int b = 0; b < model->bead_count; b++)
+        {
+            for (int i = 0; i < 3; i++)
+            {
+                cache->half_box[i] =
+                    fmax(cache->half_box[i], fabs(model->bead[b][i]));
+            }
+        }
+    }
+    ellipsoid_copy(cache->half_box, beads->half_box);
+    memcpy(cache->rotation, beads->rotation, sizeof cache->rotation);
+}
+
+static void set_beads(const ellipsoid_model *model, bead_set *beads)
+{
     beads->count = model->bead_count;
-    memset(beads->half_box, 0, sizeof beads->half_box);
     for (int b = 0; b < model->bead_count; b++)
     {
         for (int i = 0; i < 3; i++)
         {
             beads->x[i][b] =
-                x[i] + ellipsoid_dot(beads->rotation[i], model->bead[b]);
-            beads->half_box[i] =
-                fmax(beads->half_box[i], fabs(model->bead[b][i]));
+                beads->centre[i]
+                + ellipsoid_dot(beads->rotation[i], model->bead[b]);
         }
     }
 }
 
-/* Is a point farther than `far` from the box that holds the beads? */
-static int beyond_box(const bead_set *beads, const double d[3], double far)
+/* The square of how far a point is from the box that holds the beads. */
+static inline double squared_from_box(const bead_set *beads, const double d[3])
 {
     const double squared = beads->stretch * beads->stretch;
     double sum = 0;
@@ -56,7 +73,13 @@ static int beyond_box(const bead_set *beads, const double d[3], double far)
 
         sum += out > 0 ? out * out : 0;
     }
-    return sum > squared * far * far;
+    return sum / squared;
+}
+
+/* Is a point farther than `far` from it? */
+static int beyond_box(const bead_set *beads, const double d[3], double far)
+{
+    return squared_from_box(beads, d) > far * far;
 }
 
 /* Does the box, seen along the normal, lie more than `near` beside a point? */
@@ -83,9 +106,10 @@ static int beside_box(const bead_set *beads, const double normal[3],
     return squared > near * sqrt(squared) + extent;
 }
 
-/* Is the plane farther than `far` from the box, on either side of it? */
-static int above_box(const bead_set *beads, const double normal[3],
-                     const double d[3], double far)
+/* How far the plane is from the box, on either side of it; below 0 if it cuts
+   the box. */
+static inline double above_box(const bead_set *beads, const double normal[3],
+                               const double d[3])
 {
     double extent = 0;
 
@@ -96,23 +120,62 @@ static int above_box(const bead_set *beads, const double normal[3],
                        + beads->rotation[1][i] * normal[1]
                        + beads->rotation[2][i] * normal[2]);
     }
-    return fabs(ellipsoid_dot(d, normal)) > far + extent;
+    return fabs(ellipsoid_dot(d, normal)) - extent;
+}
+
+/* How far the box is from the facet at least: from its plane, `above`, and
+   beside its outermost edge. d: from the box to the facet's middle. */
+static double box_distance(const ellipsoid_facet *facet,
+                           const ellipsoid_facet_sides *sides,
+                           const bead_set *beads, const double d[3],
+                           double above)
+{
+    const double(*r)[3] = beads->rotation;
+    double aside = 0;
+
+    for (int k = 0; k < 3; k++)
+    {
+        const double *in = sides->inward[k];
+        double from[3], out;
+
+        ellipsoid_difference(facet->vertex[k], facet->middle, from);
+        ellipsoid_add(from, d);
+        out = ellipsoid_dot(in, from);
+        for (int i = 0; i < 3; i++)
+        {
+            out -= beads->half_box[i]
+                 * fabs(r[0][i] * in[0] + r[1][i] * in[1] + r[2][i] * in[2]);
+        }
+        aside = out > aside ? out : aside;
+    }
+    above = above > 0 ? above : 0;
+    return sqrt(above * above + aside * aside);
 }
 
 /*
     Excess of the squared distance of beads over the largest at which the facet
-    may be nearest: from its ball and, unless an edge is convex, beside it.
-    height: above its plane.
+    may be nearest: from the facet, that is its height above the plane and how
+    far it is beside the outermost edge, and, unless an edge is convex, beside
+    the facet's ball.
 */
-static void set_distances(const ellipsoid_facet *facet, const bead_set *beads,
-                          double far, double near,
-                          double height[ELLIPSOID_MAX_BEADS],
+static void set_distances(const ellipsoid_facet *facet,
+                          const ellipsoid_facet_sides *sides,
+                          const bead_set *beads, double far, double near,
                           double beyond[ELLIPSOID_MAX_BEADS])
 {
+    const double(*in)[3] = sides->inward;
+    double offset[3];
     const double beside =
-        ellipsoid_facet_has_convex_edge(facet) ? far * far : near * near;
+        ellipsoid_facet_has_convex_edge(facet) ? HUGE_VAL : near * near;
     const double *n = facet->normal, *middle = facet->middle;
 
+    for (int k = 0; k < 3; k++)
+    {
+        double d[3];
+
+        ellipsoid_difference(middle, facet->vertex[k], d);
+        offset[k] = ellipsoid_dot(in[k], d);
+    }
     for (int b = 0; b < beads->count; b++)
     {
         const double d0 = beads->x[0][b] - middle[0];
@@ -121,75 +184,32 @@ static void set_distances(const ellipsoid_facet *facet, const bead_set *beads,
         const double h = d0 * n[0] + d1 * n[1] + d2 * n[2];
         const double squared = d0 * d0 + d1 * d1 + d2 * d2;
 
-        const double out = squared - far * far;
         const double aside = squared - h * h - beside;
+        double inside = 0, out;
 
-        height[b] = h;
+        for (int k = 0; k < 3; k++)
+        {
+            const double of =
+                offset[k] + in[k][0] * d0 + in[k][1] * d1 + in[k][2] * d2;
+
+            inside = of < inside ? of : inside;
+        }
+        out = h * h + inside * inside - far * far;
         beyond[b] = out > aside ? out : aside;
     }
 }
 
-/* Fills the lists of all beads; 0 if there are too many facets. */
-static int search_beads(const ellipsoid_facet_list *list, const bead_set *beads,
-                        double reach, double margin,
-                        ellipsoid_facet_cache *cache)
+/* One that a bead may be in contact with. */
+typedef struct bead_facet
 {
-    int found[ELLIPSOID_MAX_PAIRS][2], next[ELLIPSOID_MAX_BEADS];
-    int n = 0;
+    int bead, facet;
+    float away; /* [m] at least */
+} bead_facet;
 
-    for (int b = 0; b < beads->count; b++)
-    {
-        cache->nearest[b] = HUGE_VAL;
-        next[b] = 0;
-    }
-    for (int k = 0; k < list->count; k++)
-    {
-        const ellipsoid_facet *facet = &list->facets[list->index[k]];
-        double d[3], height[ELLIPSOID_MAX_BEADS];
-        double beyond[ELLIPSOID_MAX_BEADS], distance;
-        ellipsoid_facet_sides sides;
-        const double size = facet->radius;
-        const double rounding = 1e-6 * (reach + margin);
-        const double far = size + reach + margin + rounding;
-        const double near = size + 1.5 * margin + rounding;
-
-        ellipsoid_difference(facet->middle, beads->centre, d);
-        if (beyond_box(beads, d, far)
-            || above_box(beads, facet->normal, d, far - size)
-            || (!ellipsoid_facet_has_convex_edge(facet)
-                && beside_box(beads, facet->normal, d, near)))
-        {
-            continue;
-        }
-        set_distances(facet, beads, far, near, height, beyond);
-        ellipsoid_facet_sides_set(facet, &sides);
-        for (int b = 0; b < beads->count; b++)
-        {
-            const double centre[3] = {beads->x[0][b], beads->x[1][b],
-                                      beads->x[2][b]};
-
-            if (beyond[b] > 0 || fabs(height[b]) > far - size
-                || !ellipsoid_facet_may_be_nearest(facet, &sides, centre,
-                                                   reach, margin, &distance))
-            {
-                continue;
-            }
-            if (n == ELLIPSOID_MAX_PAIRS)
-            {
-                return 0;
-            }
-            if (distance < cache->nearest[b])
-            {
-                cache->nearest[b] = distance;
-            }
-            found[n][0] = b;
-            found[n][1] = list->index[k];
-            n++;
-            next[b]++;
-        }
-    }
-
-    /* from ascending by facet to bead by bead */
+/* From ascending by facet to bead by bead; next: how many each has. */
+static void set_lists(const bead_set *beads, const bead_facet *found, int n,
+                      int *next, ellipsoid_facet_cache *cache)
+{
     cache->first[0] = 0;
     cache->bead_count = 0;
     cache->nearest_of_all = HUGE_VAL;
@@ -206,8 +226,78 @@ static int search_beads(const ellipsoid_facet_list *list, const bead_set *beads,
     }
     for (int k = 0; k < n; k++)
     {
-        cache->facet[next[found[k][0]]++] = found[k][1];
+        const int at = next[found[k].bead]++;
+
+        cache->facet[at] = found[k].facet;
+        cache->away[at] = found[k].away;
     }
+}
+
+/* Fills the lists of all beads; 0 if there are too many facets. */
+static int search_beads(const ellipsoid_facet_list *list, const bead_set *beads,
+                        double reach, double margin,
+                        ellipsoid_facet_cache *cache)
+{
+    bead_facet found[ELLIPSOID_MAX_PAIRS];
+    int next[ELLIPSOID_MAX_BEADS], n = 0;
+
+    for (int b = 0; b < beads->count; b++)
+    {
+        cache->nearest[b] = HUGE_VAL;
+        next[b] = 0;
+    }
+    for (int k = 0; k < list->count; k++)
+    {
+        const ellipsoid_facet *facet = &list->facets[list->index[k]];
+        double d[3], beyond[ELLIPSOID_MAX_BEADS], distance, above;
+        ellipsoid_facet_sides sides;
+        const double size = facet->radius;
+        const double rounding = 1e-6 * (reach + margin);
+        const double far = size + reach + margin + rounding;
+        const double near = size + 1.5 * margin + rounding;
+
+        ellipsoid_difference(facet->middle, beads->centre, d);
+        above = above_box(beads, facet->normal, d);
+        if (above > far - size || beyond_box(beads, d, far)
+            || (!ellipsoid_facet_has_convex_edge(facet)
+                && beside_box(beads, facet->normal, d, near)))
+        {
+            continue;
+        }
+        ellipsoid_facet_sides_set(facet, &sides);
+        if (box_distance(facet, &sides, beads, d, above) > far - size)
+        {
+            continue;
+        }
+        set_distances(facet, &sides, beads, far - size, near, beyond);
+        for (int b = 0; b < beads->count; b++)
+        {
+            const double centre[3] = {beads->x[0][b], beads->x[1][b],
+                                      beads->x[2][b]};
+
+            if (beyond[b] > 0
+                || !ellipsoid_facet_may_be_nearest(facet, &sides, centre,
+                                                   reach, margin, &distance))
+            {
+                continue;
+            }
+            if (n == ELLIPSOID_MAX_PAIRS)
+            {
+                return 0;
+            }
+            if (distance < cache->nearest[b])
+            {
+                cache->nearest[b] = distance;
+            }
+            found[n].bead = b;
+            found[n].facet = list->index[k];
+            found[n].away = (float)distance * (1 - 1e-6F);
+            n++;
+            next[b]++;
+        }
+    }
+
+    set_lists(beads, found, n, next, cache);
     return 1;
 }
 
@@ -240,6 +330,43 @@ static int search_ellipsoid(const ellipsoid_facet_list *list,
     return 1;
 }
 
+double ellipsoid_facet_bound(const ellipsoid_model *model,
+                             const ellipsoid_facet_list *list, double most,
+                             ellipsoid_facet_cache *cache)
+{
+    double bound = most, arm;
+    bead_set beads;
+
+    set_box(model, cache, &beads);
+    arm = (model->reach - model->options.bead_radius) * beads.stretch;
+    for (int k = 0; k < list->count; k++)
+    {
+        const ellipsoid_facet *facet = &list->facets[list->index[k]];
+        double d[3], above, far;
+
+        ellipsoid_difference(facet->middle, beads.centre, d);
+        if (fabs(ellipsoid_dot(d, facet->normal)) - arm >= bound)
+        {
+            continue;
+        }
+        above = above_box(&beads, facet->normal, d);
+        if (above >= bound)
+        {
+            continue;
+        }
+        far = sqrt(squared_from_box(&beads, d)) - facet->radius;
+        if (far < bound)
+        {
+            ellipsoid_facet_sides sides;
+
+            ellipsoid_facet_sides_set(facet, &sides);
+            far = fmax(far, box_distance(facet, &sides, &beads, d, above));
+        }
+        bound = far < bound ? far : bound;
+    }
+    return bound;
+}
+
 int ellipsoid_facet_search(const ellipsoid_model *model,
                            const ellipsoid_facet_list *list, double horizon,
                            double margin, ellipsoid_facet_cache *cache)
@@ -248,17 +375,16 @@ int ellipsoid_facet_search(const ellipsoid_model *model,
     bead_set beads;
     ellipsoid_surface body;
 
-    set_beads(model, cache->x, cache->q, &beads);
     if (model->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID)
     {
         ellipsoid_surface_set(model->options.semi_axes, cache->x, cache->q,
                               &body);
-        ellipsoid_copy(body.axes, beads.half_box);
+        ellipsoid_copy(body.axes, cache->half_box);
+        set_box(model, cache, &beads);
+        return search_ellipsoid(list, &beads, &body,
+                                horizon + margin + 1e-6 * radius, cache);
     }
-    memcpy(cache->rotation, beads.rotation, sizeof cache->rotation);
-    memcpy(cache->half_box, beads.half_box, sizeof cache->half_box);
-    return model->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID
-             ? search_ellipsoid(list, &beads, &body,
-                                horizon + margin + 1e-6 * radius, cache)
-             : search_beads(list, &beads, radius + horizon, margin, cache);
+    set_box(model, cache, &beads);
+    set_beads(model, &beads);
+    return search_beads(list, &beads, radius + horizon, margin, cache);
 }

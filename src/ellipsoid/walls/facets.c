@@ -223,32 +223,37 @@ int ellipsoid_facet_may_be_nearest(const ellipsoid_facet *facet,
     /* each condition changes by no more than the point moves */
     const double wide = margin + 2 * rounding * (reach + margin);
     const double far = reach + wide;
-    double height = 0, aside = 0;
-    int face, found = 0;
+    double from[3][3], inside[3], height, aside = 0, squared;
+    int found;
 
+    ellipsoid_difference(centre, facet->vertex[0], from[0]);
+    height = ellipsoid_dot(from[0], facet->normal);
+    if (!(fabs(height) <= far))
+    {
+        return 0;
+    }
+    ellipsoid_difference(centre, facet->vertex[1], from[1]);
+    ellipsoid_difference(centre, facet->vertex[2], from[2]);
     for (int k = 0; k < 3; k++)
     {
-        double from[3], inside;
-
-        ellipsoid_difference(centre, facet->vertex[k], from);
-        if (k == 0)
-        {
-            height = ellipsoid_dot(from, facet->normal);
-            if (!(fabs(height) <= far))
-            {
-                return 0;
-            }
-        }
-        inside = ellipsoid_dot(sides->inward[k], from);
-        aside = inside < -aside ? -inside : aside;
-        found = found
-             || edge_may_be_nearest(facet, sides, k, from, inside, far, wide)
-             || (ellipsoid_dot(from, from) <= far * far
-                 && ellipsoid_facet_is_apex(facet, k, from, wide));
+        inside[k] = ellipsoid_dot(sides->inward[k], from[k]);
+        aside = inside[k] < -aside ? -inside[k] : aside;
     }
-    face = aside <= wide;
-    *distance = sqrt(height * height + aside * aside);
-    return found || face;
+    squared = height * height + aside * aside;
+    if (squared > far * far)
+    {
+        return 0;
+    }
+    *distance = sqrt(squared);
+    found = aside <= wide;
+    for (int k = 0; k < 3 && !found; k++)
+    {
+        found = edge_may_be_nearest(facet, sides, k, from[k], inside[k], far,
+                                    wide)
+             || (ellipsoid_dot(from[k], from[k]) <= far * far
+                 && ellipsoid_facet_is_apex(facet, k, from[k], wide));
+    }
+    return found;
 }
 
 int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3])

@@ -76,6 +76,9 @@ typedef struct ellipsoid_candidates
     const ellipsoid_facet *facets;
     const int *index;
     int count;
+    /* If not NULL, the point is no nearer to them than away[k] - moved [m] */
+    const float *away;
+    double moved;
 } ellipsoid_candidates;
 
 /*
@@ -99,6 +102,47 @@ ellipsoid_facet_cache_update(ellipsoid_facet_cache *cache,
 int ellipsoid_facet_search(const ellipsoid_model *model,
                            const ellipsoid_facet_list *list, double horizon,
                            double margin, ellipsoid_facet_cache *cache);
+
+/* No bead's centre in the cache's pose is nearer to a listed facet than this
+   [m], as the box that holds them tells; at most `most`. Sets that box
+   (facetSearch.c). */
+double ellipsoid_facet_bound(const ellipsoid_model *model,
+                             const ellipsoid_facet_list *list, double most,
+                             ellipsoid_facet_cache *cache);
+
+/* A change of pose: bead b moves by x + r b. */
+typedef struct ellipsoid_pose_change
+{
+    double x[3], r[3][3];
+} ellipsoid_pose_change;
+
+/* From where the cache was filled to the centre x and R(q) = r. */
+static inline void
+ellipsoid_pose_change_set(const ellipsoid_facet_cache *cache, const double x[3],
+                          double r[3][3], ellipsoid_pose_change *change)
+{
+    ellipsoid_difference(x, cache->x, change->x);
+    for (int i = 0; i < 3; i++)
+    {
+        ellipsoid_difference(r[i], cache->rotation[i], change->r[i]);
+    }
+}
+
+/* How far it moves a bead, squared. */
+static inline double
+ellipsoid_squared_move(const ellipsoid_pose_change *change,
+                       const double bead[3])
+{
+    double sum = 0;
+
+    for (int i = 0; i < 3; i++)
+    {
+        const double d = change->x[i] + ellipsoid_dot(change->r[i], bead);
+
+        sum += d * d;
+    }
+    return sum;
+}
 
 /* The facets near a point, and the status of the walls callback
    (facetCache.c). */

@@ -22,11 +22,6 @@ namespace Foam
     //- Part of a length that the points of a mesh may be off
     static const scalar offness = 1e-4;
 
-    static bool isSymmetry(const polyPatch& pp)
-    {
-        return isA<symmetryPolyPatch>(pp) || isA<symmetryPlanePolyPatch>(pp);
-    }
-
     //- End the run because of a patch
     static void refuse
     (
@@ -94,25 +89,11 @@ Foam::domainImages::seam Foam::domainImages::translational(const polyPatch& pp)
     const cyclicPolyPatch& half = refCast<const cyclicPolyPatch>(pp);
     const cyclicPolyPatch& other = half.neighbPatch();
 
-    vector shift(Zero);
-    forAll(half, i)
-    {
-        shift += other.faceCentres()[i] - half.faceCentres()[i];
-    }
-    shift /= half.size();
-
-    scalar off = 0;
-    forAll(half, i)
-    {
-        off = max
-        (
-            off,
-            mag(other.faceCentres()[i] - half.faceCentres()[i] - shift)
-        );
-    }
-
+    const vectorField shifts(other.faceCentres() - half.faceCentres());
+    const vector shift(sum(shifts)/scalar(half.size()));
     const pointField& points = half.boundaryMesh().mesh().points();
-    if (off > offness*boundBox(points, false).mag())
+
+    if (max(mag(shifts - shift)) > offness*boundBox(points, false).mag())
     {
         refuse
         (
@@ -154,7 +135,7 @@ Foam::domainImages::domainImages
         if (isSeam(pp) && pp.size() && !unreached.match(pp.name()))
         {
             seamAt_[pp.index()] = seams.size();
-            seams.append(isSymmetry(pp) ? symmetry(pp) : translational(pp));
+            seams.append(isMirror(pp) ? symmetry(pp) : translational(pp));
         }
     }
     seams_.transfer(seams);
@@ -163,9 +144,15 @@ Foam::domainImages::domainImages
 
 // * * * * * * * * * * * * * * Static Functions * * * * * * * * * * * * * * * //
 
+bool Foam::domainImages::isMirror(const polyPatch& pp)
+{
+    return isA<symmetryPolyPatch>(pp) || isA<symmetryPlanePolyPatch>(pp);
+}
+
+
 bool Foam::domainImages::isSeam(const polyPatch& pp)
 {
-    return isSymmetry(pp) || pp.type() == cyclicPolyPatch::typeName;
+    return isMirror(pp) || pp.type() == cyclicPolyPatch::typeName;
 }
 
 
@@ -206,11 +193,11 @@ Foam::List<Foam::vector> Foam::domainImages::periods() const
 
         for (label i = 0; i < n; ++i)
         {
-            const vector sum(sums[i] + s.inward.b());
+            const vector sum(sums[i] + s.inward.b);
             bool isNew = true;
             for (const vector& known : sums)
             {
-                isNew = isNew && mag(sum - known) > offness*mag(s.inward.b());
+                isNew = isNew && mag(sum - known) > offness*mag(s.inward.b);
             }
             if (isNew)
             {
@@ -248,14 +235,9 @@ Foam::DynamicList<Foam::isometry> Foam::domainImages::near
                 image.add(next(corner));
             }
 
-            bool isNew = image.overlaps(wide);
-            for (const isometry& known : found)
+            if (image.overlaps(wide))
             {
-                isNew = isNew && !next.alike(known, box.mag());
-            }
-            if (isNew)
-            {
-                found.append(next);
+                placeOf(next, box.mag(), found);
             }
         }
     }

@@ -11,7 +11,6 @@ License
 #include "baffleSides.H"
 #include "foamVersions.H"
 #include "indexedOctree.H"
-#include "inletFlux.H"
 #include "treeDataPoint.H"
 #include "undecomposedFlow.H"
 #include "volFields.H"
@@ -67,20 +66,21 @@ namespace Foam
 
 void Foam::frozenFlow::sampleOf
 (
-    const UList<flowVertex>& vertices,
-    const UList<flowTetExcess>& excess,
-    const UList<quadraticTerms>& fits,
+    const flowValues& values,
     tetCoordinates& c,
     const bool derivatives,
     ellipsoid_flow_sample& sample
 ) const
 {
     const auto gradient =
-        [&](const label i) -> const tensor& { return vertices[i].gradient; };
+        [&](const label i) -> const tensor&
+        {
+            return values.vertices[i].gradient;
+        };
     const auto gradp =
         [&](const label i) -> const vector&
         {
-            return vertices[i].pressureGradient;
+            return values.vertices[i].pressureGradient;
         };
 
     copy(c.back(c.value<vector>(gradp)), sample.pressure_gradient);
@@ -95,7 +95,7 @@ void Foam::frozenFlow::sampleOf
         tensor G;
         symmTensor curvature[3];
 
-        unityAt(fits, c, value, &G, derivatives ? curvature : nullptr);
+        unityAt(values.fits, c, value, &G, derivatives ? curvature : nullptr);
         copy(value, sample.velocity);
         copy(G, sample.gradient);
         if (derivatives)
@@ -111,9 +111,7 @@ void Foam::frozenFlow::sampleOf
 
     velocityOf
     (
-        vertices,
-        excess,
-        fits,
+        values,
         c,
         sample.velocity,
         derivatives ? sample.velocity_jacobian : nullptr
@@ -143,9 +141,7 @@ void Foam::frozenFlow::sampleOf
 
 void Foam::frozenFlow::velocityOf
 (
-    const UList<flowVertex>& vertices,
-    const UList<flowTetExcess>& excess,
-    const UList<quadraticTerms>& fits,
+    const flowValues& values,
     tetCoordinates& c,
     scalar velocity[3],
     scalar (*jacobian)[3]
@@ -164,13 +160,13 @@ void Foam::frozenFlow::velocityOf
         vector value;
         tensor derivatives;
 
-        flowIn(vertices, excess, c).evaluate
+        flowIn(values, c).evaluate
         (
             c.gradient, inside, value, jacobian ? &derivatives : nullptr
         );
         for (int a = 0; a < 4; ++a)
         {
-            value += (c.weight[a] - inside[a])*vertices[c.vertices[a]].u;
+            value += (c.weight[a] - inside[a])*values.vertices[c.vertices[a]].u;
         }
         copy(c.back(value), velocity);
         if (jacobian)
@@ -185,7 +181,7 @@ void Foam::frozenFlow::velocityOf
         vector value;
         tensor G;
 
-        unityAt(fits, c, value, jacobian ? &G : nullptr, nullptr);
+        unityAt(values.fits, c, value, jacobian ? &G : nullptr, nullptr);
         copy(value, velocity);
         if (jacobian)
         {
@@ -195,7 +191,7 @@ void Foam::frozenFlow::velocityOf
     }
 
     const auto u =
-        [&](const label i) -> const vector& { return vertices[i].u; };
+        [&](const label i) -> const vector& { return values.vertices[i].u; };
 
     vector value(c.value<vector>(u));
     tensor derivatives(jacobian ? c.derivatives(u) : tensor::zero);
@@ -205,8 +201,8 @@ void Foam::frozenFlow::velocityOf
         for (int b = a + 1; b < 4; ++b)
         {
             // Change of the slope along the edge from a to b
-            const flowVertex& va = vertices[c.vertices[a]];
-            const flowVertex& vb = vertices[c.vertices[b]];
+            const flowVertex& va = values.vertices[c.vertices[a]];
+            const flowVertex& vb = values.vertices[c.vertices[b]];
             const vector bend((va.gradient - vb.gradient) & (vb.x - va.x));
 
             value += 0.5*c.weight[a]*c.weight[b]*bend;
@@ -246,7 +242,7 @@ void Foam::frozenFlow::unityAt
     vector past(Zero);
     for (int a = 0; a < 4; ++a)
     {
-        const vector d(vertices_[c.vertices[a]].x - c.origin);
+        const vector d(values_.vertices[c.vertices[a]].x - c.origin);
         x += inside[a]*d;
         past += (c.weight[a] - inside[a])*d;
     }
@@ -294,14 +290,9 @@ Foam::frozenFlow::frozenFlow
     scheme_(scheme),
     unsteady_(unsteady),
     start_(0),
-    end_(0)
+    end_(0),
+    images_(undecomposed.mesh(), unreached)
 {
-    if (Pstream::master())
-    {
-        const undecomposedFlow::serialScope serial;
-        images_ = domainImages(undecomposed.mesh(), unreached);
-    }
-
     make(undecomposed, E);
 
     if (Pstream::master())
@@ -327,7 +318,7 @@ Foam::frozenFlow::frozenFlow
     centres_.setSize(cellTets_.size() - 1);
     forAll(centres_, celli)
     {
-        centres_[celli] = vertices_[celli].x;
+        centres_[celli] = values_.vertices[celli].x;
     }
 
     const boundBox box(centres_, false);
@@ -360,9 +351,9 @@ void Foam::frozenFlow::renew
     const scalar rho
 )
 {
-    vertices_.close();
-    excess_.close();
-    fits_.close();
+    values_.vertices.close();
+    values_.excess.close();
+    values_.fits.close();
 
     if (Pstream::master())
     {
@@ -371,9 +362,7 @@ void Foam::frozenFlow::renew
         setFlow(undecomposed, rho, baffleSides(undecomposed.mesh()));
     }
 
-    vertices_.share();
-    excess_.share();
-    fits_.share();
+    values_.share();
 }
 
 
@@ -385,18 +374,18 @@ void Foam::frozenFlow::advance
     const scalar end
 )
 {
-    if (laterVertices_.empty())
+    if (laterValues_.vertices.empty())
     {
-        laterVertices_.copy(vertices_);
-        laterExcess_.copy(excess_);
-        laterFits_.copy(fits_);
+        laterValues_.vertices.copy(values_.vertices);
+        laterValues_.excess.copy(values_.excess);
+        laterValues_.fits.copy(values_.fits);
     }
 
     // What was the flow at the start of the last step is that at the end of this
     renew(undecomposed, rho);
-    laterVertices_.swap(vertices_);
-    laterExcess_.swap(excess_);
-    laterFits_.swap(fits_);
+    laterValues_.vertices.swap(values_.vertices);
+    laterValues_.excess.swap(values_.excess);
+    laterValues_.fits.swap(values_.fits);
 
     start_ = start;
     end_ = end;
@@ -411,18 +400,15 @@ void Foam::frozenFlow::sample
     ellipsoid_flow_sample& sample
 ) const
 {
-    sampleOf(vertices_, excess_, fits_, c, derivatives, sample);
+    sampleOf(values_, c, derivatives, sample);
 
-    if (laterVertices_.empty())
+    if (laterValues_.vertices.empty())
     {
         return;
     }
 
     ellipsoid_flow_sample later = {};
-    sampleOf
-    (
-        laterVertices_, laterExcess_, laterFits_, c, derivatives, later
-    );
+    sampleOf(laterValues_, c, derivatives, later);
 
     const auto mix =
         [&](double* value, const double* at, const int n, double* rate)
@@ -470,9 +456,9 @@ void Foam::frozenFlow::velocity
     scalar (*jacobian)[3]
 ) const
 {
-    velocityOf(vertices_, excess_, fits_, c, velocity, jacobian);
+    velocityOf(values_, c, velocity, jacobian);
 
-    if (laterVertices_.empty())
+    if (laterValues_.vertices.empty())
     {
         return;
     }
@@ -481,12 +467,7 @@ void Foam::frozenFlow::velocity
     scalar laterJacobian[3][3];
     velocityOf
     (
-        laterVertices_,
-        laterExcess_,
-        laterFits_,
-        c,
-        later,
-        jacobian ? laterJacobian : nullptr
+        laterValues_, c, later, jacobian ? laterJacobian : nullptr
     );
 
     for (int i = 0; i < 3; ++i)

@@ -261,7 +261,7 @@ namespace Foam
         const polyPatch& pp = mesh.boundaryMesh()[patchi];
         return
             !pp.coupled() && polyPatch::constraintType(pp.type())
-         && !isMirror(pp);
+         && !domainImages::isMirror(pp);
     }
 
     //- Vertices whose velocity a wall gives, or a patch of a constraint type
@@ -442,7 +442,8 @@ namespace Foam
 void Foam::frozenFlow::matchFluxes
 (
     const undecomposedFlow& undecomposed,
-    const pointImages& images
+    const pointImages& images,
+    const bitSet& fixed
 )
 {
     const polyMesh& mesh = undecomposed.mesh();
@@ -450,8 +451,8 @@ void Foam::frozenFlow::matchFluxes
 
     // Least squares for what the velocity of each vertex lacks normal to the
     // faces about it
-    symmTensorField normals(vertices_.size(), Zero);
-    vectorField missing(vertices_.size(), Zero);
+    symmTensorField normals(values_.vertices.size(), Zero);
+    vectorField missing(values_.vertices.size(), Zero);
     DynamicList<label> corners(16);
 
     const auto compare =
@@ -472,9 +473,9 @@ void Foam::frozenFlow::matchFluxes
             for (label teti = first; teti < end; ++teti)
             {
                 const label* v = tets_[teti].vertices;
-                const flowVertex& a = vertices_[v[1]];
-                const flowVertex& b = vertices_[v[2]];
-                const flowVertex& c = vertices_[v[3]];
+                const flowVertex& a = values_.vertices[v[1]];
+                const flowVertex& b = values_.vertices[v[2]];
+                const flowVertex& c = values_.vertices[v[3]];
                 const vector S(0.5*((b.x - a.x) ^ (c.x - a.x)));
 
                 flux -= meanVelocity(a, b, c) & S;
@@ -501,18 +502,13 @@ void Foam::frozenFlow::matchFluxes
     images.add(normals, mesh.nCells());
     images.add(missing, mesh.nCells());
 
-    const bitSet fixed
-    (
-        fixedVertices(mesh, tets_, images, vertices_.size())
-    );
-
     moveVertices
     (
         normals,
         missing,
         fixed,
-        freeAtMirrors(mesh, tets_, vertices_),
-        vertices_
+        freeAtMirrors(mesh, tets_, values_.vertices),
+        values_.vertices
     );
 }
 
@@ -527,8 +523,9 @@ void Foam::frozenFlow::makeExcess
     const auto edges = wallEdges(mesh, tets_, images);
     const bitSet fixed
     (
-        fixedVertices(mesh, tets_, images, vertices_.size())
+        fixedVertices(mesh, tets_, images, values_.vertices.size())
     );
+    matchFluxes(undecomposed, images, fixed);
 
     List<FixedList<scalar, 4>> areas(tets_.size());
     List<FixedList<scalar, 4>> fluxes(tets_.size());
@@ -537,12 +534,15 @@ void Foam::frozenFlow::makeExcess
     forAll(tets_, teti)
     {
         const flowTet& tet = tets_[teti];
-        excess_[teti] =
+        values_.excess[teti] =
             flowTetExcess{{0, 0, 0, 0}, straightEdges(tet, edges, fixed)};
 
         tetCoordinates c;
-        setCoordinates(teti, vertices_[tet.vertices[0]].x, c);
-        const tetFlow flow(quadraticIn(tet, vertices_, excess_[teti]));
+        setCoordinates(teti, values_.vertices[tet.vertices[0]].x, c);
+        const tetFlow flow
+        (
+            quadraticIn(tet, values_.vertices, values_.excess[teti])
+        );
         volumes[teti] = flow.volume();
 
         for (label i = 0; i < 4; ++i)
@@ -566,12 +566,12 @@ void Foam::frozenFlow::makeExcess
             }
             for (label i = first; i < end; ++i)
             {
-                excess_[i].flux[0] = missing*areas[i][0]/area;
+                values_.excess[i].flux[0] = missing*areas[i][0]/area;
 
                 if (tets_[i].neighbours[0] >= 0)
                 {
-                    excess_[tets_[i].neighbours[0]].flux[0] =
-                        -excess_[i].flux[0];
+                    values_.excess[tets_[i].neighbours[0]].flux[0] =
+                        -values_.excess[i].flux[0];
                 }
             }
         };
@@ -588,10 +588,10 @@ void Foam::frozenFlow::makeExcess
             tets_,
             SubList<FixedList<scalar, 4>>(areas, n, first),
             cellVolumes,
-            missingIn(cellVolumes, fluxes, excess_, first),
+            missingIn(cellVolumes, fluxes, values_.excess, first),
             first,
-            excess_,
-            vertices_
+            values_.excess,
+            values_.vertices
         );
     }
 }

@@ -12,15 +12,13 @@ Description
 
 \*---------------------------------------------------------------------------*/
 #include "frozenFlow.H"
-#include "baffleSides.H"
 #include "undecomposedFlow.H"
 #include "vertexFit.H"
 #include "bitSet.H"
-#include "pointImages.H"
 #include "cyclicPolyPatch.H"
 #include "volPointInterpolation.H"
 #include "fvcGrad.H"
-#include "wallPolyPatch.H"
+#include "wallsAtVertices.H"
 #include "DynamicList.H"
 #include "transform.H"
 
@@ -276,18 +274,6 @@ namespace Foam
         }
     }
 
-    //- The number of tetrahedra of a mesh
-    static label nTetsOf(const polyMesh& mesh)
-    {
-        label n = 0;
-        forAll(mesh.faces(), facei)
-        {
-            const label nSides = 1 + mesh.isInternalFace(facei);
-            n += nSides*(mesh.faces()[facei].size() - 2);
-        }
-        return n;
-    }
-
     //- The tetrahedra of a mesh, and the first of each cell
     static void makeTets
     (
@@ -371,11 +357,11 @@ namespace Foam
               ? j
               : baffles.sides()[j - mesh.nPoints()].point;
 
-            vertices[i].x =
-                j < 0 ? mesh.cellCentres()[i] : mesh.points()[pointi];
-            vertices[i].u = Zero;
-            vertices[i].gradient = Zero;
-            vertices[i].pressureGradient = Zero;
+            vertices[i] = flowVertex
+            {
+                j < 0 ? mesh.cellCentres()[i] : mesh.points()[pointi],
+                Zero, Zero, Zero
+            };
         }
     }
 
@@ -390,9 +376,8 @@ namespace Foam
         UList<flowVertex>& vertices
     )
     {
-        const fvMesh& mesh = undecomposed.mesh();
         const volVectorField& flow = undecomposed.U();
-        const label nCells = mesh.nCells();
+        const label nCells = flow.size();
         const vectorField U(atVertices(flow, images, baffles));
         const tensorField gradU
         (
@@ -405,33 +390,16 @@ namespace Foam
             atVertices((rho*fvc::grad(undecomposed.p()))(), images, baffles)
         );
 
-        // A point that a wall shares with an open patch moves with the wall,
-        // either side of a baffle by itself
-        vectorField wallU(U.size() - nCells, Zero);
-        labelList nWallFaces(wallU.size(), Zero);
-
-        for (const polyPatch& pp : mesh.boundaryMesh())
-        {
-            const vectorField& Up = flow.boundaryField()[pp.index()];
-            const label nFaces = isA<wallPolyPatch>(pp) ? pp.size() : 0;
-
-            for (label i = 0; i < nFaces; ++i)
-            {
-                for (const label pointi : pp[i])
-                {
-                    const label j = baffles.vertex(pointi, pp.faceCells()[i]);
-                    wallU[j] += Up[i];
-                    ++nWallFaces[j];
-                }
-            }
-        }
+        const wallsAtVertices walls(flow, baffles);
 
         forAll(vertices, i)
         {
+            // A point that a wall shares with an open patch moves with the
+            // wall, either side of a baffle by itself
             const label j = i - nCells;
+            const bool atWall = j >= 0 && walls.faces(j).size();
 
-            vertices[i].u =
-                j >= 0 && nWallFaces[j] ? wallU[j]/scalar(nWallFaces[j]) : U[i];
+            vertices[i].u = atWall ? walls.mean(walls.faces(j)) : U[i];
             vertices[i].gradient = gradU[i].T();
             vertices[i].pressureGradient = gradp[i];
         }
@@ -448,27 +416,27 @@ void Foam::frozenFlow::setFlow
     const baffleSides& baffles
 )
 {
+    UList<flowVertex>& vertices = values_.vertices;
     const bool interpolated =
         scheme_ == stCellPoint || scheme_ == stCellPointQuadratic;
-    setVertices(undecomposed, rho, images_, baffles, interpolated, vertices_);
+    setVertices(undecomposed, rho, images_, baffles, interpolated, vertices);
 
     if (scheme_ == stDivergenceFree)
     {
         const pointImages images(undecomposed.mesh(), images_);
         const vertexFit fit(undecomposed.U(), baffles, images);
 
-        forAll(vertices_, i)
+        forAll(vertices, i)
         {
-            vertices_[i].u = fit.u[i];
-            vertices_[i].gradient = fit.gradient[i];
+            vertices[i].u = fit.u[i];
+            vertices[i].gradient = fit.gradient[i];
         }
-        matchFluxes(undecomposed, images);
         makeExcess(undecomposed, images);
     }
     else if (scheme_ == stPartitionOfUnity)
     {
         const pointImages images(undecomposed.mesh(), images_);
-        unity_.setFits(undecomposed.U(), baffles, images, fits_);
+        unity_.setFits(undecomposed.U(), baffles, images, values_.fits);
     }
 }
 
@@ -491,15 +459,19 @@ void Foam::frozenFlow::make
         const fvMesh& mesh = undecomposed.mesh();
         baffles.reset(new baffleSides(mesh));
         nVertices = mesh.nCells() + mesh.nPoints() + baffles->sides().size();
-        nTets = nTetsOf(mesh);
+        forAll(mesh.faces(), facei)
+        {
+            const label nSides = 1 + mesh.isInternalFace(facei);
+            nTets += nSides*(mesh.faces()[facei].size() - 2);
+        }
     }
 
     cellTets_.reset(master ? undecomposed.mesh().nCells() + 1 : 0);
     tets_.reset(nTets);
-    vertices_.reset(nVertices);
+    values_.vertices.reset(nVertices);
     if (scheme_ == stDivergenceFree)
     {
-        excess_.reset(nTets);
+        values_.excess.reset(nTets);
     }
     if (hasField)
     {
@@ -515,8 +487,8 @@ void Foam::frozenFlow::make
         (
             mesh, *baffles, scheme_ == stDivergenceFree, cellTets_, tets_
         );
-        makeVertices(mesh, *baffles, vertices_);
-        static_cast<UList<flowTetExcess>&>(excess_) =
+        makeVertices(mesh, *baffles, values_.vertices);
+        static_cast<UList<flowTetExcess>&>(values_.excess) =
             flowTetExcess{{0, 0, 0, 0}, 0};
 
         if (hasField)
@@ -543,16 +515,14 @@ void Foam::frozenFlow::make
             baffles.get(),
             images_,
             tets_,
-            vertices_
+            values_.vertices
         );
-        fits_.reset(unity_.nFits());
+        values_.fits.reset(unity_.nFits());
     }
 
     cellTets_.share();
     tets_.share();
-    vertices_.share();
-    excess_.share();
-    fits_.share();
+    values_.share();
     field_.share();
 }
 

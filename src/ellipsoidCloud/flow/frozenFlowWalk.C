@@ -27,13 +27,13 @@ void Foam::frozenFlow::setCoordinates
         c.tet = teti;
         c.flowOf = nullptr;
         c.vertices = tets_[teti].vertices;
-        c.origin = vertices_[c.vertices[0]].x;
+        c.origin = values_.vertices[c.vertices[0]].x;
 
         const vector edges[3] =
         {
-            vertices_[c.vertices[1]].x - c.origin,
-            vertices_[c.vertices[2]].x - c.origin,
-            vertices_[c.vertices[3]].x - c.origin
+            values_.vertices[c.vertices[1]].x - c.origin,
+            values_.vertices[c.vertices[2]].x - c.origin,
+            values_.vertices[c.vertices[3]].x - c.origin
         };
 
         // A flat tetrahedron holds nothing, but the walk has to get through it
@@ -171,6 +171,19 @@ Foam::frozenFlow::locationType Foam::frozenFlow::walk
 
 void Foam::frozenFlow::findAcross(const polyMesh& mesh)
 {
+    // The first tetrahedron of a mesh cell at one of its faces
+    const auto firstAt =
+        [&](const label celli, const label facei)
+        {
+            const labelUList& faces = mesh.cells()[celli];
+            label teti = cellTets_[celli];
+            for (label i = 0; faces[i] != facei; ++i)
+            {
+                teti += mesh.faces()[faces[i]].size() - 2;
+            }
+            return teti;
+        };
+
     for (const domainImages::seam& seam : images_.seams())
     {
         if (seam.mirrors())
@@ -182,66 +195,17 @@ void Foam::frozenFlow::findAcross(const polyMesh& mesh)
             refCast<const cyclicPolyPatch>(mesh.boundaryMesh()[seam.patch]);
         const cyclicPolyPatch& other = half.neighbPatch();
 
+        // Both faces are cut alike, and go round in opposite senses
         forAll(half, i)
         {
-            // Of the other side's tetrahedra at this face the nearest; those of
-            // a face are cut alike unless rounding has it otherwise
-            const auto tetsAt =
-                [&](const polyPatch& pp)
-                {
-                    DynamicList<label> found;
-                    const label celli = pp.faceCells()[i];
-                    for
-                    (
-                        label teti = cellTets_[celli];
-                        teti < cellTets_[celli + 1];
-                        ++teti
-                    )
-                    {
-                        const flowTet& tet = tets_[teti];
-                        bool atFace = tet.neighbours[0] == -1 - pp.index();
-                        for (label k = 1; k < 4 && atFace; ++k)
-                        {
-                            const label pointi =
-                                tet.vertices[k] - mesh.nCells();
-                            atFace =
-                                pointi >= mesh.nPoints()
-                             || pp[i].found(pointi);
-                        }
-                        if (atFace)
-                        {
-                            found.append(teti);
-                        }
-                    }
-                    return found;
-                };
-            const auto middle =
-                [&](const label teti)
-                {
-                    const label* v = tets_[teti].vertices;
-                    return
-                        (vertices_[v[1]].x + vertices_[v[2]].x
-                      + vertices_[v[3]].x)/3;
-                };
+            const label n = half[i].size() - 2;
+            const label here = firstAt(half.faceCells()[i], half.start() + i);
+            const label there =
+                firstAt(other.faceCells()[i], other.start() + i);
 
-            const DynamicList<label> there(tetsAt(other));
-            for (const label teti : tetsAt(half))
+            for (label k = 0; k < n; ++k)
             {
-                const point x(seam.inward(middle(teti)));
-                label nearest = -1;
-                for (const label candidate : there)
-                {
-                    if
-                    (
-                        nearest < 0
-                     || magSqr(middle(candidate) - x)
-                      < magSqr(middle(nearest) - x)
-                    )
-                    {
-                        nearest = candidate;
-                    }
-                }
-                tetAcross_.set(teti, nearest);
+                tetAcross_.set(here + k, there + n - 1 - k);
             }
         }
     }
@@ -250,24 +214,21 @@ void Foam::frozenFlow::findAcross(const polyMesh& mesh)
 
 const Foam::tetFlow& Foam::frozenFlow::flowIn
 (
-    const UList<flowVertex>& vertices,
-    const UList<flowTetExcess>& excess,
+    const flowValues& values,
     tetCoordinates& c
 ) const
 {
-    if (c.flowOf != vertices.cdata())
+    if (c.flowOf != values.vertices.cdata())
     {
         const auto vertex =
             [&](const int a) -> const flowVertex&
             {
-                return vertices[c.vertices[a]];
+                return values.vertices[c.vertices[a]];
             };
 
-        c.flowOf = vertices.cdata();
-        c.flow.set
-        (
-            c.gradient, vertex, excess[c.tet].flux, excess[c.tet].straight
-        );
+        c.flowOf = values.vertices.cdata();
+        const flowTetExcess& excess = values.excess[c.tet];
+        c.flow.set(c.gradient, vertex, excess.flux, excess.straight);
     }
 
     return c.flow;
@@ -287,7 +248,7 @@ bool Foam::frozenFlow::find(const point& x, probe& at) const
         at.tet = teti;
 
         isometry image;
-        if (locate(x, at, image) == pInside && image.isIdentity())
+        if (locate(x, at, &image) == pInside && image.isIdentity())
         {
             return true;
         }
@@ -300,25 +261,13 @@ bool Foam::frozenFlow::find(const point& x, probe& at) const
 Foam::frozenFlow::locationType Foam::frozenFlow::locate
 (
     const point& x,
-    probe& at
-) const
-{
-    tetCoordinates c;
-
-    return walk(x, at, c);
-}
-
-
-Foam::frozenFlow::locationType Foam::frozenFlow::locate
-(
-    const point& x,
     probe& at,
-    isometry& image
+    isometry* image
 ) const
 {
     tetCoordinates c;
 
-    return walk(x, at, c, &image);
+    return walk(x, at, c, image);
 }
 
 

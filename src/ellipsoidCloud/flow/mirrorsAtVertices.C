@@ -9,16 +9,8 @@ License
 \*---------------------------------------------------------------------------*/
 #include "mirrorsAtVertices.H"
 #include "polyMesh.H"
-#include "symmetryPlanePolyPatch.H"
-#include "symmetryPolyPatch.H"
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
-
-bool Foam::isMirror(const polyPatch& pp)
-{
-    return isA<symmetryPolyPatch>(pp) || isA<symmetryPlanePolyPatch>(pp);
-}
-
 
 Foam::Map<Foam::symmTensor> Foam::freeAtMirrors
 (
@@ -32,7 +24,7 @@ Foam::Map<Foam::symmTensor> Foam::freeAtMirrors
     for (const flowTet& tet : tets)
     {
         const label patchi = -1 - tet.neighbours[0];
-        if (patchi < 0 || !isMirror(mesh.boundaryMesh()[patchi]))
+        if (patchi < 0 || !domainImages::isMirror(mesh.boundaryMesh()[patchi]))
         {
             continue;
         }

@@ -54,48 +54,6 @@ namespace Foam
 
         return across;
     }
-
-    //- The ways to images, the mesh itself first
-    class imageWays
-    {
-        const domainImages& images_;
-        const scalar size_;
-        DynamicList<isometry> ways_;
-
-    public:
-
-        imageWays(const domainImages& images, const scalar size)
-        :
-            images_(images),
-            size_(size)
-        {
-            ways_.append(isometry());
-        }
-
-        const isometry& operator[](const label i) const
-        {
-            return ways_[i];
-        }
-
-        //- That which leads on from one of them beyond a patch
-        label next(const label from, const label seami)
-        {
-            const isometry way
-            (
-                ways_[from].after(images_.seams()[seami].inward.inverse())
-            );
-
-            forAll(ways_, i)
-            {
-                if (way.alike(ways_[i], size_))
-                {
-                    return i;
-                }
-            }
-            ways_.append(way);
-            return ways_.size() - 1;
-        }
-    };
 }
 
 
@@ -151,7 +109,11 @@ void Foam::partitionCells::addImages
 {
     const label nCells = mesh.nCells();
     const Map<DynamicList<labelPair>> across(cellsAcross(mesh, images));
-    imageWays ways(images, boundBox(mesh.points(), false).mag());
+    const scalar size = boundBox(mesh.points(), false).mag();
+
+    // The ways to images, the mesh itself first
+    DynamicList<isometry> ways;
+    ways.append(isometry());
 
     // Mesh cells and ways, and the labels of these images
     DynamicList<labelPair> nodes;
@@ -172,9 +134,11 @@ void Foam::partitionCells::addImages
             {
                 for (const labelPair& beyond : *found)
                 {
-                    const label way =
-                        ways.next(node.second(), beyond.second());
-                    next.append(labelPair(beyond.first(), way));
+                    const isometry& way = ways[node.second()];
+                    const auto& seam = images.seams()[beyond.second()];
+                    const isometry on(way.after(seam.inward.inverse()));
+                    const label to = placeOf(on, size, ways);
+                    next.append(labelPair(beyond.first(), to));
                 }
             }
         };
@@ -188,6 +152,7 @@ void Foam::partitionCells::addImages
                 if (n.second() && labels.insert(n, nCells + nodes.size()))
                 {
                     nodes.append(n);
+                    images_.append(imageCell{n.first(), ways[n.second()]});
                 }
             }
         };
@@ -220,11 +185,6 @@ void Foam::partitionCells::addImages
         }
     }
     start.append(all.size());
-
-    for (const labelPair& node : nodes)
-    {
-        images_.append(imageCell{node.first(), ways[node.second()]});
-    }
     start_.transfer(start);
     around_.transfer(all);
 }

@@ -104,18 +104,6 @@ namespace Foam
         turnCurvature(T, result.curvature);
         return result;
     }
-
-    //- Make a shared list of what the master has; collective
-    template<class Type>
-    static void fill(sharedList<Type>& list, const UList<Type>& from)
-    {
-        list.reset(from.size());
-        if (Pstream::master())
-        {
-            list.deepCopy(from);
-        }
-        list.share();
-    }
 }
 
 
@@ -311,9 +299,9 @@ void Foam::partitionOfUnity::make
     }
 
     broadcast(nFits_);
-    fill(triangles_, triangles);
-    fill(sources_, sources);
-    fill(masks_, masks);
+    triangles_.fill(triangles);
+    sources_.fill(sources);
+    masks_.fill(masks);
     supports_.share();
     near_.share();
 }
@@ -328,7 +316,7 @@ void Foam::partitionOfUnity::setFits
 ) const
 {
     const label nCells = moments_.size();
-    const wallsAtVertices walls(U, baffles, images);
+    const wallsAtVertices walls(U, baffles);
     List<quadratic> ofCells(cellFits(U, baffles, images, walls, moments_));
 
     forAll(ofCells, celli)

@@ -42,20 +42,16 @@ void Foam::pointImages::findImages
     for (const label pointi : imagesAt_.sortedToc())
     {
         DynamicList<pointImage> list;
-        list.append(pointImage{pointi, isometry()});
+        DynamicList<isometry> ways;
         const auto add =
             [&](const label other, const isometry& image)
             {
-                bool isNew = true;
-                for (const pointImage& known : list)
-                {
-                    isNew = isNew && !image.alike(known.image, size);
-                }
-                if (isNew)
+                if (placeOf(image, size, ways) == list.size())
                 {
                     list.append(pointImage{other, image});
                 }
             };
+        add(pointi, isometry());
 
         for (label i = 0; i < list.size(); ++i)
         {
@@ -65,11 +61,9 @@ void Foam::pointImages::findImages
                 const vector shift(x[from.point] - x[other]);
                 add(other, from.image.after(isometry::translation(shift)));
             }
-            const auto found = mirrors.cfind(from.point);
-            const label n = found.found() ? (*found).size() : 0;
-            for (label k = 0; k < n; ++k)
+            for (const isometry& mirror : mirrors(from.point))
             {
-                add(from.point, from.image.after((*found)[k]));
+                add(from.point, from.image.after(mirror));
             }
         }
 

@@ -175,11 +175,7 @@ void Foam::undecomposedFlow::makeAddressing()
     }
 
     const globalIndex cells(part_.nCells());
-    cellAddressing_.setSize(part_.nCells());
-    forAll(cellAddressing_, celli)
-    {
-        cellAddressing_[celli] = 1 + cells.toGlobal(celli);
-    }
+    cellAddressing_ = identity(part_.nCells(), 1 + cells.localStart());
 
     // Faces between cells belong to the rank of the lower cell, ordered by both
     labelList across(part_.nFaces() - part_.nInternalFaces());

@@ -8,7 +8,7 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "vertexFit.H"
-#include "mirrorsAtVertices.H"
+#include "domainImages.H"
 #include "wallsAtVertices.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -22,7 +22,7 @@ Foam::vertexFit::vertexFit
 {
     const polyMesh& mesh = U.mesh();
     const label nCells = mesh.nCells();
-    const wallsAtVertices walls(U, baffles, images);
+    const wallsAtVertices walls(U, baffles);
     const List<quadratic> fits
     (
         cellFits(U, baffles, images, walls, secondMoments(mesh))
@@ -61,12 +61,12 @@ Foam::vertexFit::vertexFit
 
     for (label i = 0; i < u.size() - nCells; ++i)
     {
-        walls.impose(i, u[nCells + i], gradient[nCells + i]);
+        walls.impose(i, images, u[nCells + i], gradient[nCells + i]);
     }
 
     for (const polyPatch& pp : mesh.boundaryMesh())
     {
-        const bool mirror = isMirror(pp);
+        const bool mirror = domainImages::isMirror(pp);
 
         for (label i = 0; mirror && i < pp.size(); ++i)
         {

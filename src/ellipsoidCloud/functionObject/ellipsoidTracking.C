@@ -10,8 +10,6 @@ License
 
 #include "ellipsoidTracking.H"
 #include "addToRunTimeSelectionTable.H"
-#include "calculatedFvPatchFields.H"
-#include "calculatedFvsPatchFields.H"
 #include "caseSummary.H"
 #include "cellPopulation.H"
 #include "ellipsoidCloud.H"
@@ -39,30 +37,6 @@ namespace functionObjects
 
 namespace Foam
 {
-    //- The same values, patches included, on the mesh of another clock
-    template<class FieldType>
-    static tmp<FieldType> copyOf(const FieldType& host, const fvMesh& mesh)
-    {
-        typedef typename FieldType::value_type Type;
-
-        tmp<FieldType> copy
-        (
-            FieldType::New
-            (
-                host.name(), mesh, dimensioned<Type>(host.dimensions(), Zero)
-            )
-        );
-
-        copy.ref().primitiveFieldRef() = host.primitiveField();
-        forAll(host.boundaryField(), patchi)
-        {
-            copy.ref().boundaryFieldRef()[patchi] ==
-                host.boundaryField()[patchi];
-        }
-
-        return copy;
-    }
-
     //- A clock of its own, with these entries, for the case of a host, and the
     //  mesh of that case
     struct ownClock
@@ -186,18 +160,9 @@ bool Foam::functionObjects::ellipsoidTracking::begin()
 void Foam::functionObjects::ellipsoidTracking::trackThroughEnd() const
 {
     ownClock clock(clockEntries(), time_);
-    const fvMesh& mesh = clock.mesh;
+    ellipsoidCloud cells(clock.mesh, ellipsoidCloud::STEADY);
 
-    ellipsoidCloud cells(mesh, ellipsoidCloud::STEADY);
-    const solverFields host(flow());
-    cells.setFlow
-    (
-        {
-            copyOf(host.U, mesh)(),
-            copyOf(host.p, mesh)(),
-            copyOf(host.phi, mesh)()
-        }
-    );
+    cells.setFlow(flow());
     cells.track(clock.time, max(label(1), label(writeInterval_/deltaT_ + 0.5)));
 }
 

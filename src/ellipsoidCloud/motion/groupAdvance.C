@@ -110,7 +110,7 @@ struct Foam::groupAdvance::member
             cell.state.pass(image, model.options.semi_axes);
             if (image.translates())
             {
-                cell.passed -= image.b();
+                cell.passed -= image.b;
             }
             for (double* force : {contact.force, contact.cell_force})
             {
@@ -226,7 +226,7 @@ struct Foam::groupAdvance::member
             state.time = inside;
 
             at = here.home;
-            domain.flow.locate(state.centre(), at, image);
+            domain.flow.locate(state.centre(), at, &image);
             if (!image.isIdentity())
             {
                 pass();

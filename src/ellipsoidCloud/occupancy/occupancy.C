@@ -11,23 +11,6 @@ License
 #include "surfaceFields.H"
 #include "volFields.H"
 
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-    //- From the body to the lab
-    static tensor rotationOf(const scalar q[4])
-    {
-        scalar rotation[3][3];
-        ellipsoid_rotation(q, rotation);
-
-        tensor R;
-        std::copy_n(&rotation[0][0], 9, R.v_);
-        return R;
-    }
-}
-
-
 // * * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * //
 
 const Foam::Enum<Foam::occupancy::flowType> Foam::occupancy::flowNames
@@ -331,14 +314,12 @@ Foam::List<Foam::heldBody> Foam::occupancy::bodies
     {
         if (held_.found(cell.id))
         {
-            const double* a = population_.model(cell.id).options.semi_axes;
-
             found.append
             (
                 heldBody
                 {
                     cell.id, cell.patch, cell.centre(), rotationOf(cell.body.q),
-                    vector(a[0], a[1], a[2])
+                    pointOf(population_.model(cell.id).options.semi_axes)
                 }
             );
         }

@@ -180,8 +180,7 @@ bool Foam::occupancy::hasBorne(const cellState& cell) const
         return false;
     }
 
-    const scalar* semiAxes = population_.model(cell.id).options.semi_axes;
-    const scalar arm = max(semiAxes[0], max(semiAxes[1], semiAxes[2]));
+    const scalar arm = longestSemiAxis(population_.model(cell.id).options);
     const heldWrench& now = held_[cell.id];
     const heldWrench& then = *before;
 

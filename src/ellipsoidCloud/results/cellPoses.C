@@ -127,8 +127,7 @@ Foam::tensor Foam::fullAxes
 )
 {
     const double* a = population.model(cell.id).options.semi_axes;
-    double r[3][3];
-    ellipsoid_rotation(cell.body.q, r);
+    const tensor R(rotationOf(cell.body.q));
 
     tensor axes(Zero);
     for (int i = 0; i < 3; ++i)
@@ -137,7 +136,7 @@ Foam::tensor Foam::fullAxes
         {
             for (int k = 0; k < 3; ++k)
             {
-                axes(i, j) += 2*a[k]*r[i][k]*r[j][k];
+                axes(i, j) += 2*a[k]*R(i, k)*R(j, k);
             }
         }
     }

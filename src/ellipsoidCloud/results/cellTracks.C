@@ -9,7 +9,6 @@ License
 \*---------------------------------------------------------------------------*/
 #include "cellTracks.H"
 #include "atomicWrite.H"
-#include "PstreamReduceOps.H"
 #include "stringOps.H"
 #include "vtkPolyData.H"
 
@@ -47,25 +46,6 @@ namespace Foam
         cell.lastRow[0] = t;
         std::copy_n(body.x, 3, cell.lastRow + 1);
         std::copy_n(body.q, 4, cell.lastRow + 4);
-    }
-
-    //- The rows of each cell in a table
-    static std::map<label, std::vector<std::string>> rowsOf
-    (
-        const fileName& table
-    )
-    {
-        std::map<label, std::vector<std::string>> cells;
-        std::ifstream is(table);
-        std::string line;
-        std::getline(is, line);
-
-        while (std::getline(is, line))
-        {
-            cells[std::stol(line.substr(line.find(',') + 1))].push_back(line);
-        }
-
-        return cells;
     }
 }
 
@@ -139,7 +119,7 @@ void Foam::cellTracks::add
             {
                 isometry image;
                 frozenFlow::probe from{tet, -1};
-                flow.locate(pointOf(body.x), from, image);
+                flow.locate(pointOf(body.x), from, &image);
                 there.pass(image, options.semi_axes);
             }
             return there;
@@ -243,18 +223,25 @@ void Foam::cellTracks::writeVTP
     const std::function<cellSize(const label)>& sizeOf
 ) const
 {
-    const fileName vtp(set_.folder/"tracks.vtp");
-    DynamicList<label> ends;
-    DynamicList<string> rows;
-    for (const auto& cell : rowsOf(file.name()))
+    // Also those of the runs that this one continues, by cell
+    std::map<label, std::vector<std::string>> rowsOf;
+    std::ifstream is(file.name());
+    std::string line;
+    std::getline(is, line);
+    while (std::getline(is, line))
     {
-        for (const std::string& row : cell.second)
-        {
-            rows.append(row);
-        }
+        rowsOf[std::stol(line.substr(line.find(',') + 1))].push_back(line);
+    }
+
+    DynamicList<label> ends;
+    std::vector<std::string> rows;
+    for (const auto& cell : rowsOf)
+    {
+        rows.insert(rows.end(), cell.second.begin(), cell.second.end());
         ends.append(rows.size());
     }
 
+    const fileName vtp(set_.folder/"tracks.vtp");
     std::ofstream os(vtp);
     os.precision(9);
     vtkPolyData polyData(os, "Lines", ends);
