@@ -58,27 +58,25 @@ typedef struct moments
 
 static const int pair[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
 
-static void add_scaled(double g[3][3], double factor, double sum[3][3])
+/* A matrix, as nine numbers in a row. */
+static inline void add_scaled(const double *g, double factor, double *sum)
 {
-    for (int i = 0; i < 3; i++)
+    for (int n = 0; n < 9; n++)
     {
-        for (int l = 0; l < 3; l++)
-        {
-            sum[i][l] += factor * g[i][l];
-        }
+        sum[n] += factor * g[n];
     }
 }
 
-static void add_jacobian(const double c[3], double weight, double g[3][3],
+static void add_jacobian(const double c[3], double weight, const double *g,
                          moments *sums)
 {
-    add_scaled(g, weight, sums->g);
+    add_scaled(g, weight, sums->g[0]);
     for (int j = 0; j < 3; j++)
     {
-        add_scaled(g, weight * c[j], sums->cg[j]);
+        add_scaled(g, weight * c[j], sums->cg[j][0]);
         for (int s = j; s < 3; s++)
         {
-            add_scaled(g, weight * c[j] * c[s], sums->ccg[pair[j][s]]);
+            add_scaled(g, weight * c[j] * c[s], sums->ccg[pair[j][s]][0]);
         }
     }
 }
@@ -216,7 +214,7 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
         }
         if (wanted)
         {
-            add_jacobian(c, weight, jacobian[p], &sums);
+            add_jacobian(c, weight, jacobian[p][0], &sums);
         }
     }
     if (wanted)
