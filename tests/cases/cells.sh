@@ -8,6 +8,8 @@
 if [ -z "$WM_PROJECT_DIR" ]; then setup_environment test > /dev/null || exit; fi
 # Test files run side by side: ranks that wait give way, and none is bound to a core
 export OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none
+# Memory that is read before it was set holds numbers that overflow when they are added
+export MALLOC_PERTURB_=128
 # For the sourcing tests
 # shellcheck disable=SC2034
 cases=$PWD/tests/cases

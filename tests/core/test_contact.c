@@ -425,6 +425,12 @@ static void test_failures_have_names(void **unused)
     ellipsoid_facet_cache_clear(&cache);
     assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
                                          &contact, NULL));
+    /* nor does a cache that holds facets take it for a pose near its own */
+    x[1] = NAN;
+    assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
+                                                &cache, &contact, NULL),
+                     ELLIPSOID_NON_FINITE);
+    x[1] = 0;
     wall_mesh_free(&mesh);
     wall_mesh_init(&mesh);
     wall_mesh_plane(&mesh, corner, u, v, 4, 40000, 0, 0);

@@ -66,7 +66,7 @@ static double farthest_move(const ellipsoid_facet_cache *cache,
                             const double q[4])
 {
     ellipsoid_pose_change change;
-    double r[3][3], sum = 0, farthest;
+    double r[3][3], sum = 0, bound, farthest = 0;
 
     ellipsoid_rotation_inline(q, r);
     ellipsoid_pose_change_set(cache, x, r, &change);
@@ -78,21 +78,20 @@ static double farthest_move(const ellipsoid_facet_cache *cache,
 
         sum += d * d;
     }
-    farthest = ellipsoid_length(change.x) + sqrt(sum);
-    if (farthest <= cache->margin
-        || model->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID)
+    bound = ellipsoid_length(change.x) + sqrt(sum);
+    if (bound <= cache->margin
+        || model->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID
+        || !isfinite(bound))
     {
-        return farthest;
+        return bound;
     }
-    farthest = 0;
     for (int b = 0; b < model->bead_count; b++)
     {
         const double squared = ellipsoid_squared_move(&change, model->bead[b]);
 
         farthest = squared > farthest ? squared : farthest;
     }
-    /* rounded up; fmax would drop a NaN */
-    return isfinite(sum) ? sqrt(farthest) * (1 + 1e-12) : NAN;
+    return sqrt(farthest) * (1 + 1e-12); /* rounded up */
 }
 
 /* Does the cache hold all facets that matter in this pose? */
