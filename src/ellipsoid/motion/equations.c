@@ -383,10 +383,7 @@ set_free(evaluation *e, const ellipsoid_cell *cell, ellipsoid_evaluation *at,
             ellipsoid_copy(e->state->x, at->average.x);
             memcpy(at->average.q, e->state->q, sizeof(at->average.q));
             at->average.free = e->free;
-            if (cell->correction.start)
-            {
-                ellipsoid_correct_rates(cell, at);
-            }
+            ellipsoid_correct_rates(cell, at);
         }
         return status;
     }

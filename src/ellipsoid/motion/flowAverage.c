@@ -290,6 +290,10 @@ void ellipsoid_correct_rates(const ellipsoid_cell *p, ellipsoid_evaluation *end)
     const ellipsoid_free_motion *free = &end->average.free;
     double change[6], slope[6];
 
+    if (!made->start)
+    {
+        return;
+    }
     set_slope(made->start, end, made->h, slope);
     ellipsoid_difference(free->u, made->followed, change);
     ellipsoid_difference(free->omega, made->followed + 3, change + 3);

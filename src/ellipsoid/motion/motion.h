@@ -554,7 +554,7 @@ int ellipsoid_planes_are_linear(const ellipsoid_group *group, double h);
    touch something; what is then evaluated there corrects u and omega. */
 ellipsoid_status ellipsoid_correct_poses(ellipsoid_group *group, double h);
 
-/* Corrects u and omega by the average there. */
+/* Corrects u and omega by the average there, if a correction is under way. */
 void ellipsoid_correct_rates(const ellipsoid_cell *cell,
                              ellipsoid_evaluation *end);
 
