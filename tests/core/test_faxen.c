@@ -362,6 +362,165 @@ static void test_paper_cell_in_a_slit(void **unused)
     }
 }
 
+/* u_1 = U sin(k x_3) and so on, cyclic (an ABC flow), counted. */
+typedef struct vortices
+{
+    double speed, k;
+    long averages;
+} vortices;
+
+static int in_vortices(void *context, double t, const double x[3],
+                       int derivatives, ellipsoid_flow_sample *f)
+{
+    const vortices *v = context;
+
+    (void)t;
+    (void)derivatives;
+    for (int i = 0; i < 3; i++)
+    {
+        const int j = (i + 2) % 3, k = (i + 1) % 3;
+
+        f->velocity[i] = v->speed * (sin(v->k * x[j]) + cos(v->k * x[k]));
+        ellipsoid_set(f->gradient[i], 0, 0, 0);
+        f->gradient[i][j] = v->speed * v->k * cos(v->k * x[j]);
+        f->gradient[i][k] = -v->speed * v->k * sin(v->k * x[k]);
+    }
+    memcpy(f->velocity_jacobian, f->gradient, sizeof(f->gradient));
+    return 0;
+}
+
+static int velocities_in_vortices(void *context, double t,
+                                  const double centre[3], int count,
+                                  double (*points)[3], double (*velocity)[3],
+                                  double (*jacobian)[3][3])
+{
+    vortices *v = context;
+
+    (void)centre;
+    v->averages++;
+    for (int p = 0; p < count; p++)
+    {
+        ellipsoid_flow_sample f;
+
+        in_vortices(v, t, points[p], 1, &f);
+        ellipsoid_copy(f.velocity, velocity[p]);
+        if (jacobian)
+        {
+            memcpy(jacobian[p], f.gradient, sizeof(f.gradient));
+        }
+    }
+    return 0;
+}
+
+/* How it moves, at which tolerance, and whether it is stopped after each step
+   and continued. */
+typedef struct passage
+{
+    int motion, integrator, piecewise;
+    double tolerance;
+    ellipsoid_observer observer;
+} passage;
+
+/* To the end; returns the attempts. */
+static long through_vortices(vortices *v, const passage *by, ellipsoid_state *s)
+{
+    ellipsoid_model m = body(0.5e-6, 2e-6, 0.5e-6, 26);
+    ellipsoid_options o = m.options;
+    const ellipsoid_surroundings around = {
+        .flow = in_vortices, .flow_context = v, .piecewise = by->piecewise,
+        .velocities = velocities_in_vortices};
+    ellipsoid_controller controller = {0};
+    ellipsoid_statistics statistics = {0};
+    const ellipsoid_member member = {&m, &around, s, &controller,
+                                     NULL, NULL, &statistics};
+    ellipsoid_status status = ELLIPSOID_STOPPED;
+    double t = 0;
+
+    o.motion = by->motion;
+    o.integrator = by->integrator;
+    o.tolerance = by->tolerance;
+    m = test_model(&o);
+    *s = (ellipsoid_state){.x = {1e-6, 2e-6, 5e-6}, .q = {0.6, 0, 0, 0.8}};
+    v->averages = 0;
+    while (status == ELLIPSOID_STOPPED)
+    {
+        status = ellipsoid_advance(&member, &t, 0.03, by->observer);
+    }
+    assert_ok(status);
+    return statistics.accepted + statistics.rejected;
+}
+
+/* A step takes the average for linear in the pose, corrects what that left out
+   and is of order 4 all the same. */
+static void test_over_a_step(void **unused)
+{
+    vortices v = {.speed = 1e-3, .k = 4e5};
+    passage by = {ELLIPSOID_MOTION_INERTIAL, ELLIPSOID_INTEGRATOR_ROSENBROCK, 0,
+                  1e-11, NULL};
+    ellipsoid_state exact;
+    double before = 0;
+    long previous = 0;
+
+    (void)unused;
+    through_vortices(&v, &by, &exact);
+    for (int n = 0; n < 4; n++)
+    {
+        const double tolerance = 1e-5 * pow(10, -n);
+        ellipsoid_state s;
+        double off[3], error;
+        long attempts;
+
+        by.tolerance = tolerance;
+        attempts = through_vortices(&v, &by, &s);
+        ellipsoid_difference(s.x, exact.x, off);
+        error = ellipsoid_length(off) / 2e-6;
+        print_message("# %g: %ld attempts, %.2f averages each, off by %.3g\n",
+                      tolerance, attempts, (double)v.averages / attempts,
+                      error);
+        assert_true(v.averages < 3.2 * attempts);
+        assert_true(error < 1.2 * tolerance);
+        if (n > 0)
+        {
+            assert_true(log(before / error)
+                        > 4 * log((double)attempts / previous));
+        }
+        before = error;
+        previous = attempts;
+    }
+}
+
+static int stop(void *context, const ellipsoid_step *step)
+{
+    (void)context;
+    (void)step;
+    return 1;
+}
+
+/* Stopped after each step and continued, a cell takes the way of one that is not
+   stopped, to the last bit, however it moves: nothing of the average is taken
+   from a step to the next. */
+static void test_stopped(void **unused)
+{
+    static const int way[3][2] = {
+        {ELLIPSOID_MOTION_INERTIAL, ELLIPSOID_INTEGRATOR_ROSENBROCK},
+        {ELLIPSOID_MOTION_INERTIAL, ELLIPSOID_INTEGRATOR_SLOW_MANIFOLD},
+        {ELLIPSOID_MOTION_INERTIALESS, ELLIPSOID_INTEGRATOR_ROSENBROCK}};
+    vortices v = {.speed = 1e-3, .k = 4e5};
+
+    (void)unused;
+    for (int n = 0; n < 6; n++)
+    {
+        passage by = {way[n / 2][0], way[n / 2][1], n % 2, 1e-5, NULL};
+        ellipsoid_state whole, stopped;
+        const long attempts = through_vortices(&v, &by, &whole);
+
+        by.observer = stop;
+        assert_true(attempts > 20);
+        assert_int_equal(through_vortices(&v, &by, &stopped), attempts);
+        assert_memory_equal(&stopped, &whole, sizeof(whole));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -371,6 +530,8 @@ int main(void)
         cmocka_unit_test(test_degree_of_flow),
         cmocka_unit_test(test_beyond_a_wall),
         cmocka_unit_test(test_paper_cell_in_a_slit),
+        cmocka_unit_test(test_over_a_step),
+        cmocka_unit_test(test_stopped),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

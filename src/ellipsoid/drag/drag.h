@@ -30,6 +30,17 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
                                  ellipsoid_frame *frame,
                                  ellipsoid_free_motion *free);
 
+/* The same about a pose. */
+typedef struct ellipsoid_average
+{
+    double x[3], q[4];
+    ellipsoid_free_motion free;
+} ellipsoid_average;
+
+/* As it is at another pose if it is linear in the pose. */
+void ellipsoid_average_at(const ellipsoid_average *average, const double x[3],
+                          const double q[4], ellipsoid_free_motion *free);
+
 /* The random force and torque of a noise interval (brownian.c). */
 typedef struct ellipsoid_noise
 {
@@ -98,6 +109,51 @@ ellipsoid_find_planes(const ellipsoid_model *model,
                       const ellipsoid_surroundings *surroundings,
                       const ellipsoid_state *state, ellipsoid_frame *frame,
                       ellipsoid_facet_cache *cache, ellipsoid_planes *planes);
+
+/* What is kept of planes near a pose; of more than so many nothing. */
+#define ELLIPSOID_MOST_LINEAR 8
+
+typedef struct ellipsoid_linear_plane
+{
+    double normal[3], normal_slope[ELLIPSOID_POSE_SIZE][3];
+    ellipsoid_quantity height, weight; /* as those of a plane */
+} ellipsoid_linear_plane;
+
+typedef struct ellipsoid_linear_planes
+{
+    int count;         /* -1: they are too many */
+    double x[3], q[4]; /* where */
+    double rates[6];   /* there, as ellipsoid_wall_rates() */
+    ellipsoid_linear_plane at[ELLIPSOID_MOST_LINEAR];
+} ellipsoid_linear_planes;
+
+/* The velocities of the fluid relative to the body, (R^T (u_free - u),
+   omega_free - w^), body frame. */
+void ellipsoid_wall_rates(ellipsoid_frame *frame,
+                          const ellipsoid_free_motion *free,
+                          const ellipsoid_state *state, double rates[6]);
+
+/* The drag (F^, T^) in the body frame that they make near these planes; 0 if
+   the resistance is singular (wallDrag.c). */
+int ellipsoid_wall_action(const ellipsoid_model *model,
+                          const ellipsoid_planes *planes,
+                          const double rates[6], double action[6]);
+
+/* Keeps planes with their slopes; as they are at another pose if all is linear
+   in the pose; and what that leaves out at a state where `is` was set, as
+   velocities of the free body (linearPlanes.c). */
+void ellipsoid_linear_planes_set(const ellipsoid_planes *planes,
+                                 const ellipsoid_state *state,
+                                 const double rates[6],
+                                 ellipsoid_linear_planes *linear);
+void ellipsoid_linear_planes_at(const ellipsoid_linear_planes *linear,
+                                const ellipsoid_state *state,
+                                ellipsoid_planes *planes);
+void ellipsoid_linear_planes_defect(const ellipsoid_model *model,
+                                    const ellipsoid_linear_planes *linear,
+                                    const ellipsoid_linear_planes *is,
+                                    const ellipsoid_state *state,
+                                    double defect[6]);
 
 /* The resistance near walls as it is kept over a step (wallDrag.c). */
 typedef struct ellipsoid_kept_resistance

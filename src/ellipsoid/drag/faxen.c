@@ -58,27 +58,25 @@ typedef struct moments
 
 static const int pair[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
 
-static void add_scaled(double g[3][3], double factor, double sum[3][3])
+/* A matrix, as nine numbers in a row. */
+static inline void add_scaled(const double *g, double factor, double *sum)
 {
-    for (int i = 0; i < 3; i++)
+    for (int n = 0; n < 9; n++)
     {
-        for (int l = 0; l < 3; l++)
-        {
-            sum[i][l] += factor * g[i][l];
-        }
+        sum[n] += factor * g[n];
     }
 }
 
-static void add_jacobian(const double c[3], double weight, double g[3][3],
+static void add_jacobian(const double c[3], double weight, const double *g,
                          moments *sums)
 {
-    add_scaled(g, weight, sums->g);
+    add_scaled(g, weight, sums->g[0]);
     for (int j = 0; j < 3; j++)
     {
-        add_scaled(g, weight * c[j], sums->cg[j]);
+        add_scaled(g, weight * c[j], sums->cg[j][0]);
         for (int s = j; s < 3; s++)
         {
-            add_scaled(g, weight * c[j] * c[s], sums->ccg[pair[j][s]]);
+            add_scaled(g, weight * c[j] * c[s], sums->ccg[pair[j][s]][0]);
         }
     }
 }
@@ -216,7 +214,7 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
         }
         if (wanted)
         {
-            add_jacobian(c, weight, jacobian[p], &sums);
+            add_jacobian(c, weight, jacobian[p][0], &sums);
         }
     }
     if (wanted)
@@ -225,4 +223,28 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
     }
     set_spin(a, &sums, frame, free);
     return ELLIPSOID_OK;
+}
+
+void ellipsoid_average_at(const ellipsoid_average *average, const double x[3],
+                          const double q[4], ellipsoid_free_motion *free)
+{
+    const ellipsoid_free_motion *from = &average->free;
+    double way[3], turn[4];
+
+    *free = *from;
+    ellipsoid_difference(x, average->x, way);
+    for (int n = 0; n < 4; n++)
+    {
+        turn[n] = q[n] - average->q[n];
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        free->u[i] += ellipsoid_dot(from->u_x[i], way);
+        free->omega[i] += ellipsoid_dot(from->omega_x[i], way);
+        for (int n = 0; n < 4; n++)
+        {
+            free->u[i] += from->u_q[i][n] * turn[n];
+            free->omega[i] += from->omega_q[i][n] * turn[n];
+        }
+    }
 }

@@ -122,6 +122,34 @@ ellipsoid_collect_near(const ellipsoid_surroundings *surroundings,
     return status;
 }
 
+/* For what idle_part() asks: a move and a turn, what follows from these, and of
+   the normal of the last facet. */
+typedef struct idle_limits
+{
+    double shift, per_shift, turn, rim;
+    ellipsoid_wall_view view;
+    double extended; /* beside an extended facet, by the height */
+    double turned;   /* how far the foot goes by the turn, by the height */
+} idle_limits;
+
+/* As fmax(), which is a call of the library. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static void look_along(const ellipsoid_wall_search *s, const double normal[3],
+                       idle_limits *limits)
+{
+    double left, slimness;
+
+    ellipsoid_look_along(s, normal, &limits->view);
+    left = larger(s->shortest, limits->view.support - s->longest * limits->turn);
+    slimness = s->longest / left;
+    limits->extended = ellipsoid_fading * slimness;
+    limits->turned = limits->turn * (slimness * slimness + limits->view.far);
+}
+
 /*
     Within which part of a move of the centre by `shift` and a turn of the axes
     by `turn` can ellipsoid_find_feature() find no plane on this facet? Without
@@ -132,39 +160,40 @@ ellipsoid_collect_near(const ellipsoid_surroundings *surroundings,
     foot may do is a convex function of the part.
 */
 static double idle_part(const ellipsoid_wall_search *s,
-                        const ellipsoid_facet *facet, double shift,
-                        double turn, ellipsoid_wall_view *view)
+                        const ellipsoid_facet *facet, idle_limits *limits)
 {
-    const int extended = ellipsoid_facet_is_extended(facet);
-    double d[3], aside[3], height, part, left, before, change, beside;
+    const ellipsoid_wall_view *view = &limits->view;
+    const double *n = facet->normal, shift = limits->shift;
+    double d[3], aside[3], height, part, before, change, beside;
 
     ellipsoid_difference(s->x, facet->middle, d);
-    height = ellipsoid_dot(d, facet->normal);
-    part = fmax(-height, height - s->range) / shift;
+    height = ellipsoid_dot(d, n);
+    part = larger(-height, height - s->range) * limits->per_shift;
     if (part >= 1)
     {
         return part;
     }
-    ellipsoid_look_along(s, facet->normal, view);
-    left = fmax(s->shortest, view->support - s->longest * turn);
     if (ellipsoid_facet_has_convex_edge(facet))
     {
-        beside = ellipsoid_fading * s->longest / s->shortest;
-        return fmax(part, (ellipsoid_length(d) - facet->radius
-                           - beside * s->range)
-                                  / shift
-                              - s->range / shift);
+        return larger(part,
+                      (ellipsoid_length(d) - facet->radius - limits->rim)
+                          * limits->per_shift);
     }
-    beside = extended ? ellipsoid_fading * s->longest / left : ellipsoid_lap;
-    height = fabs(height);
-    change = turn * (s->longest * s->longest / (left * left) + view->far);
-    before = facet->radius + beside * height;
-    change = shift * (beside + 1 + view->far) + (height + shift) * change;
+    if (view->along[0] != n[0] || view->along[1] != n[1]
+        || view->along[2] != n[2])
+    {
+        look_along(s, n, limits);
+    }
+    beside = ellipsoid_facet_is_extended(facet) ? limits->extended
+                                                : ellipsoid_lap;
     for (int i = 0; i < 3; i++)
     {
-        aside[i] = d[i] - view->way[i] * ellipsoid_dot(d, facet->normal);
+        aside[i] = d[i] - view->way[i] * height;
     }
-    return fmax(part, (ellipsoid_length(aside) - before) / change);
+    height = fabs(height);
+    before = facet->radius + beside * height;
+    change = shift * (beside + 1 + view->far) + (height + shift) * limits->turned;
+    return larger(part, (ellipsoid_length(aside) - before) / change);
 }
 
 int ellipsoid_look_closer(const ellipsoid_wall_search *s,
@@ -172,7 +201,11 @@ int ellipsoid_look_closer(const ellipsoid_wall_search *s,
 {
     /* far more than rounding on either side */
     const double shift = live_part * s->range, wide = 1 + 1e-6;
-    ellipsoid_wall_view view = {.along = {0}};
+    idle_limits limits = {
+        .shift = wide * shift,
+        .per_shift = 1 / (wide * shift),
+        .turn = wide * live_turn,
+        .rim = s->range * (1 + ellipsoid_fading * s->longest / s->shortest)};
     double moved = 0, turned = 0, change;
 
     for (int i = 0; i < 3; i++)
@@ -205,8 +238,7 @@ int ellipsoid_look_closer(const ellipsoid_wall_search *s,
     for (int k = 0; k < cache->near_count; k++)
     {
         const double part =
-            idle_part(s, &cache->near_facets[cache->near_facet[k]],
-                      wide * shift, wide * live_turn, &view);
+            idle_part(s, &cache->near_facets[cache->near_facet[k]], &limits);
 
         for (int l = ELLIPSOID_LIVE_LEVELS - 1;
              l >= 0 && !(part > live_levels[l]); l--)

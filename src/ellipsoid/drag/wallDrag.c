@@ -14,9 +14,9 @@
 #include "drag/drag.h"
 #include "drag/wallResistance.h"
 
-/* mu times resistance times rates, body frame; 0 if one is singular */
-static int resist(const ellipsoid_model *m, const ellipsoid_planes *planes,
-                  const double rates[6], double action[6])
+int ellipsoid_wall_action(const ellipsoid_model *m,
+                          const ellipsoid_planes *planes,
+                          const double rates[6], double action[6])
 {
     int regular = 1;
 
@@ -164,6 +164,16 @@ static void set_rates(ellipsoid_frame *frame,
     to_body(frame->axis, drag->slip, turn, drag->rates);
 }
 
+void ellipsoid_wall_rates(ellipsoid_frame *frame,
+                          const ellipsoid_free_motion *free,
+                          const ellipsoid_state *state, double rates[6])
+{
+    wall_drag drag;
+
+    set_rates(frame, free, state, &drag);
+    memcpy(rates, drag.rates, sizeof(drag.rates));
+}
+
 /* change: of the action with the pose; of none if that is NULL */
 static void add_blocks(const ellipsoid_model *m, double matrix[6][6],
                        double (*change)[6], ellipsoid_frame *frame,
@@ -237,7 +247,7 @@ ellipsoid_status ellipsoid_add_wall_drag(const ellipsoid_model *model,
     wall_drag drag;
 
     set_rates(frame, free, state, &drag);
-    if (!resist(model, planes, drag.rates, drag.action))
+    if (!ellipsoid_wall_action(model, planes, drag.rates, drag.action))
     {
         return ELLIPSOID_NON_FINITE;
     }

@@ -43,6 +43,15 @@ typedef struct corners
     double from[3][3], along[3][3]; /* vertex to centre; edges */
 } corners;
 
+static void set_from(const ellipsoid_wall_search *s,
+                     const ellipsoid_facet *facet, int k, corners *c)
+{
+    double line[3];
+
+    ellipsoid_difference(s->x, facet->vertex[k], line);
+    ellipsoid_product(s->axis, line, c->from[k]);
+}
+
 static int feature_on_edge(const ellipsoid_wall_search *s, const corners *c,
                          int k, double foot, const double normal[3],
                          ellipsoid_wall_feature *p)
@@ -100,36 +109,41 @@ static int feature_on_rim(const ellipsoid_wall_search *s,
     const ellipsoid_facet *facet = p->facet;
     double best = HUGE_VAL, foot = 0;
     int edge = 0;
-    corners c = {{{0}}, {{0}}};
+    corners c;
 
     for (int k = 0; k < 3; k++)
     {
-        double line[3];
+        double line[3], w[3], at, past, squared;
 
-        ellipsoid_difference(s->x, facet->vertex[k], line);
-        ellipsoid_product(s->axis, line, c.from[k]);
+        if (!outside[k] || facet->edge[k] != ELLIPSOID_EDGE_CONVEX)
+        {
+            continue;
+        }
+        set_from(s, facet, k, &c);
         ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
                              line);
         ellipsoid_product(s->axis, line, c.along[k]);
-    }
-    for (int k = 0; k < 3; k++)
-    {
-        double w[3], at, past;
-
         ellipsoid_shrink(s, c.along[k], w);
-        at = ellipsoid_dot(c.from[k], w) / ellipsoid_dot(c.along[k], w);
-        past = fmax(0, fmax(-at, at - 1)) * sqrt(ellipsoid_dot(c.along[k], w));
-        if (outside[k] && facet->edge[k] == ELLIPSOID_EDGE_CONVEX
-            && past < best)
+        squared = ellipsoid_dot(c.along[k], w);
+        at = ellipsoid_dot(c.from[k], w) / squared;
+        past = fmax(0, fmax(-at, at - 1)) * sqrt(squared);
+        if (past < best)
         {
             best = past;
             edge = k;
             foot = at;
         }
     }
-    if (best > 0 && feature_at_vertex(s, &c, normal, bare, p))
+    if (best > 0)
     {
-        return 1;
+        for (int k = 0; k < 3; k++)
+        {
+            set_from(s, facet, k, &c);
+        }
+        if (feature_at_vertex(s, &c, normal, bare, p))
+        {
+            return 1;
+        }
     }
     p->over[(edge + 1) % 3] = foot > 1;
     p->over[(edge + 2) % 3] = foot < 0;
@@ -185,6 +199,10 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
         return 0;
     }
     ellipsoid_look_along(s, facet->normal, view);
+    if (!has_rim && height * view->far >= s->range)
+    {
+        return 0; /* its plane is too far to count (wallPlanes.c) */
+    }
     for (int i = 0; i < 3; i++)
     {
         aside[i] = from[i] - view->way[i] * height;

@@ -117,24 +117,32 @@ static void face_slopes(const ellipsoid_wall_search *s,
     }
 }
 
-/* The window's smooth end: 1, and its derivatives 0, at t = 0; 0 at t = 1. */
-static void set_window(const ellipsoid_wall_search *s, ellipsoid_plane *plane)
+/* Of what the window depends on, t. */
+typedef struct window_way
 {
-    const double *m = plane->normal, height = plane->height.value;
-    double b[3], support2, arm, t;
+    double b[3], support2, arm, t; /* D n; n.D n; |D n| */
+} window_way;
 
+static void set_way(const ellipsoid_wall_search *s, const double m[3],
+                    double height, window_way *way)
+{
     for (int i = 0; i < 3; i++)
     {
-        b[i] = s->square[i] * m[i];
+        way->b[i] = s->square[i] * m[i];
     }
-    support2 = ellipsoid_dot(m, b);
-    arm = ellipsoid_length(b);
-    t = (height * arm / (support2 * s->range) - full) / (1 - full);
-    memset(&plane->window, 0, sizeof(plane->window));
-    if (t >= 1)
-    {
-        return;
-    }
+    way->support2 = ellipsoid_dot(m, way->b);
+    way->arm = ellipsoid_length(way->b);
+    way->t = (height * way->arm / (way->support2 * s->range) - full)
+           / (1 - full);
+}
+
+/* The window's smooth end: 1, and its derivatives 0, at t = 0; 0 at t = 1. */
+static void set_window(const ellipsoid_wall_search *s, const window_way *way,
+                       ellipsoid_plane *plane)
+{
+    const double *b = way->b, height = plane->height.value;
+    const double support2 = way->support2, arm = way->arm, t = way->t;
+
     plane->window.value = t <= 0 ? 1
                                  : 1 - t * t * t * (10 + t * (6 * t - 15));
     if (t <= 0 || !s->turned)
@@ -321,7 +329,13 @@ static void add_plane(const ellipsoid_wall_search *s,
                       const ellipsoid_wall_feature *p, ellipsoid_planes *all)
 {
     ellipsoid_plane plane;
+    window_way way;
 
+    set_way(s, p->normal, p->height, &way);
+    if (way.t >= 1)
+    {
+        return; /* too far */
+    }
     memset(&plane, 0, sizeof(plane));
     ellipsoid_copy(p->normal, plane.normal);
     plane.height.value = p->height;
@@ -340,7 +354,7 @@ static void add_plane(const ellipsoid_wall_search *s,
             rim_slopes(s, p, &plane);
         }
     }
-    set_window(s, &plane);
+    set_window(s, &way, &plane);
     for (int k = 0; k < 3 && plane.window.value * plane.extent.value > 0; k++)
     {
         if (p->over[k])

@@ -104,7 +104,7 @@ static plane_geometry geometry(const ellipsoid_model *model,
 {
     const double *a = model->options.semi_axes;
     plane_geometry g = {.model = model};
-    double bb, length, g2;
+    double bb, ratio, length, g2;
 
     ellipsoid_copy(normal, g.m);
     ellipsoid_set(g.square, a[0] * a[0], a[1] * a[1], a[2] * a[2]);
@@ -128,7 +128,8 @@ static plane_geometry geometry(const ellipsoid_model *model,
     g2 = g.s * g.s;
     g.e1 = 12 * (2 * g.tau * g.tau + g2) / (6 * g.tau * g.tau + g2);
     g.e2 = 24 * g.tau / (6 * g.tau * g.tau + g2);
-    length = g.support * pow(0.5 * g.tau / g.s, 1.5);
+    ratio = 0.5 * g.tau / g.s;
+    length = g.support * ratio * sqrt(ratio);
     g.near = length / (length + g.gap);
     g.squeeze = 12 * pi * g2 * g.s / (g.tau * g.gap) * g.near * g.near * g.near;
     g.close = g.support / g.height;

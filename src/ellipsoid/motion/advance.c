@@ -101,6 +101,103 @@ static ellipsoid_status keep_or_not(ellipsoid_group *g,
     return status;
 }
 
+/* What stages may take for linear in the pose. */
+typedef struct linear_parts
+{
+    int averages, planes;
+} linear_parts;
+
+/* A step from blocks that are there, to where the next states are. */
+static ellipsoid_status solve_step(ellipsoid_group *g,
+                                   const ellipsoid_plan *planned,
+                                   linear_parts *linear, double *error)
+{
+    const ellipsoid_linear_planes *planes = &g->start[0].planes;
+    ellipsoid_status status;
+
+    *error = 0;
+    ellipsoid_take_averages(g, linear->averages ? g->start : NULL);
+    status = g->keeps ? keep_or_not(g, planned) : ELLIPSOID_OK;
+    linear->planes =
+        linear->planes && !g->kept_last && planes->count >= 0
+        && ellipsoid_in_contact(&g->start[0].contact);
+    g->cell[0].planes = linear->planes ? planes : NULL;
+    if (status == ELLIPSOID_OK)
+    {
+        status = ellipsoid_rosenbrock_step(g, planned);
+    }
+    g->cell[0].kept = NULL;
+    g->cell[0].planes = NULL;
+    ellipsoid_take_averages(g, NULL);
+    if (status == ELLIPSOID_OK)
+    {
+        status = ellipsoid_judge_step(g, planned->h, error);
+    }
+    for (int cell = 0; status == ELLIPSOID_OK && *error <= 1 && cell < g->count;
+         cell++)
+    {
+        double *y = g->stages[cell].y;
+
+        ellipsoid_normalise(y + AT_Q);
+        memcpy(&g->next[cell].state, y, sizeof(g->next[cell].state));
+    }
+    return status;
+}
+
+/* Evaluates the equations where a step ends; with derivatives if the next step
+   needs them, or averages that were linear. */
+static ellipsoid_status evaluate_end(ellipsoid_group *g,
+                                     const ellipsoid_plan *planned,
+                                     int averaged)
+{
+    const int with_blocks = averaged || !planned->last;
+    const ellipsoid_status status =
+        ellipsoid_group_evaluate(g, planned->end, g->next, !g->inertial,
+                                 with_blocks ? blocks_kind(g) : 0);
+
+    g->next_has_blocks = with_blocks;
+    /* there is room for the couplings of one time only */
+    g->has_blocks = g->has_blocks && !(g->pairs && with_blocks);
+    return status;
+}
+
+/* To the end of a step, which is to be taken again if something was linear that
+   may not be. */
+static ellipsoid_status take_to_end(ellipsoid_group *g,
+                                    const ellipsoid_plan *planned,
+                                    linear_parts *linear, double *error,
+                                    int *again)
+{
+    const linear_parts taken = *linear;
+    ellipsoid_status status = solve_step(g, planned, linear, error);
+
+    *again = 0;
+    if (status != ELLIPSOID_OK || *error > 1)
+    {
+        return status;
+    }
+    if (taken.averages)
+    {
+        status = ellipsoid_correct_poses(g, planned->h);
+    }
+    if (status == ELLIPSOID_OK)
+    {
+        status = evaluate_end(g, planned, taken.averages);
+    }
+    if (status == ELLIPSOID_OK && taken.averages)
+    {
+        linear->averages = ellipsoid_judge_averages(g, planned->h, error);
+    }
+    ellipsoid_forget_corrections(g);
+    if (status == ELLIPSOID_OK && *error <= 1 && linear->planes)
+    {
+        linear->planes = ellipsoid_planes_are_linear(g, planned->h);
+        *again = !linear->planes;
+    }
+    *again = *again || linear->averages != taken.averages;
+    return status;
+}
+
 /*
     One attempt at a Rosenbrock step. A step counts only if the equations can be
     evaluated where it ends.
@@ -108,44 +205,28 @@ static ellipsoid_status keep_or_not(ellipsoid_group *g,
 static ellipsoid_status
 try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
 {
+    linear_parts linear = {g->averages, g->keeps};
+    int again = 1;
     ellipsoid_status status = ELLIPSOID_OK;
 
-    if (!g->has_blocks)
+    while (status == ELLIPSOID_OK && again)
     {
-        status = ellipsoid_group_evaluate(g, planned->start, g->start,
-                                          !g->inertial, blocks_kind(g));
-        g->has_blocks = status == ELLIPSOID_OK;
-    }
-    if (status == ELLIPSOID_OK && g->keeps)
-    {
-        status = keep_or_not(g, planned);
-    }
-    if (status == ELLIPSOID_OK)
-    {
-        status = ellipsoid_rosenbrock_step(g, planned);
-    }
-    g->cell[0].kept = NULL;
-    if (status == ELLIPSOID_OK)
-    {
-        status = ellipsoid_judge_step(g, planned->h, error);
+        if (!g->has_blocks)
+        {
+            status = ellipsoid_group_evaluate(g, planned->start, g->start,
+                                              !g->inertial, blocks_kind(g));
+            g->has_blocks = status == ELLIPSOID_OK;
+        }
+        if (status == ELLIPSOID_OK)
+        {
+            status = take_to_end(g, planned, &linear, error, &again);
+        }
     }
     if (status != ELLIPSOID_OK || *error > 1)
     {
         return status;
     }
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        double *y = g->stages[cell].y;
-
-        ellipsoid_normalise(y + AT_Q);
-        memcpy(&g->next[cell].state, y, sizeof(g->next[cell].state));
-    }
-    g->next_has_blocks = !planned->last;
-    status = ellipsoid_group_evaluate(g, planned->end, g->next, !g->inertial,
-                                      g->next_has_blocks ? blocks_kind(g) : 0);
-    /* there is room for the couplings of one time only */
-    g->has_blocks = g->has_blocks && !(g->pairs && g->next_has_blocks);
-    if (status == ELLIPSOID_OK && is_one_held_back(g, planned->h))
+    if (is_one_held_back(g, planned->h))
     {
         *error = far_too_large;
     }

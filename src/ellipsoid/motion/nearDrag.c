@@ -85,6 +85,15 @@ ellipsoid_status ellipsoid_add_near_drag(const ellipsoid_cell *cell,
         }
         return ELLIPSOID_OK;
     }
+    if (cell->planes)
+    {
+        ellipsoid_linear_planes_at(cell->planes, state, &planes);
+        asked->acted = planes.count > 0;
+        return asked->acted
+                 ? ellipsoid_add_wall_drag(cell->model, &planes, frame, free,
+                                           state, wrench, NULL)
+                 : ELLIPSOID_OK;
+    }
     if (asked->with_blocks == ELLIPSOID_KEEPING)
     {
         status = keep(cell, at, frame, free, wrench, &asked->acted);
@@ -98,6 +107,13 @@ ellipsoid_status ellipsoid_add_near_drag(const ellipsoid_cell *cell,
     if (status == ELLIPSOID_OK && blocks && cell->keeps)
     {
         status = set_kept(cell, &planes, frame, free, at);
+    }
+    if (status == ELLIPSOID_OK && cell->keeps)
+    {
+        double rates[6];
+
+        ellipsoid_wall_rates(frame, free, state, rates);
+        ellipsoid_linear_planes_set(&planes, state, rates, &at->planes);
     }
     asked->acted = status == ELLIPSOID_OK && planes.count > 0;
     if (!asked->acted)
@@ -117,4 +133,18 @@ ellipsoid_status ellipsoid_add_near_drag(const ellipsoid_cell *cell,
                                          state, wrench, blocks);
     }
     return status;
+}
+
+int ellipsoid_planes_are_linear(const ellipsoid_group *g, double h)
+{
+    const ellipsoid_evaluation *next = &g->next[0];
+    double defect[6];
+
+    if (next->planes.count < 0)
+    {
+        return 0;
+    }
+    ellipsoid_linear_planes_defect(g->cell[0].model, &g->start[0].planes,
+                                   &next->planes, &next->state, defect);
+    return ellipsoid_is_slight(&g->cell[0], h, defect);
 }

@@ -24,13 +24,6 @@ static const double rounding = 1e-9;
 /* A smaller angle between facets [rad] is the mesh's rounding. */
 static const double flat = 1e-6;
 
-int ellipsoid_facet_has_convex_edge(const ellipsoid_facet *facet)
-{
-    return facet->edge[0] == ELLIPSOID_EDGE_CONVEX
-        || facet->edge[1] == ELLIPSOID_EDGE_CONVEX
-        || facet->edge[2] == ELLIPSOID_EDGE_CONVEX;
-}
-
 int ellipsoid_facet_owns_vertex(const ellipsoid_facet *facet, int k)
 {
     return facet->edge[k] == ELLIPSOID_EDGE_CONVEX

@@ -59,8 +59,13 @@ int ellipsoid_facet_may_be_nearest(const ellipsoid_facet *facet,
                                    const double centre[3], double reach,
                                    double margin, double *distance);
 
-/* Does it have a convex edge? (facets.c) */
-int ellipsoid_facet_has_convex_edge(const ellipsoid_facet *facet);
+static inline int
+ellipsoid_facet_has_convex_edge(const ellipsoid_facet *facet)
+{
+    return facet->edge[0] == ELLIPSOID_EDGE_CONVEX
+        || facet->edge[1] == ELLIPSOID_EDGE_CONVEX
+        || facet->edge[2] == ELLIPSOID_EDGE_CONVEX;
+}
 
 /* A minimum at a vertex is found by the facets that have a convex edge there
    and, because of rounding, by those that the point is right above. */
