@@ -35,7 +35,7 @@ static const double slight = 0.05;
 
 /* Where the gradient of the flow jumps, this part of the difference to the
    cubic, and of the defect, are the error estimate. */
-static const double jumping = 0.7, unseen = 0.09;
+static const double jumping = 0.7, unseen = 0.125;
 
 /* Where nothing jumps, the error estimate is that of the mean of a parabola,
    times this: errors over the tolerance are then those of averages at each
@@ -59,6 +59,11 @@ void ellipsoid_take_averages(ellipsoid_group *g, ellipsoid_evaluation *points)
     }
 }
 
+static int is_finite_pose(const double x[3], const double q[4])
+{
+    return isfinite(ellipsoid_sum(x) + ellipsoid_square4(q));
+}
+
 /* That at the pose of `average`, without derivatives. */
 static ellipsoid_status sample(const ellipsoid_cell *p,
                                ellipsoid_average *average)
@@ -67,9 +72,14 @@ static ellipsoid_status sample(const ellipsoid_cell *p,
     const double *q = average->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
     ellipsoid_flow_sample flow = {.velocity = {0}};
     ellipsoid_frame frame = {.by_q = NULL};
-    const int answer = around->flow(around->flow_context, around->time,
-                                    average->x, 0, &flow);
+    int answer;
 
+    if (!is_finite_pose(average->x, q))
+    {
+        return ELLIPSOID_NON_FINITE;
+    }
+    answer = around->flow(around->flow_context, around->time, average->x, 0,
+                          &flow);
     if (answer != 0)
     {
         return ellipsoid_answer_status(answer);
@@ -262,7 +272,7 @@ static ellipsoid_status correct(ellipsoid_cell *p,
     memcpy(mean, made->mean, sizeof(mean));
     lag(p->model, end->q, h, left, mean);
     displace(&start->average, h, mean, end);
-    return ELLIPSOID_OK;
+    return is_finite_pose(end->x, end->q) ? ELLIPSOID_OK : ELLIPSOID_NON_FINITE;
 }
 
 ellipsoid_status ellipsoid_correct_poses(ellipsoid_group *g, double h)
