@@ -109,7 +109,7 @@ static int feature_on_rim(const ellipsoid_wall_search *s,
     const ellipsoid_facet *facet = p->facet;
     double best = HUGE_VAL, foot = 0;
     int edge = 0;
-    corners c;
+    corners c = {.from = {{0}}};
 
     for (int k = 0; k < 3; k++)
     {
