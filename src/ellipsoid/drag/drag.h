@@ -30,6 +30,10 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
                                  ellipsoid_frame *frame,
                                  ellipsoid_free_motion *free);
 
+/* Adds to u and omega what a displacement of x and q changes in them. */
+void ellipsoid_add_change(const ellipsoid_free_motion *free, const double x[3],
+                          const double q[4], double u[3], double omega[3]);
+
 /* The same about a pose. */
 typedef struct ellipsoid_average
 {

@@ -225,26 +225,31 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
     return ELLIPSOID_OK;
 }
 
+void ellipsoid_add_change(const ellipsoid_free_motion *free, const double x[3],
+                          const double q[4], double u[3], double omega[3])
+{
+    for (int i = 0; i < 3; i++)
+    {
+        u[i] += ellipsoid_dot(free->u_x[i], x);
+        omega[i] += ellipsoid_dot(free->omega_x[i], x);
+        for (int n = 0; n < 4; n++)
+        {
+            u[i] += free->u_q[i][n] * q[n];
+            omega[i] += free->omega_q[i][n] * q[n];
+        }
+    }
+}
+
 void ellipsoid_average_at(const ellipsoid_average *average, const double x[3],
                           const double q[4], ellipsoid_free_motion *free)
 {
-    const ellipsoid_free_motion *from = &average->free;
     double way[3], turn[4];
 
-    *free = *from;
     ellipsoid_difference(x, average->x, way);
     for (int n = 0; n < 4; n++)
     {
         turn[n] = q[n] - average->q[n];
     }
-    for (int i = 0; i < 3; i++)
-    {
-        free->u[i] += ellipsoid_dot(from->u_x[i], way);
-        free->omega[i] += ellipsoid_dot(from->omega_x[i], way);
-        for (int n = 0; n < 4; n++)
-        {
-            free->u[i] += from->u_q[i][n] * turn[n];
-            free->omega[i] += from->omega_q[i][n] * turn[n];
-        }
-    }
+    *free = average->free;
+    ellipsoid_add_change(&average->free, way, turn, free->u, free->omega);
 }

@@ -59,11 +59,6 @@ void ellipsoid_take_averages(ellipsoid_group *g, ellipsoid_evaluation *points)
     }
 }
 
-static int is_finite_pose(const double x[3], const double q[4])
-{
-    return isfinite(ellipsoid_sum(x) + ellipsoid_square4(q));
-}
-
 /* That at the pose of `average`, without derivatives. */
 static ellipsoid_status sample(const ellipsoid_cell *p,
                                ellipsoid_average *average)
@@ -74,7 +69,7 @@ static ellipsoid_status sample(const ellipsoid_cell *p,
     ellipsoid_frame frame = {.by_q = NULL};
     int answer;
 
-    if (!is_finite_pose(average->x, q))
+    if (!ellipsoid_is_pose(average->x, q))
     {
         return ELLIPSOID_NON_FINITE;
     }
@@ -89,20 +84,12 @@ static ellipsoid_status sample(const ellipsoid_cell *p,
                            &average->free);
 }
 
-/* How u_free and omega_free change with the pose, along a way. */
+/* How the free motion changes along a way. */
 static void change_along(const ellipsoid_free_motion *free, const double x[3],
                          const double q[4], double change[6])
 {
-    for (int i = 0; i < 3; i++)
-    {
-        change[i] = ellipsoid_dot(free->u_x[i], x);
-        change[i + 3] = ellipsoid_dot(free->omega_x[i], x);
-        for (int n = 0; n < 4; n++)
-        {
-            change[i] += free->u_q[i][n] * q[n];
-            change[i + 3] += free->omega_q[i][n] * q[n];
-        }
-    }
+    memset(change, 0, 6 * sizeof(*change));
+    ellipsoid_add_change(free, x, q, change, change + 3);
 }
 
 /* Of velocities that change x and q. */
@@ -272,7 +259,8 @@ static ellipsoid_status correct(ellipsoid_cell *p,
     memcpy(mean, made->mean, sizeof(mean));
     lag(p->model, end->q, h, left, mean);
     displace(&start->average, h, mean, end);
-    return is_finite_pose(end->x, end->q) ? ELLIPSOID_OK : ELLIPSOID_NON_FINITE;
+    return ellipsoid_is_pose(end->x, end->q) ? ELLIPSOID_OK
+                                             : ELLIPSOID_NON_FINITE;
 }
 
 ellipsoid_status ellipsoid_correct_poses(ellipsoid_group *g, double h)
