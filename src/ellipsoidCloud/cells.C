@@ -30,7 +30,6 @@ Description
 #include "cloud/ellipsoidCloudFiles.C"
 #include "cloud/ellipsoidCloudRun.C"
 #include "cloud/ellipsoidOptions.C"
-#include "cloud/ellipsoidParcel.C"
 #include "cloud/ellipsoidProperties.C"
 
 #include "occupancy/occupancy.C"

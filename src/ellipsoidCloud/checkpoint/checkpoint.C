@@ -14,11 +14,11 @@ License
 #include "cloud.H"
 #include "OSspecific.H"
 #include "plainLists.H"
-#include "polyMesh.H"
 #include "PstreamReduceOps.H"
 #include "SHA1.H"
 #include "StringStream.H"
 #include "Time.H"
+#include "volFields.H"
 
 #include <set>
 
@@ -38,7 +38,7 @@ namespace Foam
     //- Do ranks share files?
     static bool sharedFiles()
     {
-        return fileHandler().type() == "collated";
+        return Pstream::parRun() && fileHandler().type() == "collated";
     }
 
     //- Take the bytes of a list into a digest
@@ -122,85 +122,50 @@ namespace Foam
         return string();
     }
 
-    //- Paths in a time directory
-    static const fileName markFile("uniform/ellipsoidCloudFiles");
-    static const fileName unfinishedFile("uniform/ellipsoidCloudUnfinished");
-    static const fileName cellFolder(cloud::prefix/"ellipsoidCloudRestart");
+    //- The file in a time directory that holds the state, and the field that
+    //  is written before it: decomposePar and reconstructPar go to a time only
+    //  for its fields and cells, and there may be no cells
+    static const fileName stateFile("uniform/ellipsoidCloudRestart");
+    static const word fieldName("ellipsoidCloudState");
 
-    //- And that of the same cells for other programs
-    static const fileName outputFolder(cloud::prefix/"ellipsoidCloud");
-
-    //- What the mark in a time directory says, empty if there is none
-    static string readMark(const fileName& path)
+    //- The state in a time directory
+    static fileName statePath(const fileName& path)
     {
-        if (sharedFiles() && !isFile(path/markFile))
+        if (sharedFiles())
         {
-            // Where decomposePar puts a copy
             const word parts("processors" + Foam::name(Pstream::nProcs()));
-            return textOf(path.path().path()/parts/path.name()/markFile);
+            return path.path().path()/parts/path.name()/stateFile;
         }
-
-        return textOf(path/markFile);
+        return path/stateFile;
     }
 
-    //- Has a rank not made the mark that it finds, but decomposePar or
-    //  reconstructPar? Collective
-    static bool copied(const dictionary& mark, const fileName& path)
+
+    //- The entry that ends a state of this text
+    static std::string digestEntry(const std::string& text)
     {
-        const bool copy =
-            !mark.empty()
-         && (
-                Foam::type(path/"uniform", false) == fileName::LINK
-             || mark.get<label>("rank") != Pstream::myProcNo()
-             || mark.get<label>("ranks") != Pstream::nProcs()
-            );
-
-        return returnReduce(copy, orOp<bool>());
+        return "digest \"" + SHA1(text).str() + "\";\n";
     }
+
+
+    //- Is a state what was written, to its end?
+    static bool isWhole(const std::string& text)
+    {
+        const std::size_t size = digestEntry("").size();
+        const std::size_t end = max(text.size(), size) - size;
+
+        return text.substr(end) == digestEntry(text.substr(0, end));
+    }
+
 
     //- Was a state begun in a time directory, be it complete or not?
     static bool begun(const fileName& path)
     {
-        return
-            isFile(path/markFile)
-         || isFile(path/unfinishedFile)
-         || isDir(path/cellFolder);
+        return isFile(path/fieldName) || isFile(statePath(path));
     }
 
-    //- Say what is wrong with the files of this rank in a time directory, if
-    //  anything
-    static string findDamage(const dictionary& mark, const fileName& path)
-    {
-        for (const entry& e : mark.subDict("files"))
-        {
-            const fileName file(path/cellFolder/e.keyword());
 
-            if (!isFile(file))
-            {
-                return file + " is missing";
-            }
-
-            const std::string found(textOf(file));
-            const int64_t bytes(e.dict().get<scalar>("bytes"));
-
-            if (int64_t(found.size()) != bytes)
-            {
-                return
-                    file + " is damaged: it holds " + Foam::name(found.size())
-                  + " bytes where " + Foam::name(bytes) + " were written";
-            }
-            if (SHA1(found).str() != e.dict().get<string>("digest"))
-            {
-                return file + " is damaged: it is not what was written";
-            }
-        }
-
-        return string();
-    }
-
-    //- Say under which other name this rank has a state of the present time, if
-    //  any; collective
-    static string findOtherName(const Time& time)
+    //- End the run if there is a state of the present time under another name
+    static void checkNames(const Time& time)
     {
         for (const instant& other : time.times())
         {
@@ -211,15 +176,14 @@ namespace Foam
              && begun(time.path()/other.name())
             )
             {
-                return
-                    "the cells of this time are in the directory "
-                  + other.name() + ", which by timeFormat and timePrecision "
-                  + "of controlDict is now " + time.timeName()
-                  + "\n    Put these entries back, or rename the directory";
+                FatalErrorInFunction
+                    << "the cells of this time are in the directory "
+                    << other.name() << ", which by timeFormat and timePrecision"
+                    << " of controlDict is now " << time.timeName() << nl
+                    << "    Put these entries back, or rename the directory"
+                    << exit(FatalError);
             }
         }
-
-        return string();
     }
 }
 
@@ -230,54 +194,36 @@ Foam::checkpoint::checkpoint(const Time& time)
 :
     path_(time.path()/time.timeName())
 {
-    const List<string> marks(fromAllRanks(readMark(path_)));
-    const fileName name(path_/markFile);
-    const dictionary mark(parsed(marks[Pstream::myProcNo()], name));
-
-    for (label ranki = 0; notes_.empty() && ranki < marks.size(); ++ranki)
-    {
-        notes_ = parsed(marks[ranki], name);
-    }
-
-    const bool all = !marks.found(string());
-    const bool copies = copied(mark, path_);
+    const fileName file(statePath(path_));
+    string text(textOf(file));
+    broadcast(text);
 
     // Where ranks share a file the folder is another, and asking is collective
-    const bool shared = isDir(fileHandler().filePath(path_/cellFolder));
+    const bool shared = isFile(fileHandler().filePath(path_/fieldName));
     const bool some = returnReduce(shared || begun(path_), orOp<bool>());
 
-    string complaint;
-    if (!some)
-    {
-        complaint = findOtherName(time);
-    }
-    else if (!all && !copies)
-    {
-        complaint = "time " + time.timeName() + " was not written to its end";
-    }
-    else if (found() && !copies)
-    {
-        complaint = findDamage(mark, path_);
-    }
-
-    if (some && !complaint.empty())
-    {
-        complaint +=
-            "\n    Remove the directory " + time.timeName()
-          + (Pstream::parRun() ? " of every processor" : "")
-          + " to go on from an earlier time";
-    }
-
-    // The first of any rank, said once
-    const List<string> complaints(gathered(complaint));
     const masterGate once;
-
-    for (const string& text : complaints)
+    if (isWhole(text))
     {
-        if (!text.empty())
-        {
-            FatalErrorInFunction << text.c_str() << exit(FatalError);
-        }
+        notes_ = parsed(text, file);
+    }
+    else if (some)
+    {
+        const std::string complaint
+        (
+            text.empty()
+          ? "time " + time.timeName() + " was not written to its end"
+          : file + " is damaged: it is not what was written"
+        );
+        FatalErrorInFunction
+            << complaint.c_str() << nl
+            << "    Remove the directory " << time.timeName()
+            << (Pstream::parRun() ? " of every processor" : "")
+            << " to go on from an earlier time" << exit(FatalError);
+    }
+    else
+    {
+        checkNames(time);
     }
 }
 
@@ -364,14 +310,14 @@ Foam::word Foam::checkpoint::setAsideIncomplete
     {
         const word& name = time->second;
         const fileName path(args.path()/name);
-        const dictionary mark(parsed(readMark(path), path/markFile));
         const bool other = isFile(path/"U") || isDir(path/"polyMesh");
+        const bool complete =
+            isDir(path) && (isFile(path/stateFile) || !Pstream::master());
 
         // Complete, or a flow or mesh to start from, or another program's
         if
         (
-            copied(mark, path)
-         || returnReduce(!mark.empty(), andOp<bool>())
+            returnReduce(complete, andOp<bool>())
          || (
                 !returnReduce(begun(path), orOp<bool>())
              && (!tracked || returnReduce(other, orOp<bool>()))
@@ -404,47 +350,43 @@ Foam::word Foam::checkpoint::setAsideIncomplete
 }
 
 
-void Foam::checkpoint::begin(const Time& time)
+void Foam::checkpoint::begin(const fvMesh& mesh)
 {
-    const fileName path(time.path()/time.timeName());
+    const fileName path(mesh.time().path()/mesh.time().timeName());
 
-    // A link of decomposePar leads into the undecomposed case, whose mark stays
-    if (Foam::type(path/"uniform", false) == fileName::LINK)
+    // A link of decomposePar leads into the undecomposed case, whose state stays
+    const fileName state(statePath(path));
+    if (Foam::type(state.path(), false) == fileName::LINK)
     {
-        rm(path/"uniform");
+        rm(state.path());
     }
 
-    atomicWrite(path/unfinishedFile, "Not all of this time is written\n");
+    volScalarField::Internal field
+    (
+        IOobject(fieldName, mesh.time().timeName(), mesh),
+        mesh,
+        dimensionedScalar(dimless, Zero)
+    );
+    atomicWrite(field);
     meet();
-    rm(path/markFile);
-    rmDir(path/cellFolder, true);
-    rmDir(path/outputFolder, true);
+    rm(state);
+    rmDir(path/cloud::prefix/"ellipsoidCloud", true);
 }
 
 
-void Foam::checkpoint::end(const Time& time, const dictionary& notes)
+void Foam::checkpoint::end(const Time& time, const std::string& text)
 {
-    const fileName path(time.path()/time.timeName());
-    dictionary files;
-
-    for (const fileName& name : readDir(path/cellFolder))
-    {
-        const std::string text(textOf(path/cellFolder/name));
-        dictionary file;
-        file.add("bytes", scalar(text.size()));
-        file.add("digest", string(SHA1(text).str()));
-        files.add(word(name), file);
-    }
-
-    dictionary mark(notes);
-    mark.add("rank", Pstream::myProcNo());
-    mark.add("ranks", Pstream::nProcs());
-    mark.add("files", files);
-
-    // No mark before all ranks have written
+    // Not before all ranks have written
     meet();
-    atomicWrite(path/markFile, mark);
-    rm(path/unfinishedFile);
+    if (Pstream::master())
+    {
+        atomicWrite
+        (
+            statePath(time.path()/time.timeName()),
+            text + digestEntry(text),
+            time.writeCompression()
+        );
+    }
 }
 
 

@@ -11,20 +11,17 @@ License
 #include "cellParticles.H"
 #include "atomicWrite.H"
 #include "cellPoses.H"
-#include "ellipsoidParcel.H"
+#include "Cloud.H"
 #include "frozenFlow.H"
 #include "IOField.H"
+#include "IOPosition.H"
+#include "passiveParticle.H"
 #include "polyMesh.H"
-
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
-
-const Foam::word Foam::cellParticles::cloudName("ellipsoidCloud");
-
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::DynamicList<Foam::cellParticles::particle>
-Foam::cellParticles::local(const bool waiting) const
+Foam::cellParticles::local() const
 {
     DynamicList<particle> cells;
     for (const cellState& cell : cells_)
@@ -32,7 +29,7 @@ Foam::cellParticles::local(const bool waiting) const
         const label celli =
             localCells_[flow_.cell(frozenFlow::probe{cell.tet, -1})];
 
-        if (celli >= 0 && (waiting || cell.fate != cellState::waiting))
+        if (celli >= 0 && cell.fate != cellState::waiting)
         {
             cells.append({cell, celli});
         }
@@ -94,7 +91,7 @@ Foam::cellParticles::cellParticles
     const labelList& localCells
 )
 :
-    cloud(mesh, cloudName),
+    cloud(mesh, "ellipsoidCloud"),
     mesh_(mesh),
     population_(population),
     cells_(cells),
@@ -107,10 +104,10 @@ Foam::cellParticles::cellParticles
 
 void Foam::cellParticles::writeObjects(objectRegistry& obr) const
 {
-    const DynamicList<particle> cells(local(false));
+    const DynamicList<particle> cells(local());
 
     pointField& position =
-        cloud::createIOField<point>("position", cells.size(), obr);
+        createIOField<point>("position", cells.size(), obr);
     forAll(cells, i)
     {
         position[i] = cells[i].first.centre();
@@ -120,46 +117,35 @@ void Foam::cellParticles::writeObjects(objectRegistry& obr) const
 }
 
 
-void Foam::cellParticles::writeFiles(const label nEver) const
+void Foam::cellParticles::writeFiles() const
 {
-    for (const bool restart : {true, false})
+    const DynamicList<particle> cells(local());
+    const label n = cells.size();
+
+    Cloud<passiveParticle> c(mesh_, name(), IDLList<passiveParticle>());
+    labelField& origId = createIOField<label>("origId", n, c);
+    createIOField<label>("origProcId", n, c) = 0;
+
+    forAll(cells, i)
     {
-        const DynamicList<particle> particles(local(restart));
-        List<cellState> states(particles.size());
-        Cloud<ellipsoidParcel> c
-        (
-            mesh_,
-            restart ? ellipsoidParcel::cloudName : cloudName,
-            IDLList<ellipsoidParcel>()
-        );
+        // Clear of the faces: beyond one by rounding would be an error
+        const point x(cells[i].first.centre());
+        const label celli = cells[i].second;
+        const vector inwards(1e-6*(mesh_.cellCentres()[celli] - x));
 
-        forAll(particles, i)
-        {
-            states[i] = particles[i].first;
-            c.addParticle
-            (
-                new ellipsoidParcel(mesh_, particles[i].second, states[i])
-            );
-        }
+        c.addParticle(new passiveParticle(mesh_, x + inwards, celli));
+        origId[i] = cells[i].first.id;
+    }
+    for (const auto type : {geometryType::COORDINATES, geometryType::POSITIONS})
+    {
+        IOPosition<Cloud<passiveParticle>> places(c, type);
+        atomicWrite(places, n > 0);
+    }
 
-        if (restart)
-        {
-            ellipsoidParcel::particleCount_ = nEver;
-            ellipsoidParcel::write(c, states);
-        }
-        else
-        {
-            ellipsoidParcel::writeFields(c);
-            giveFields(particles, c);
-            for (const word& name : c.sortedNames())
-            {
-                atomicWrite
-                (
-                    c.lookupObjectRef<regIOobject>(name),
-                    particles.size() > 0
-                );
-            }
-        }
+    giveFields(cells, c);
+    for (const word& name : c.sortedNames())
+    {
+        atomicWrite(c.lookupObjectRef<regIOobject>(name), n > 0);
     }
 }
 

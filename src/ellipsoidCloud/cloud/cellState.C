@@ -8,7 +8,135 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "cellState.H"
+#include "dictionary.H"
 #include "quaternion.H"
+
+#include <cstddef>
+
+// * * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::cellState::fateType> Foam::cellState::fateNames
+({
+    { fateType::inFlight, "inFlight" },
+    { fateType::caught, "caught" },
+    { fateType::stalled, "stalled" },
+    { fateType::escaped, "escaped" },
+    { fateType::lost, "lost" },
+    { fateType::waiting, "waiting" }
+});
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- A member of a cell: so many labels or scalars
+    struct cellField
+    {
+        const char* name;
+        std::size_t offset;
+        std::size_t count;
+        bool isLabel;
+
+        constexpr std::size_t size() const
+        {
+            return count*(isLabel ? sizeof(label) : sizeof(scalar));
+        }
+    };
+
+
+    //- All members of cellState in their order: all reading and writing goes by
+    //  this list
+    static constexpr cellField cellFields[] =
+    {
+        { "U", offsetof(cellState, body.u), 3, false },
+        { "x", offsetof(cellState, body.x), 3, false },
+        { "omega", offsetof(cellState, body.omega), 3, false },
+        { "q", offsetof(cellState, body.q), 4, false },
+        { "step", offsetof(cellState, controller.step), 1, false },
+        {
+            "previousError",
+            offsetof(cellState, controller.previous_error), 1, false
+        },
+        { "time", offsetof(cellState, time), 1, false },
+        { "planned", offsetof(cellState, planned), 1, false },
+        { "slowTime", offsetof(cellState, slowTime), 1, false },
+        { "imbalance", offsetof(cellState, imbalance), 1, false },
+        { "place", offsetof(cellState, place), 3, false },
+        { "dragImpulse", offsetof(cellState, dragImpulse), 3, false },
+        { "netImpulse", offsetof(cellState, netImpulse), 3, false },
+        { "nextRow", offsetof(cellState, nextRow), 1, false },
+        { "lastRow", offsetof(cellState, lastRow), 8, false },
+        { "deepest", offsetof(cellState, deepest), 1, false },
+        { "deepestCell", offsetof(cellState, deepestCell), 1, false },
+        { "size", offsetof(cellState, size), 3, false },
+        { "unfold", offsetof(cellState, unfold), 12, false },
+        { "id", offsetof(cellState, id), 1, true },
+        { "tet", offsetof(cellState, tet), 1, true },
+        { "fate", offsetof(cellState, fate), 1, true },
+        { "patch", offsetof(cellState, patch), 1, true }
+    };
+
+
+    //- Do the members from i on fill the struct from this byte on?
+    static constexpr bool fills(const std::size_t i, const std::size_t byte)
+    {
+        return
+            i == sizeof(cellFields)/sizeof(cellFields[0])
+          ? byte == sizeof(cellState)
+          : cellFields[i].offset == byte
+         && fills(i + 1, byte + cellFields[i].size());
+    }
+
+    static_assert(fills(0, 0), "cellFields lacks a member of cellState");
+
+
+    //- Write a member of cells, the numbers of one after those of another
+    template<class Type>
+    static void writeMembers
+    (
+        const cellField& field,
+        const UList<cellState>& cells,
+        Ostream& os
+    )
+    {
+        List<Type> values(field.count*cells.size());
+        forAll(cells, i)
+        {
+            const void* state = &cells[i];
+            std::memcpy
+            (
+                values.data() + i*field.count,
+                static_cast<const char*>(state) + field.offset,
+                field.size()
+            );
+        }
+        os.writeEntry(field.name, values);
+    }
+
+
+    //- Read it
+    template<class Type>
+    static void readMembers
+    (
+        const cellField& field,
+        const dictionary& dict,
+        UList<cellState>& cells
+    )
+    {
+        const List<Type> values(dict.get<List<Type>>(field.name));
+        forAll(cells, i)
+        {
+            void* state = &cells[i];
+            std::memcpy
+            (
+                static_cast<char*>(state) + field.offset,
+                values.cdata() + i*field.count,
+                field.size()
+            );
+        }
+    }
+}
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
@@ -53,6 +181,33 @@ void Foam::cellState::pass(const isometry& image, const scalar semiAxes[3])
     }
     std::copy_n(after.v().v_, 3, body.q);
     body.q[3] = after.w();
+}
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+void Foam::writeStates(const UList<cellState>& cells, Ostream& os)
+{
+    for (const cellField& field : cellFields)
+    {
+        const auto write =
+            field.isLabel ? writeMembers<label> : writeMembers<scalar>;
+        write(field, cells, os);
+    }
+}
+
+
+Foam::List<Foam::cellState> Foam::readStates(const dictionary& dict)
+{
+    List<cellState> cells(dict.get<labelList>("id").size(), cellState());
+    for (const cellField& field : cellFields)
+    {
+        const auto read =
+            field.isLabel ? readMembers<label> : readMembers<scalar>;
+        read(field, dict, cells);
+    }
+
+    return cells;
 }
 
 

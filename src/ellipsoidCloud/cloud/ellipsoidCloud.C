@@ -276,17 +276,12 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
     time_(presentTime(mesh.time())),
     firstTime_(mesh.time().timeName())
 {
-    domainImages images;
     {
         const masterGate once;
 
         if (Pstream::master())
         {
-            const fvMesh& whole = undecomposed_->mesh();
-
-            images = domainImages(whole, properties_.unreached());
-            checkImages(images);
-            meshNotes_ = checkpoint::notesOf(whole);
+            meshNotes_ = checkpoint::notesOf(undecomposed_->mesh());
             earlier_.checkMesh(meshNotes_);
         }
     }
@@ -302,6 +297,9 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
         {
             const fvMesh& whole = undecomposed_->mesh();
             const scalar width = 2*shortestSemiAxis(properties_.options());
+            const domainImages images(whole, properties_.unreached());
+
+            checkImages(images);
 
             // The function object has told it before the solver began
             if (flowType_ != STEADY)
@@ -313,8 +311,11 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
     }
     if (earlier_.found())
     {
-        readCells();
-        checkCells();
+        cells_ = readStates(earlier_.notes().subDict("cells"));
+        for (const cellState& cell : cells_)
+        {
+            population_.take(cell.id, cell.size);
+        }
     }
 }
 
@@ -330,7 +331,6 @@ void Foam::ellipsoidCloud::checkInjections(const solverFields& flow)
     undecomposed_->gather({inflow(), flow.p, flow.phi});
 
     makeDomain();
-    checkPlaces();
     makeInjections(false);
 
     bool known = true;
@@ -369,7 +369,6 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow)
         criterion_.slowSpeed()
     );
 
-    checkPlaces();
     const label nCells = makeInjections(true);
     const scalar end = mesh_.time().endTime().value();
     checkTimes();

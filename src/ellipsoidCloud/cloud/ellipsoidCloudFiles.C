@@ -14,12 +14,11 @@ Description
 
 #include "ellipsoidCloud.H"
 #include "cellPoses.H"
-#include "ellipsoidParcel.H"
 #include "masterGate.H"
-#include "volFields.H"
 #include "atomicWrite.H"
 #include "cpuTime.H"
 #include "memInfo.H"
+#include "StringStream.H"
 
 #include <cmath>
 
@@ -64,97 +63,6 @@ void Foam::ellipsoidCloud::makeTables()
         (
             new occupancy(from, criterion_, set, earlier_.notes())
         );
-    }
-}
-
-
-void Foam::ellipsoidCloud::readCells()
-{
-    const List<cellState> own(ellipsoidParcel::read(mesh_));
-    for (const List<cellState>& some : fromAllRanks(own))
-    {
-        cells_.append(some);
-    }
-    Foam::sort(cells_);
-
-    const masterGate once;
-    for (const cellState& cell : cells_)
-    {
-        const string complaint(population_.complaint(cell.size));
-        if (!complaint.empty())
-        {
-            refuse(cell.id, "has a size for which " + complaint);
-        }
-        population_.take(cell.id, cell.size);
-    }
-}
-
-
-void Foam::ellipsoidCloud::refuse
-(
-    const label id,
-    const string& complaint
-) const
-{
-    FatalErrorInFunction
-        << "time " << mesh_.time().timeName() << ": cell " << id << ' '
-        << complaint.c_str() << nl
-        << "    Its folder lagrangian/" << ellipsoidParcel::cloudName
-        << " is incomplete or of another run: go on from another time"
-        << exit(FatalError);
-}
-
-
-void Foam::ellipsoidCloud::checkPlaces() const
-{
-    const masterGate once;
-
-    for (const cellState& cell : cells_)
-    {
-        const point x(cell.centre());
-        frozenFlow::probe at{cell.tet, -1};
-
-        if
-        (
-            cell.tet < 0
-         || cell.tet >= domain_->flow.nTets()
-         || !(mag(x) < GREAT)
-         || domain_->flow.locate(x, at) != frozenFlow::pInside
-        )
-        {
-            refuse(cell.id, "at " + shortText(x) + " is outside the mesh");
-        }
-    }
-}
-
-
-void Foam::ellipsoidCloud::checkCells() const
-{
-    const masterGate once;
-
-    if (!Pstream::master())
-    {
-        return;
-    }
-
-    labelHashSet missing(statistics_->cellsInside());
-
-    forAll(cells_, i)
-    {
-        const label id = cells_[i].id;
-
-        if (i > 0 && id == cells_[i - 1].id)
-        {
-            refuse(id, "is there twice");
-        }
-        if (!missing.erase(id))
-        {
-            refuse(id, "is there, but by the log of events not in the device");
-        }
-    }
-    for (const label id : missing.sortedToc())
-    {
-        refuse(id, "is missing, but by the log of events in the device");
     }
 }
 
@@ -233,25 +141,13 @@ void Foam::ellipsoidCloud::write()
         return;
     }
 
-    checkpoint::begin(time);
-
+    checkpoint::begin(mesh_);
     if (flowType_ == OWN && !time.write())
     {
         cannotWrite(time.path()/time.timeName()/"uniform"/"time");
     }
-
-    // decomposePar and reconstructPar go to a time only for its fields and
-    // cells, and there may be no cells
-    volScalarField::Internal state
-    (
-        IOobject("ellipsoidCloudState", time.timeName(), mesh_),
-        mesh_,
-        dimensionedScalar(dimless, Zero)
-    );
-    atomicWrite(state);
-
     tracks_->flush();
-    particles_->writeFiles(statistics_->size());
+    particles_->writeFiles();
     writePoses(tracks_->set(), cells_, time.timeName());
 
     dictionary tables;
@@ -268,7 +164,14 @@ void Foam::ellipsoidCloud::write()
     }
     notes.add("tables", tables);
 
-    checkpoint::end(time, notes);
+
+    OStringStream os;
+    os.precision(17);
+    notes.write(os, false);
+    os.beginBlock("cells");
+    writeStates(cells_, os);
+    os.endBlock();
+    checkpoint::end(time, os.str());
 }
 
 

@@ -107,9 +107,7 @@ void Foam::ellipsoidCloud::finish()
 
     if (Pstream::master())
     {
-        statistics_->update(cells_);
-        statistics_->reportContact(Info);
-        statistics_->write(Info);
+        statistics_->finish(cells_, Info);
         tracks_->writeVTP
         (
             [&](const label id) { return statistics_->sizeOf(id); }

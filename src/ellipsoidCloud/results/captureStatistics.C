@@ -91,37 +91,4 @@ void Foam::captureStatistics::add(List<cellEvent>&& events)
 }
 
 
-Foam::labelHashSet Foam::captureStatistics::cellsInside() const
-{
-    labelHashSet ids;
-
-    forAllConstIters(cells_, iter)
-    {
-        const label fate = iter().last.fate;
-
-        if (fate != cellState::escaped && fate != cellState::lost)
-        {
-            ids.insert(iter.key());
-        }
-    }
-
-    return ids;
-}
-
-
-void Foam::captureStatistics::update(const UList<cellState>& cells)
-{
-    for (const cellState& cell : cells)
-    {
-        if (cell.fate != cellState::waiting)
-        {
-            cellState& last = cells_[cell.id].last;
-            const scalar since = last.time;
-            last = cell;
-            last.time = since;
-        }
-    }
-}
-
-
 // ************************************************************************* //

@@ -204,11 +204,27 @@ void Foam::captureStatistics::reportContact(Ostream& os) const
 }
 
 
-void Foam::captureStatistics::write(Ostream& os) const
+void Foam::captureStatistics::finish
+(
+    const UList<cellState>& cells,
+    Ostream& os
+)
 {
+    for (const cellState& cell : cells)
+    {
+        if (cell.fate != cellState::waiting)
+        {
+            cellState& last = cells_[cell.id].last;
+            const scalar since = last.time;
+
+            last = cell;
+            last.time = since;
+        }
+    }
+
+    reportContact(os);
     writeCells();
     writeCaptures(os);
-
     os << nl;
     report(os);
     os << endl;
