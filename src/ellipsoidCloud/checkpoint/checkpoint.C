@@ -354,7 +354,7 @@ void Foam::checkpoint::begin(const fvMesh& mesh)
 {
     const fileName path(mesh.time().path()/mesh.time().timeName());
 
-    // A link of decomposePar leads into the undecomposed case, whose state stays
+    // A link of decomposePar leads into the undecomposed case: its state stays
     const fileName state(statePath(path));
     if (Foam::type(state.path(), false) == fileName::LINK)
     {
