@@ -4,6 +4,8 @@
 # License: GPL-3.0-or-later, see COPYING.
 
 . tests/tap.sh
+# It is read by itself; with it shellcheck takes thrice as long for each of the tests
+# shellcheck source=/dev/null
 . Make/setup.sh
 if [ -z "$WM_PROJECT_DIR" ]; then setup_environment test > /dev/null || exit; fi
 # Test files run side by side: ranks that wait give way, and none is bound to a core
