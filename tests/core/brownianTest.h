@@ -17,23 +17,6 @@
 
 static const double test_kt = 1.380649e-23 * 298.15; /* [J] */
 
-/*
-    So many samples of the core every day, in the full run, and where it is run
-    to find faults of memory and arithmetic (ELLIPSOID_TEST_FEW=1): there the
-    statistics are those of the same machine code's plain run.
-*/
-static inline long test_count(long few, long everyday, long full)
-{
-    const char *is_few = getenv("ELLIPSOID_TEST_FEW");
-    const char *is_full = getenv("ELLIPSOID_TEST_FULL");
-
-    if (is_few && !strcmp(is_few, "1"))
-    {
-        return few;
-    }
-    return is_full && !strcmp(is_full, "1") ? full : everyday;
-}
-
 static inline int test_still_flow(void *context, double t, const double x[3],
                                   int derivatives,
                                   ellipsoid_flow_sample *sample)
