@@ -17,14 +17,6 @@
 
 static const double test_kt = 1.380649e-23 * 298.15; /* [J] */
 
-/* Larger ensembles? */
-static inline int test_full(void)
-{
-    const char *full = getenv("ELLIPSOID_TEST_FULL");
-
-    return full && !strcmp(full, "1");
-}
-
 static inline int test_still_flow(void *context, double t, const double x[3],
                                   int derivatives,
                                   ellipsoid_flow_sample *sample)
@@ -141,6 +133,75 @@ static inline double test_inertia(const ellipsoid_model *m, int i)
 static inline double test_mobility(const ellipsoid_model *m, int i)
 {
     return i < 3 ? m->mobility[i] : m->rotation_mobility[i - 3];
+}
+
+/* ----------------------------------------------- an interval in closed form */
+
+/*
+    With a force F of variance 2 kT zeta/dt, constant over an interval, and
+    zeta = m/tau, m dv/dt = F - zeta v is solved by (s = dt/tau, b = F/zeta)
+        v(dt) = b + (v0 - b) exp(-s),
+        x(dt) = b dt + tau (v0 - b) (1 - exp(-s)),
+    for each of the six directions with its own tau, 0 without inertia. Here of
+    a body that does not turn: its v and x are Gaussian and all means known.
+*/
+static inline void test_closed_form(const ellipsoid_model *m,
+                                    const double normal[6], double v[6],
+                                    double x[6])
+{
+    const double dt = m->options.noise_interval;
+    const double kt = test_kt / 298.15 * m->options.temperature;
+
+    for (int i = 0; i < 6; i++)
+    {
+        const double mobility = test_mobility(m, i);
+        const double tau = m->options.motion == ELLIPSOID_MOTION_INERTIAL
+                             ? test_inertia(m, i) * mobility
+                             : 0;
+        const double decay = tau > 0 ? exp(-dt / tau) : 0;
+        const double b = sqrt(2 * kt * mobility / dt) * normal[i];
+
+        x[i] = b * dt + tau * (v[i] - b) * (1 - decay);
+        v[i] = b + (v[i] - b) * decay;
+    }
+}
+
+/*
+    The interval of a free body without inertia: force and torque are fixed in
+    the body, so that it moves and turns steadily. Over an angle A about k: q
+    times (k sin(A/2), cos(A/2)), and x by R(q) [u + (1 - cos A)/A k x u +
+    (1 - sin A/A) k x (k x u)] dt.
+*/
+static inline void test_move_steadily(const ellipsoid_model *m,
+                                      const double normal[6],
+                                      ellipsoid_state *state)
+{
+    const double *p = state->q;
+    double v[6] = {0}, way[6], k[3], once[3], twice[3], r[3][3], q[4], angle;
+
+    test_closed_form(m, normal, v, way);
+    angle = ellipsoid_length(way + 3);
+    for (int i = 0; i < 3; i++)
+    {
+        k[i] = way[3 + i] / angle;
+    }
+    ellipsoid_cross(k, way, once);
+    ellipsoid_cross(k, once, twice);
+    ellipsoid_rotation(p, r);
+    for (int i = 0; i < 3; i++)
+    {
+        way[i] += (1 - cos(angle)) / angle * once[i]
+                + (1 - sin(angle) / angle) * twice[i];
+        k[i] *= sin(0.5 * angle);
+    }
+    ellipsoid_cross(p, k, q);
+    for (int i = 0; i < 3; i++)
+    {
+        state->x[i] += ellipsoid_dot(r[i], way);
+        q[i] += p[3] * k[i] + cos(0.5 * angle) * p[i];
+    }
+    q[3] = p[3] * cos(0.5 * angle) - ellipsoid_dot(p, k);
+    memcpy(state->q, q, sizeof(q));
 }
 
 /* ------------------------------------------------------------ statistics */

@@ -13,6 +13,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -41,6 +42,23 @@ static inline void test_near(double actual, double expected, double tolerance,
               __FILE__, __LINE__)
 
 #define assert_ok(status) assert_int_equal(status, ELLIPSOID_OK)
+
+/*
+    So many samples of the core every day, in the full run, and where it is run
+    to find faults of memory and arithmetic (ELLIPSOID_TEST_FEW=1), which a part
+    of them shows as well.
+*/
+static inline long test_count(long few, long everyday, long full)
+{
+    const char *is_few = getenv("ELLIPSOID_TEST_FEW");
+    const char *is_full = getenv("ELLIPSOID_TEST_FULL");
+
+    if (is_few && !strcmp(is_few, "1"))
+    {
+        return few;
+    }
+    return is_full && !strcmp(is_full, "1") ? full : everyday;
+}
 
 /* splitmix64: the same numbers everywhere. */
 static inline double test_uniform(uint64_t *seed)

@@ -274,7 +274,7 @@ static void test_random_ground(void **unused)
         wall_mesh wall = terrain_of(n % 2 ? 0.3 : 0.05, &seed);
         int index[200], jumps = 0;
 
-        for (int path = 0; path < 20; path++)
+        for (long path = test_count(3, 20, 20); path > 0; path--)
         {
             const double start[3] = {12 + 16 * test_uniform(&seed),
                                      12 + 16 * test_uniform(&seed), 0};

@@ -349,7 +349,7 @@ static void test_continuous_over_edges(void **unused)
     wall_mesh_box(&mesh, block[0], block[1], 0, 8, 0);
     wall_mesh_finish(&mesh);
     ellipsoid_facet_cache_clear(&cache);
-    for (int n = 0; n < 60; n++)
+    for (long n = test_count(10, 60, 60); n > 0; n--)
     {
         const double from[3] = {0.5e-6 * test_signed(&seed), 1.4e-6,
                                 1.2e-6 + 1e-6 * test_uniform(&seed)};
@@ -436,6 +436,7 @@ static void test_cache_far_beside(void **unused)
     const double along[3] = {size, 0, 0}, across[3] = {0, size, 0};
     const ellipsoid_options o = near_walls();
     const ellipsoid_model model = test_model(&o);
+    const long count = test_count(5000, 100000, 100000);
     test_quadratic flow = test_shear(1000);
     uint64_t seed = 25;
     int felt = 0;
@@ -445,7 +446,7 @@ static void test_cache_far_beside(void **unused)
     wall_mesh_init(&mesh);
     wall_mesh_plane(&mesh, corner, along, across, 1, 1, 2, 0);
     wall_mesh_finish(&mesh);
-    for (int n = 0; n < 100000; n++)
+    for (long n = 0; n < count; n++)
     {
         const ellipsoid_surroundings s = around(&mesh, &flow);
         const double away = o.wall_range * (1.2 + 0.9 * test_uniform(&seed));

@@ -8,13 +8,16 @@ if [ "$ELLIPSOID_TEST_FULL" != 1 ]; then
     tap_end
 fi
 
-# The tests of the core at their everyday size, in a folder of their own. gcc takes some
-# of what it instruments for uninitialised.
+# With few samples where their number is a matter of statistics, and shorter runs
+export ELLIPSOID_TEST_FEW=1
+
+# The tests of the core, in a folder of their own. gcc takes some of what it instruments
+# for uninitialised.
 core_tests()    # COMPILER FOLDER FLAGS [TARGET | VARIABLE=VALUE]...
 {
     local compiler=$1 folder=$tap_folder/$2 flags=$3
     shift 3
     if [ "$compiler" = gcc ]; then flags+=" -Wno-maybe-uninitialized"; fi
-    env -u ELLIPSOID_TEST_FULL make -s -O -j "$(nproc)" -C tests/core CC="$compiler" \
+    make -s -O -j "$(nproc)" -C tests/core CC="$compiler" \
         BUILD="$folder" CFLAGS="$flags" "$@"
 }
