@@ -295,6 +295,7 @@ typedef struct ellipsoid_facet_cache
     /* All facets within `about_reach` [m] of a point, ascending, for several
        searches; about_count -1: not looked up */
     int about_count, about[ELLIPSOID_MAX_LISTED];
+    int about_nearest; /* which of a list was nearest last: it comes first */
     double about_x[3], about_reach;
     const ellipsoid_facet *about_facets;
     int near_count;   /* of facets within the wall_range; -1: not looked up */

@@ -63,10 +63,11 @@ static ellipsoid_bead bead_of(const ellipsoid_wall_contact *at, int b)
     return bead;
 }
 
-/* clear: how far beyond the bead no facet is, as its move tells */
-static void look_at_bead(ellipsoid_wall_contact *at,
-                         const ellipsoid_facet_cache *cache, int b,
-                         double clear)
+/* Looks for gaps below `range`, which is no more than the smallest so far, and
+   for contacts; returns how many of these there are. clear: how far beyond the bead no facet is, as its move tells */
+static int look_at_bead(ellipsoid_wall_contact *at,
+                        const ellipsoid_facet_cache *cache, int b,
+                        double clear, double range)
 {
     const ellipsoid_bead bead = bead_of(at, b);
     const ellipsoid_candidates from = {cache->facets,
@@ -75,21 +76,28 @@ static void look_at_bead(ellipsoid_wall_contact *at,
                                        cache->away + cache->first[b],
                                        cache->nearest[b] - bead.radius - clear};
     ellipsoid_bead_forces forces;
+    double gap = range;
+    const int contacts =
+        ellipsoid_bead_contact(&bead, &from, &gap, at->jacobian != NULL,
+                               &forces, at->contact);
 
-    if (ellipsoid_bead_contact(&bead, &from, &at->contact->gap,
-                               at->jacobian != NULL, &forces, at->contact)
-        > 0)
+    if (contacts > 0)
     {
         add_bead(at, at->model->bead[b], &forces);
     }
+    if (gap < range)
+    {
+        at->contact->gap = gap;
+    }
+    return contacts;
 }
 
 /*
     A bead that has moved less than its distance from all facets needs no
     evaluation; `moved` is what none has moved more than. The first pass is over
-    the beads that may be in range of a law, in their order; if none overlaps,
-    the others find the gap, which does not depend on their order: so the
-    nearest comes first.
+    the beads that may be in range of a law, in their order, and looks no
+    farther than that; if none overlaps, those without a contact find the gap,
+    which does not depend on their order: so the nearest comes first.
 */
 static void add_beads(ellipsoid_wall_contact *at,
                       const ellipsoid_facet_cache *cache, double moved)
@@ -97,29 +105,33 @@ static void add_beads(ellipsoid_wall_contact *at,
     /* the bounds are rounded, too */
     const double radius = (1 + 1e-9) * at->model->options.bead_radius;
     ellipsoid_contact *contact = at->contact;
-    double clear[ELLIPSOID_MAX_BEADS], least = HUGE_VAL;
+    double clear[ELLIPSOID_MAX_BEADS], least = HUGE_VAL, range;
     ellipsoid_pose_change change;
     int nearest = -1;
 
     ellipsoid_wall_laws_set(&at->laws, &at->model->options);
     ellipsoid_rotation_inline(at->state->q, at->r);
     ellipsoid_pose_change_set(cache, at->state->x, at->r, &change);
+    range = at->laws.range;
     for (int n = 0; n < cache->bead_count; n++)
     {
         const int b = cache->bead[n];
 
         clear[n] = cache->nearest[b] - moved - radius;
-        if (clear[n] <= at->laws.range)
+        if (clear[n] <= range)
         {
             clear[n] =
                 cache->nearest[b] - radius
                 - sqrt(ellipsoid_squared_move(&change, at->model->bead[b]));
         }
-        if (clear[n] <= at->laws.range)
+        if (clear[n] <= range
+            && look_at_bead(at, cache, b, clear[n],
+                            fmin(contact->gap, range))
+                   > 0)
         {
-            look_at_bead(at, cache, b, clear[n]);
+            clear[n] = HUGE_VAL; /* its gap is known */
         }
-        else if (clear[n] < least)
+        if (clear[n] < least)
         {
             least = clear[n];
             nearest = n;
@@ -127,16 +139,15 @@ static void add_beads(ellipsoid_wall_contact *at,
     }
     if (least < contact->gap && contact->gap > 0)
     {
-        look_at_bead(at, cache, cache->bead[nearest], least);
+        look_at_bead(at, cache, cache->bead[nearest], least, contact->gap);
     }
     for (int n = 0; n < cache->bead_count && least < contact->gap
                     && contact->gap > 0;
          n++)
     {
-        if (n != nearest && clear[n] > at->laws.range
-            && clear[n] < contact->gap)
+        if (n != nearest && clear[n] < contact->gap)
         {
-            look_at_bead(at, cache, cache->bead[n], clear[n]);
+            look_at_bead(at, cache, cache->bead[n], clear[n], contact->gap);
         }
     }
     contact->deepest = fmax(0, -contact->gap);

@@ -51,6 +51,7 @@ void ellipsoid_facet_cache_clear(ellipsoid_facet_cache *cache)
 {
     invalidate(cache);
     cache->near_count = cache->live_count[0] = cache->about_count = -1;
+    cache->about_nearest = 0;
     cache->half_box[0] = -1; /* not known */
     cache->near_facets = NULL;
     memset(cache->near_x, 0, sizeof cache->near_x);
@@ -138,14 +139,17 @@ static double nearest_facet(const ellipsoid_facet_list *list,
 
         /* outside its plane and its ball */
         const double height = fabs(ellipsoid_dot(d, facet->normal));
-        const double outside = ellipsoid_length(d) - facet->radius;
-        const double distance = height > outside ? height : outside;
+        const double squared = ellipsoid_dot(d, d);
+        const double far = nearest + facet->radius;
 
-        if (!isfinite(height + outside))
+        if (!isfinite(height + squared + facet->radius))
         {
             return NAN;
         }
-        nearest = distance < nearest ? distance : nearest;
+        if (height < nearest && squared < far * far)
+        {
+            nearest = fmax(height, sqrt(squared) - facet->radius);
+        }
     }
     return nearest;
 }
@@ -242,9 +246,11 @@ static int keep_free(ellipsoid_facet_cache *cache, const ellipsoid_model *model,
     }
 
     /* an unlisted one is beyond list->reach of the centre */
+    const double taken = (1 + 1e-6) * near;
     const double free = ellipsoid_facet_bound(model, list,
-                                              list->reach - reach + near, cache)
-                      - (1 + 1e-6) * near;
+                                              list->reach - reach + near,
+                                              taken + margin, cache)
+                      - taken;
 
     if (!(free > margin))
     {

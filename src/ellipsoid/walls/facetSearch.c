@@ -17,6 +17,8 @@ typedef struct bead_set
 {
     int count;
     double x[3][ELLIPSOID_MAX_BEADS];
+    float from[3][ELLIPSOID_MAX_BEADS]; /* [-] the centre, by the reach */
+    double reach;                       /* [m] none is farther from it */
     double centre[3], rotation[3][3], half_box[3];
     double stretch; /* q.q, the factor of lengths in R(q) */
 } bead_set;
@@ -47,13 +49,19 @@ static void set_box(const ellipsoid_model *model, ellipsoid_facet_cache *cache,
 static void set_beads(const ellipsoid_model *model, bead_set *beads)
 {
     beads->count = model->bead_count;
+    beads->reach = model->reach * beads->stretch;
+
+    const double per_reach = 1 / beads->reach;
+
     for (int b = 0; b < model->bead_count; b++)
     {
         for (int i = 0; i < 3; i++)
         {
-            beads->x[i][b] =
-                beads->centre[i]
-                + ellipsoid_dot(beads->rotation[i], model->bead[b]);
+            const double from =
+                ellipsoid_dot(beads->rotation[i], model->bead[b]);
+
+            beads->x[i][b] = beads->centre[i] + from;
+            beads->from[i][b] = (float)(from * per_reach);
         }
     }
 }
@@ -156,47 +164,72 @@ static double box_distance(const ellipsoid_facet *facet,
     Excess of the squared distance of beads over the largest at which the facet
     may be nearest: from the facet, that is its height above the plane and how
     far it is beside the outermost edge, and, unless an edge is convex, beside
-    the facet's ball.
+    the facet's ball. In single precision, of which four go into a register, and
+    so much wider that what it rounds off leaves no facet out; lengths by the
+    beads' reach. d: from the cell's centre to the facet's middle.
 */
 static void set_distances(const ellipsoid_facet *facet,
                           const ellipsoid_facet_sides *sides,
-                          const bead_set *beads, double far, double near,
-                          double beyond[ELLIPSOID_MAX_BEADS])
+                          const bead_set *beads, const double d[3], double far,
+                          double near, float beyond[ELLIPSOID_MAX_BEADS])
 {
-    const double(*in)[3] = sides->inward;
-    double offset[3];
-    const double beside =
-        ellipsoid_facet_has_convex_edge(facet) ? HUGE_VAL : near * near;
-    const double *n = facet->normal, *middle = facet->middle;
+    const double per_reach = 1 / beads->reach;
+    const double size = per_reach * (fabs(d[0]) + fabs(d[1]) + fabs(d[2])
+                                     + facet->radius + beads->reach);
+    const double wide = per_reach * far + 2e-6 * size;
+    const double side = per_reach * near;
+    const float farthest = (float)((1 + 1e-6) * wide * wide);
+    const float beside =
+        ellipsoid_facet_has_convex_edge(facet)
+            ? HUGE_VALF
+            : (float)((1 + 1e-6) * side * side + 4e-6 * size * size);
+    float n[3], middle[3], in[3][3], offset[3];
 
     for (int k = 0; k < 3; k++)
     {
-        double d[3];
+        double r[3];
 
-        ellipsoid_difference(middle, facet->vertex[k], d);
-        offset[k] = ellipsoid_dot(in[k], d);
+        ellipsoid_difference(facet->middle, facet->vertex[k], r);
+        offset[k] = (float)(per_reach * ellipsoid_dot(sides->inward[k], r));
+        n[k] = (float)facet->normal[k];
+        middle[k] = (float)(per_reach * d[k]);
+        for (int i = 0; i < 3; i++)
+        {
+            in[k][i] = (float)sides->inward[k][i];
+        }
     }
     for (int b = 0; b < beads->count; b++)
     {
-        const double d0 = beads->x[0][b] - middle[0];
-        const double d1 = beads->x[1][b] - middle[1];
-        const double d2 = beads->x[2][b] - middle[2];
-        const double h = d0 * n[0] + d1 * n[1] + d2 * n[2];
-        const double squared = d0 * d0 + d1 * d1 + d2 * d2;
+        const float d0 = beads->from[0][b] - middle[0];
+        const float d1 = beads->from[1][b] - middle[1];
+        const float d2 = beads->from[2][b] - middle[2];
+        const float h = d0 * n[0] + d1 * n[1] + d2 * n[2];
+        const float squared = d0 * d0 + d1 * d1 + d2 * d2;
 
-        const double aside = squared - h * h - beside;
-        double inside = 0, out;
+        const float aside = squared - h * h - beside;
+        float inside = 0, out;
 
         for (int k = 0; k < 3; k++)
         {
-            const double of =
+            const float of =
                 offset[k] + in[k][0] * d0 + in[k][1] * d1 + in[k][2] * d2;
 
             inside = of < inside ? of : inside;
         }
-        out = h * h + inside * inside - far * far;
+        out = h * h + inside * inside - farthest;
         beyond[b] = out > aside ? out : aside;
     }
+}
+
+/* Is the facet farther from all beads than `far` less its radius, as the ball
+   that holds these tells? */
+static int is_beyond(const ellipsoid_facet *facet, const bead_set *beads,
+                     const double d[3], double far)
+{
+    const double ball = beads->reach + far;
+
+    return fabs(ellipsoid_dot(d, facet->normal)) > ball - facet->radius
+        || ellipsoid_dot(d, d) > ball * ball;
 }
 
 /* One that a bead may be in contact with. */
@@ -249,7 +282,8 @@ static int search_beads(const ellipsoid_facet_list *list, const bead_set *beads,
     for (int k = 0; k < list->count; k++)
     {
         const ellipsoid_facet *facet = &list->facets[list->index[k]];
-        double d[3], beyond[ELLIPSOID_MAX_BEADS], distance, above;
+        double d[3], distance, above;
+        float beyond[ELLIPSOID_MAX_BEADS];
         ellipsoid_facet_sides sides;
         const double size = facet->radius;
         const double rounding = 1e-6 * (reach + margin);
@@ -257,6 +291,10 @@ static int search_beads(const ellipsoid_facet_list *list, const bead_set *beads,
         const double near = size + 1.5 * margin + rounding;
 
         ellipsoid_difference(facet->middle, beads->centre, d);
+        if (is_beyond(facet, beads, d, far))
+        {
+            continue;
+        }
         above = above_box(beads, facet->normal, d);
         if (above > far - size || beyond_box(beads, d, far)
             || (!ellipsoid_facet_has_convex_edge(facet)
@@ -269,15 +307,19 @@ static int search_beads(const ellipsoid_facet_list *list, const bead_set *beads,
         {
             continue;
         }
-        set_distances(facet, &sides, beads, far - size, near, beyond);
+        set_distances(facet, &sides, beads, d, far - size, near, beyond);
         for (int b = 0; b < beads->count; b++)
         {
-            const double centre[3] = {beads->x[0][b], beads->x[1][b],
-                                      beads->x[2][b]};
+            double centre[3];
 
-            if (beyond[b] > 0
-                || !ellipsoid_facet_may_be_nearest(facet, &sides, centre,
-                                                   reach, margin, &distance))
+            if (beyond[b] > 0)
+            {
+                continue;
+            }
+            ellipsoid_set(centre, beads->x[0][b], beads->x[1][b],
+                          beads->x[2][b]);
+            if (!ellipsoid_facet_may_be_nearest(facet, &sides, centre, reach,
+                                                margin, &distance))
             {
                 continue;
             }
@@ -330,39 +372,55 @@ static int search_ellipsoid(const ellipsoid_facet_list *list,
     return 1;
 }
 
+/* How far the box is from a facet at least, or `most` if that is less; reach:
+   of bead centres. */
+static double bound_of(const ellipsoid_facet *facet, const bead_set *beads,
+                       double reach, double most)
+{
+    ellipsoid_facet_sides sides;
+    double d[3], above, far;
+
+    ellipsoid_difference(facet->middle, beads->centre, d);
+    if (fabs(ellipsoid_dot(d, facet->normal)) - reach >= most)
+    {
+        return most;
+    }
+    above = above_box(beads, facet->normal, d);
+    if (above >= most)
+    {
+        return most;
+    }
+    far = sqrt(squared_from_box(beads, d)) - facet->radius;
+    if (far < most)
+    {
+        ellipsoid_facet_sides_set(facet, &sides);
+        far = fmax(far, box_distance(facet, &sides, beads, d, above));
+    }
+    return far < most ? far : most;
+}
+
 double ellipsoid_facet_bound(const ellipsoid_model *model,
                              const ellipsoid_facet_list *list, double most,
-                             ellipsoid_facet_cache *cache)
+                             double least, ellipsoid_facet_cache *cache)
 {
     double bound = most, arm;
     bead_set beads;
+    int first;
 
     set_box(model, cache, &beads);
     arm = (model->reach - model->options.bead_radius) * beads.stretch;
-    for (int k = 0; k < list->count; k++)
+    first = cache->about_nearest < list->count ? cache->about_nearest : 0;
+    for (int n = 0; n < list->count && !(bound <= least); n++)
     {
-        const ellipsoid_facet *facet = &list->facets[list->index[k]];
-        double d[3], above, far;
+        const int k = n == 0 ? first : n == first ? 0 : n;
+        const double of =
+            bound_of(&list->facets[list->index[k]], &beads, arm, bound);
 
-        ellipsoid_difference(facet->middle, beads.centre, d);
-        if (fabs(ellipsoid_dot(d, facet->normal)) - arm >= bound)
+        if (of < bound)
         {
-            continue;
+            bound = of;
+            cache->about_nearest = k;
         }
-        above = above_box(&beads, facet->normal, d);
-        if (above >= bound)
-        {
-            continue;
-        }
-        far = sqrt(squared_from_box(&beads, d)) - facet->radius;
-        if (far < bound)
-        {
-            ellipsoid_facet_sides sides;
-
-            ellipsoid_facet_sides_set(facet, &sides);
-            far = fmax(far, box_distance(facet, &sides, &beads, d, above));
-        }
-        bound = far < bound ? far : bound;
     }
     return bound;
 }

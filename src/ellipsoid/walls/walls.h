@@ -109,11 +109,11 @@ int ellipsoid_facet_search(const ellipsoid_model *model,
                            double margin, ellipsoid_facet_cache *cache);
 
 /* No bead's centre in the cache's pose is nearer to a listed facet than this
-   [m], as the box that holds them tells; at most `most`. Sets that box
-   (facetSearch.c). */
+   [m], as the box that holds them tells; at most `most`, and any number up to
+   `least` if it is not above that. Sets that box (facetSearch.c). */
 double ellipsoid_facet_bound(const ellipsoid_model *model,
                              const ellipsoid_facet_list *list, double most,
-                             ellipsoid_facet_cache *cache);
+                             double least, ellipsoid_facet_cache *cache);
 
 /* A change of pose: bead b moves by x + r b. */
 typedef struct ellipsoid_pose_change

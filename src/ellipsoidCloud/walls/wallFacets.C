@@ -456,15 +456,17 @@ int Foam::wallFacets::list
     {
         const region& here = regionAt(c, reach);
 
+        // Without a branch, which the processor could not foresee
+        listed.setSize(here.facets.size());
+        label n = 0;
         forAll(here.facets, i)
         {
             const sphere& b = here.spheres[i];
 
-            if (magSqr(c - b.centre) <= sqr(reach + b.radius))
-            {
-                listed.append(here.facets[i]);
-            }
+            listed[n] = here.facets[i];
+            n += magSqr(c - b.centre) <= sqr(reach + b.radius);
         }
+        listed.setSize(n);
 
         if (listed.empty())
         {
