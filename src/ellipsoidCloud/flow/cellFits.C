@@ -27,7 +27,24 @@ namespace Foam
         static const direction nUnknowns = 9;
         static const direction nColumns = 12;
 
-        DynamicList<FixedList<scalar, nColumns>> rows_;
+        //- Two numbers that the processor takes at once
+        typedef scalar two __attribute__((vector_size(2*sizeof(scalar))));
+
+        //- A row; also a number for each column
+        struct row
+        {
+            two v[nColumns/2];
+
+            scalar operator[](const direction j) const
+            {
+                return v[j/2][j % 2];
+            }
+        };
+
+        DynamicList<row> rows_;
+
+        //- Of each row the part along a column
+        DynamicList<scalar> along_;
 
     public:
 
@@ -45,13 +62,12 @@ namespace Foam
 
             rows_.append
             (
-                FixedList<scalar, nColumns>
-                ({
-                    w*d.x(), w*d.y(), w*d.z(),
-                    w*dd.xx()/2, w*dd.yy()/2, w*dd.zz()/2,
-                    w*dd.xy(), w*dd.xz(), w*dd.yz(),
-                    w*du.x(), w*du.y(), w*du.z()
-                })
+                row
+                {{
+                    two{w*d.x(), w*d.y()}, two{w*d.z(), w*dd.xx()/2},
+                    two{w*dd.yy()/2, w*dd.zz()/2}, two{w*dd.xy(), w*dd.xz()},
+                    two{w*dd.yz(), w*du.x()}, two{w*du.y(), w*du.z()}
+                }}
             );
         }
 
@@ -60,19 +76,24 @@ namespace Foam
         //  as across a mesh one cell thick: lengths are about 1.
         void solve(quadratic& p)
         {
-            scalar R[nUnknowns][nColumns];
+            along_.setSize(rows_.size());
+            row R[nUnknowns] = {};
             bool kept[nUnknowns];
 
-            FixedList<scalar, nColumns> before(0.0);
-            for (const auto& row : rows_)
+            row before = {};
+            for (const row& r : rows_)
             {
-                for (direction j = 0; j < nUnknowns; ++j)
+                for (direction p = 0; p <= nUnknowns/2; ++p)
                 {
-                    before[j] += sqr(row[j]);
+                    before.v[p] += r.v[p]*r.v[p];
                 }
             }
 
-            reduce(before, std::integral_constant<direction, 0>(), R, kept);
+            reduce
+            (
+                before, before[0], std::integral_constant<direction, 0>(), R,
+                kept
+            );
 
             vector x[nUnknowns];
             for (direction j = nUnknowns; j-- > 0;)
@@ -104,67 +125,84 @@ namespace Foam
 
     private:
 
-        //- All columns from one on, a constant so that loops vectorise
+        //- All columns from one on, of that norm
         template<direction j>
         void reduce
         (
-            const FixedList<scalar, nColumns>& before,
+            const row& before,
+            const scalar norm,
             const std::integral_constant<direction, j>,
-            scalar R[nUnknowns][nColumns],
+            row R[nUnknowns],
             bool kept[nUnknowns]
         )
         {
-            scalar norm = 0;
-            for (const auto& row : rows_)
-            {
-                norm += sqr(row[j]);
-            }
-
+            scalar nextNorm = 0;
             kept[j] = norm > 1e-4*before[j] && norm > 1e-16;
-            std::fill_n(R[j], nColumns, scalar(0));
             if (kept[j])
             {
-                takeAlong<j>(1/Foam::sqrt(norm), R[j]);
+                nextNorm = takeAlong<j>(1/Foam::sqrt(norm), R[j]);
+            }
+            else
+            {
+                for (const row& r : rows_)
+                {
+                    nextNorm += sqr(r[j + 1]);
+                }
             }
             reduce
             (
-                before, std::integral_constant<direction, j + 1>(), R, kept
+                before, nextNorm, std::integral_constant<direction, j + 1>(), R,
+                kept
             );
         }
 
         void reduce
         (
-            const FixedList<scalar, nColumns>&,
+            const row&,
+            const scalar,
             const std::integral_constant<direction, nUnknowns>,
-            scalar (*)[nColumns],
+            row*,
             bool*
         )
         {}
 
         //- Normalise a column and take the later ones' parts along it away.
-        //  In the place of a part along itself is the inverse norm.
+        //  In the place of a part along itself is the inverse norm. Returns the
+        //  norm of the next column. Of a pair that begins with the column itself
+        //  what becomes of that is not read again.
         template<direction along>
-        void takeAlong(const scalar inverseNorm, scalar to[nColumns])
+        scalar takeAlong(const scalar inverseNorm, row& to)
         {
-            scalar parts[nColumns] = {};
+            const direction first = (along + 1)/2;
+            row parts = {};
 
-            for (auto& row : rows_)
+            forAll(rows_, i)
             {
-                row[along] *= inverseNorm;
-                for (direction k = along + 1; k < nColumns; ++k)
+                const row& r = rows_[i];
+                const scalar f = r[along]*inverseNorm;
+                const two by = {f, f};
+                along_[i] = f;
+                for (direction p = first; p < nColumns/2; ++p)
                 {
-                    parts[k] += row[along]*row[k];
+                    parts.v[p] += by*r.v[p];
                 }
             }
-            for (auto& row : rows_)
+
+            scalar nextNorm = 0;
+            forAll(rows_, i)
             {
-                for (direction k = along + 1; k < nColumns; ++k)
+                row& r = rows_[i];
+                const two by = {along_[i], along_[i]};
+                for (direction p = first; p < nColumns/2; ++p)
                 {
-                    row[k] -= parts[k]*row[along];
+                    r.v[p] -= parts.v[p]*by;
                 }
+                nextNorm += sqr(r[along + 1]);
             }
-            std::copy_n(parts, nColumns, to);
-            to[along] = inverseNorm;
+
+            to = parts;
+            to.v[along/2][along % 2] = inverseNorm;
+            return nextNorm;
         }
     };
 
