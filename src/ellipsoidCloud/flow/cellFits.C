@@ -263,6 +263,9 @@ namespace Foam
     {
         const volVectorField& U_;
         const polyMesh& mesh_;
+        const pointField& centres_;
+        const labelListList& pointCells_;
+        const labelListList& cellPoints_;
         const baffleSides& baffles_;
         const pointImages& images_;
         const wallsAtVertices& walls_;
@@ -279,7 +282,7 @@ namespace Foam
         {
             equations_.append
             (
-                (x - mesh_.cellCentres()[celli_])/length_,
+                (x - centres_[celli_])/length_,
                 (m - M_[celli_])/sqr(length_),
                 u - U_[celli_]
             );
@@ -298,7 +301,7 @@ namespace Foam
         {
             const label vertexi = baffles_.vertex(pointi, celli_);
 
-            for (const label other : mesh_.pointCells()[pointi])
+            for (const label other : pointCells_[pointi])
             {
                 if
                 (
@@ -306,7 +309,7 @@ namespace Foam
                  && cells_.take(other)
                 )
                 {
-                    add(mesh_.cellCentres()[other], M_[other], U_[other]);
+                    add(centres_[other], M_[other], U_[other]);
                 }
             }
             for (const label facei : walls_.faces(vertexi))
@@ -328,9 +331,9 @@ namespace Foam
         {
             const tensor T(from.image.turn());
 
-            for (const label other : mesh_.pointCells()[from.point])
+            for (const label other : pointCells_[from.point])
             {
-                const point x(from.image(mesh_.cellCentres()[other]));
+                const point x(from.image(centres_[other]));
                 if
                 (
                     baffles_.vertex(from.point, other) == from.point
@@ -368,6 +371,9 @@ namespace Foam
         :
             U_(U),
             mesh_(U.mesh()),
+            centres_(mesh_.cellCentres()),
+            pointCells_(mesh_.pointCells()),
+            cellPoints_(mesh_.cellPoints()),
             baffles_(baffles),
             images_(images),
             walls_(walls),
@@ -388,7 +394,7 @@ namespace Foam
             faces_.start(celli, length_);
             cells_.take(celli);
 
-            for (const label pointi : mesh_.cellPoints()[celli])
+            for (const label pointi : cellPoints_[celli])
             {
                 addAt(pointi);
                 for (const pointImage& from : images_.at(pointi))
@@ -416,6 +422,8 @@ namespace Foam
 
 Foam::symmTensorField Foam::secondMoments(const polyMesh& mesh)
 {
+    const pointField& points = mesh.points();
+    const pointField& centres = mesh.cellCentres();
     symmTensorField moments(mesh.nCells(), Zero);
     scalarField volumes(mesh.nCells(), Zero);
 
@@ -427,13 +435,13 @@ Foam::symmTensorField Foam::secondMoments(const polyMesh& mesh)
             const label celli =
                 side ? mesh.faceNeighbour()[facei]
               : mesh.faceOwner()[facei];
-            const point& c = mesh.cellCentres()[celli];
+            const point& c = centres[celli];
 
             for (label i = 1; i < f.size() - 1; ++i)
             {
-                const vector a(mesh.points()[f[0]] - c);
-                const vector b(mesh.points()[f[i]] - c);
-                const vector d(mesh.points()[f[i + 1]] - c);
+                const vector a(points[f[0]] - c);
+                const vector b(points[f[i]] - c);
+                const vector d(points[f[i + 1]] - c);
                 const scalar volume = (side ? -1 : 1)*(a & (b ^ d));
 
                 moments[celli] +=

@@ -325,10 +325,12 @@ void Foam::frozenFlow::matchFluxes
             }
 
             const vector n(area/mag(area));
+            const symmTensor along(sqr(n));
+            const vector lacks((flux/mag(area))*n);
             for (const label i : corners)
             {
-                normals[i] += sqr(n);
-                missing[i] += (flux/mag(area))*n;
+                normals[i] += along;
+                missing[i] += lacks;
             }
         };
     for (label celli = 0; celli < mesh.nCells(); ++celli)
