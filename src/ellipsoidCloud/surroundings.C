@@ -15,9 +15,11 @@ Description
 
 \*---------------------------------------------------------------------------*/
 #include "flow/cellFits.C"
+#include "flow/cellFluxes.C"
 #include "flow/frozenFlow.C"
 #include "flow/frozenFlowFluxes.C"
 #include "flow/frozenFlowTets.C"
+#include "flow/frozenFlowVertices.C"
 #include "flow/frozenFlowWalk.C"
 #include "flow/partitionCells.C"
 #include "flow/partitionNeighbours.C"

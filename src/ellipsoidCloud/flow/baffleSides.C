@@ -11,14 +11,15 @@ License
 #include "wallPolyPatch.H"
 
 #include <algorithm>
-#include <set>
-#include <vector>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::labelHashSet Foam::baffleSides::bafflePoints() const
 {
-    std::set<std::vector<label>> seen;
+    // Of each point the last face of a wall of which it is the lowest, and of
+    // each such face the one before
+    labelList last(mesh_.nPoints(), -1);
+    labelList before(mesh_.nFaces(), -1);
     labelHashSet points;
 
     for (const polyPatch& pp : mesh_.boundaryMesh())
@@ -28,13 +29,17 @@ Foam::labelHashSet Foam::baffleSides::bafflePoints() const
         for (label i = 0; i < nFaces; ++i)
         {
             const face& f = pp[i];
-            std::vector<label> corners(f.begin(), f.end());
-            std::sort(corners.begin(), corners.end());
+            label& lastHere = last[*std::min_element(f.begin(), f.end())];
 
-            if (!seen.insert(corners).second)
+            for (label other = lastHere; other >= 0; other = before[other])
             {
-                points.insert(f);
+                if (face::sameVertices(mesh_.faces()[other], f))
+                {
+                    points.insert(f);
+                }
             }
+            before[pp.start() + i] = lastHere;
+            lastHere = pp.start() + i;
         }
     }
 

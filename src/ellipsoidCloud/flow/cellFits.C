@@ -27,7 +27,24 @@ namespace Foam
         static const direction nUnknowns = 9;
         static const direction nColumns = 12;
 
-        DynamicList<FixedList<scalar, nColumns>> rows_;
+        //- Two numbers that the processor takes at once
+        typedef scalar two __attribute__((vector_size(2*sizeof(scalar))));
+
+        //- A row; also a number for each column
+        struct row
+        {
+            two v[nColumns/2];
+
+            scalar operator[](const direction j) const
+            {
+                return v[j/2][j % 2];
+            }
+        };
+
+        DynamicList<row> rows_;
+
+        //- Of each row the part along a column
+        DynamicList<scalar> along_;
 
     public:
 
@@ -45,13 +62,12 @@ namespace Foam
 
             rows_.append
             (
-                FixedList<scalar, nColumns>
-                ({
-                    w*d.x(), w*d.y(), w*d.z(),
-                    w*dd.xx()/2, w*dd.yy()/2, w*dd.zz()/2,
-                    w*dd.xy(), w*dd.xz(), w*dd.yz(),
-                    w*du.x(), w*du.y(), w*du.z()
-                })
+                row
+                {{
+                    two{w*d.x(), w*d.y()}, two{w*d.z(), w*dd.xx()/2},
+                    two{w*dd.yy()/2, w*dd.zz()/2}, two{w*dd.xy(), w*dd.xz()},
+                    two{w*dd.yz(), w*du.x()}, two{w*du.y(), w*du.z()}
+                }}
             );
         }
 
@@ -60,19 +76,24 @@ namespace Foam
         //  as across a mesh one cell thick: lengths are about 1.
         void solve(quadratic& p)
         {
-            scalar R[nUnknowns][nColumns];
+            along_.setSize(rows_.size());
+            row R[nUnknowns] = {};
             bool kept[nUnknowns];
 
-            FixedList<scalar, nColumns> before(0.0);
-            for (const auto& row : rows_)
+            row before = {};
+            for (const row& r : rows_)
             {
-                for (direction j = 0; j < nUnknowns; ++j)
+                for (direction p = 0; p <= nUnknowns/2; ++p)
                 {
-                    before[j] += sqr(row[j]);
+                    before.v[p] += r.v[p]*r.v[p];
                 }
             }
 
-            reduce(before, std::integral_constant<direction, 0>(), R, kept);
+            reduce
+            (
+                before, before[0], std::integral_constant<direction, 0>(), R,
+                kept
+            );
 
             vector x[nUnknowns];
             for (direction j = nUnknowns; j-- > 0;)
@@ -104,67 +125,84 @@ namespace Foam
 
     private:
 
-        //- All columns from one on, a constant so that loops vectorise
+        //- All columns from one on, of that norm
         template<direction j>
         void reduce
         (
-            const FixedList<scalar, nColumns>& before,
+            const row& before,
+            const scalar norm,
             const std::integral_constant<direction, j>,
-            scalar R[nUnknowns][nColumns],
+            row R[nUnknowns],
             bool kept[nUnknowns]
         )
         {
-            scalar norm = 0;
-            for (const auto& row : rows_)
-            {
-                norm += sqr(row[j]);
-            }
-
+            scalar nextNorm = 0;
             kept[j] = norm > 1e-4*before[j] && norm > 1e-16;
-            std::fill_n(R[j], nColumns, scalar(0));
             if (kept[j])
             {
-                takeAlong<j>(1/Foam::sqrt(norm), R[j]);
+                nextNorm = takeAlong<j>(1/Foam::sqrt(norm), R[j]);
+            }
+            else
+            {
+                for (const row& r : rows_)
+                {
+                    nextNorm += sqr(r[j + 1]);
+                }
             }
             reduce
             (
-                before, std::integral_constant<direction, j + 1>(), R, kept
+                before, nextNorm, std::integral_constant<direction, j + 1>(), R,
+                kept
             );
         }
 
         void reduce
         (
-            const FixedList<scalar, nColumns>&,
+            const row&,
+            const scalar,
             const std::integral_constant<direction, nUnknowns>,
-            scalar (*)[nColumns],
+            row*,
             bool*
         )
         {}
 
         //- Normalise a column and take the later ones' parts along it away.
-        //  In the place of a part along itself is the inverse norm.
+        //  In the place of a part along itself is the inverse norm. Returns the
+        //  norm of the next column. Of a pair that begins with the column itself
+        //  what becomes of that is not read again.
         template<direction along>
-        void takeAlong(const scalar inverseNorm, scalar to[nColumns])
+        scalar takeAlong(const scalar inverseNorm, row& to)
         {
-            scalar parts[nColumns] = {};
+            const direction first = (along + 1)/2;
+            row parts = {};
 
-            for (auto& row : rows_)
+            forAll(rows_, i)
             {
-                row[along] *= inverseNorm;
-                for (direction k = along + 1; k < nColumns; ++k)
+                const row& r = rows_[i];
+                const scalar f = r[along]*inverseNorm;
+                const two by = {f, f};
+                along_[i] = f;
+                for (direction p = first; p < nColumns/2; ++p)
                 {
-                    parts[k] += row[along]*row[k];
+                    parts.v[p] += by*r.v[p];
                 }
             }
-            for (auto& row : rows_)
+
+            scalar nextNorm = 0;
+            forAll(rows_, i)
             {
-                for (direction k = along + 1; k < nColumns; ++k)
+                row& r = rows_[i];
+                const two by = {along_[i], along_[i]};
+                for (direction p = first; p < nColumns/2; ++p)
                 {
-                    row[k] -= parts[k]*row[along];
+                    r.v[p] -= parts.v[p]*by;
                 }
+                nextNorm += sqr(r[along + 1]);
             }
-            std::copy_n(parts, nColumns, to);
-            to[along] = inverseNorm;
+
+            to = parts;
+            to.v[along/2][along % 2] = inverseNorm;
+            return nextNorm;
         }
     };
 
@@ -225,6 +263,9 @@ namespace Foam
     {
         const volVectorField& U_;
         const polyMesh& mesh_;
+        const pointField& centres_;
+        const labelListList& pointCells_;
+        const labelListList& cellPoints_;
         const baffleSides& baffles_;
         const pointImages& images_;
         const wallsAtVertices& walls_;
@@ -241,7 +282,7 @@ namespace Foam
         {
             equations_.append
             (
-                (x - mesh_.cellCentres()[celli_])/length_,
+                (x - centres_[celli_])/length_,
                 (m - M_[celli_])/sqr(length_),
                 u - U_[celli_]
             );
@@ -260,7 +301,7 @@ namespace Foam
         {
             const label vertexi = baffles_.vertex(pointi, celli_);
 
-            for (const label other : mesh_.pointCells()[pointi])
+            for (const label other : pointCells_[pointi])
             {
                 if
                 (
@@ -268,7 +309,7 @@ namespace Foam
                  && cells_.take(other)
                 )
                 {
-                    add(mesh_.cellCentres()[other], M_[other], U_[other]);
+                    add(centres_[other], M_[other], U_[other]);
                 }
             }
             for (const label facei : walls_.faces(vertexi))
@@ -290,9 +331,9 @@ namespace Foam
         {
             const tensor T(from.image.turn());
 
-            for (const label other : mesh_.pointCells()[from.point])
+            for (const label other : pointCells_[from.point])
             {
-                const point x(from.image(mesh_.cellCentres()[other]));
+                const point x(from.image(centres_[other]));
                 if
                 (
                     baffles_.vertex(from.point, other) == from.point
@@ -330,6 +371,9 @@ namespace Foam
         :
             U_(U),
             mesh_(U.mesh()),
+            centres_(mesh_.cellCentres()),
+            pointCells_(mesh_.pointCells()),
+            cellPoints_(mesh_.cellPoints()),
             baffles_(baffles),
             images_(images),
             walls_(walls),
@@ -350,7 +394,7 @@ namespace Foam
             faces_.start(celli, length_);
             cells_.take(celli);
 
-            for (const label pointi : mesh_.cellPoints()[celli])
+            for (const label pointi : cellPoints_[celli])
             {
                 addAt(pointi);
                 for (const pointImage& from : images_.at(pointi))
@@ -378,6 +422,8 @@ namespace Foam
 
 Foam::symmTensorField Foam::secondMoments(const polyMesh& mesh)
 {
+    const pointField& points = mesh.points();
+    const pointField& centres = mesh.cellCentres();
     symmTensorField moments(mesh.nCells(), Zero);
     scalarField volumes(mesh.nCells(), Zero);
 
@@ -389,13 +435,13 @@ Foam::symmTensorField Foam::secondMoments(const polyMesh& mesh)
             const label celli =
                 side ? mesh.faceNeighbour()[facei]
               : mesh.faceOwner()[facei];
-            const point& c = mesh.cellCentres()[celli];
+            const point& c = centres[celli];
 
             for (label i = 1; i < f.size() - 1; ++i)
             {
-                const vector a(mesh.points()[f[0]] - c);
-                const vector b(mesh.points()[f[i]] - c);
-                const vector d(mesh.points()[f[i + 1]] - c);
+                const vector a(points[f[0]] - c);
+                const vector b(points[f[i]] - c);
+                const vector d(points[f[i + 1]] - c);
                 const scalar volume = (side ? -1 : 1)*(a & (b ^ d));
 
                 moments[celli] +=

@@ -83,8 +83,11 @@ void Foam::frozenFlow::sampleOf
             return values.vertices[i].pressureGradient;
         };
 
-    copy(c.back(c.value<vector>(gradp)), sample.pressure_gradient);
-    if (derivatives)
+    if (pressure_)
+    {
+        copy(c.back(c.value<vector>(gradp)), sample.pressure_gradient);
+    }
+    if (pressure_ && derivatives)
     {
         copy(c.back(c.derivatives(gradp)), sample.pressure_jacobian);
     }
@@ -284,13 +287,16 @@ Foam::frozenFlow::frozenFlow
     const schemeType scheme,
     const wordRes& unreached,
     const autoPtr<volVectorField>& E,
+    const bool pressure,
     const bool unsteady
 )
 :
     scheme_(scheme),
+    pressure_(pressure),
     unsteady_(unsteady),
     start_(0),
     end_(0),
+    unity_(dividedMesh{tets_, cellTets_, values_.vertices}),
     images_(undecomposed.mesh(), unreached)
 {
     make(undecomposed, E);
@@ -427,7 +433,10 @@ void Foam::frozenFlow::sample
 
     mix(sample.velocity, later.velocity, 3, sample.local_acceleration);
     mix(sample.gradient[0], later.gradient[0], 9, nullptr);
-    mix(sample.pressure_gradient, later.pressure_gradient, 3, nullptr);
+    if (pressure_)
+    {
+        mix(sample.pressure_gradient, later.pressure_gradient, 3, nullptr);
+    }
     if (derivatives)
     {
         mix
@@ -440,6 +449,9 @@ void Foam::frozenFlow::sample
             sample.gradient_jacobian[0][0], later.gradient_jacobian[0][0], 27,
             nullptr
         );
+    }
+    if (pressure_ && derivatives)
+    {
         mix
         (
             sample.pressure_jacobian[0], later.pressure_jacobian[0], 9, nullptr

@@ -11,13 +11,12 @@ Description
     the faces of the mesh, none in sum out of any tetrahedron.
 
 \*---------------------------------------------------------------------------*/
+#include "cellFluxes.H"
 #include "frozenFlow.H"
 #include "mirrorsAtVertices.H"
 #include "pointImages.H"
 #include "cyclicPolyPatch.H"
-#include "tetFlow.H"
 #include "undecomposedFlow.H"
-#include "LLTMatrix.H"
 #include "bitSet.H"
 #include "surfaceFields.H"
 #include "volFields.H"
@@ -82,16 +81,25 @@ namespace Foam
         const bitSet& fixed
     )
     {
+        bool isFixed[4] = {};
+        label nFixed = 0;
+        for (label a = 1; a < 4; ++a)
+        {
+            isFixed[a] = fixed.test(tet.vertices[a]);
+            nFixed += isFixed[a];
+        }
+
         label straight = 0;
         label edgei = 3;
-
-        for (label a = 1; a < 3; ++a)
+        for (label a = 1; nFixed > 1 && a < 3; ++a)
         {
             for (label b = a + 1; b < 4; ++b, ++edgei)
             {
-                const edge e(tet.vertices[a], tet.vertices[b]);
-
-                if (fixed[e.first()] && fixed[e.second()] && edges.found(e))
+                if
+                (
+                    isFixed[a] && isFixed[b]
+                 && edges.found(edge(tet.vertices[a], tet.vertices[b]))
+                )
                 {
                     straight |= 1 << edgei;
                 }
@@ -99,159 +107,6 @@ namespace Foam
         }
 
         return straight;
-    }
-
-    //- What velocity and gradient at the first vertex add to the net flux of
-    //  the quadratic velocity out of a tetrahedron, in units of these
-    static FixedList<scalar, 12> fluxByCentre
-    (
-        const flowTet& tet,
-        const UList<flowVertex>& vertices,
-        const scalar unit,
-        const scalar gradientUnit
-    )
-    {
-        vector edges[4];
-        for (label a = 0; a < 4; ++a)
-        {
-            edges[a] =
-                vertices[tet.vertices[a]].x - vertices[tet.vertices[0]].x;
-        }
-
-        // A third of the areas of the faces, inwards
-        const vector S[4] =
-        {
-            ((edges[2] - edges[1]) ^ (edges[1] - edges[3]))/6,
-            (edges[2] ^ edges[3])/6,
-            (edges[3] ^ edges[1])/6,
-            (edges[1] ^ edges[2])/6
-        };
-        tensor byGradient(Zero);
-        for (label a = 1; a < 4; ++a)
-        {
-            byGradient += (gradientUnit/8)*(S[0] + S[a])*edges[a];
-        }
-
-        FixedList<scalar, 12> flux;
-        for (direction k = 0; k < 3; ++k)
-        {
-            flux[k] = unit*S[0][k];
-        }
-        for (direction k = 0; k < 9; ++k)
-        {
-            flux[3 + k] = byGradient[k];
-        }
-        return flux;
-    }
-
-    //- The flux that is missing in the tetrahedra of a cell, from a first on
-    static scalarField missingIn
-    (
-        const scalarField& volumes,
-        const UList<FixedList<scalar, 4>>& fluxes,
-        const UList<flowTetExcess>& excess,
-        const label first
-    )
-    {
-        scalarField missing(volumes.size());
-
-        forAll(missing, i)
-        {
-            const FixedList<scalar, 4>& flux = fluxes[first + i];
-            missing[i] =
-                -excess[first + i].flux[0]
-              - flux[0] - flux[1] - flux[2] - flux[3];
-        }
-
-        // A flow that is not free of divergence has it everywhere in the cell
-        return missing - sum(missing)/sum(volumes)*volumes;
-    }
-
-    //- Spread the flux that is missing in the tetrahedra of a cell by the least
-    //  fluxes through the faces between them and the least change of velocity
-    //  and gradient at its centre, which makes smaller kinks
-    static void spread
-    (
-        const UList<flowTet>& tets,
-        const UList<FixedList<scalar, 4>>& areas,
-        const scalarField& volumes,
-        const scalarField& missing,
-        const label first,
-        UList<flowTetExcess>& excess,
-        UList<flowVertex>& vertices
-    )
-    {
-        const label n = volumes.size();
-        const scalar volume = sum(volumes);
-        const scalar unit = Foam::sqrt(100/volume);
-        const scalar gradientUnit = Foam::sqrt(1000/volume)/cbrt(volume);
-        List<FixedList<scalar, 12>> byCentre(n);
-        scalarSquareMatrix conductances(n, Zero);
-
-        for (label i = 0; i < n; ++i)
-        {
-            byCentre[i] =
-                fluxByCentre(tets[first + i], vertices, unit, gradientUnit);
-
-            for (label j = 0; j <= i; ++j)
-            {
-                scalar product = 0;
-                for (label k = 0; k < 12; ++k)
-                {
-                    product += byCentre[i][k]*byCentre[j][k];
-                }
-                conductances(i, j) = product;
-                conductances(j, i) = product;
-            }
-        }
-
-        const auto conductance =
-            [&](const label i, const label k)
-            {
-                const label j = tets[first + i].neighbours[k] - first;
-
-                return
-                    sqr(areas[i][k])
-                   /(mag(volumes[i]) + mag(volumes[j]) + VSMALL);
-            };
-
-        for (label i = 0; i < n; ++i)
-        {
-            for (label k = 1; k < 4; ++k)
-            {
-                const label j = tets[first + i].neighbours[k] - first;
-                conductances(i, i) += conductance(i, k);
-                conductances(i, j) -= conductance(i, k);
-            }
-        }
-        conductances(0, 0) *= 2;
-
-        scalarField potential(n);
-        LLTMatrix<scalar>(conductances).solve(potential, missing);
-
-        flowVertex& centre = vertices[tets[first].vertices[0]];
-        for (label i = 0; i < n; ++i)
-        {
-            for (direction k = 0; k < 3; ++k)
-            {
-                centre.u[k] += unit*potential[i]*byCentre[i][k];
-            }
-            for (direction k = 0; k < 9; ++k)
-            {
-                centre.gradient[k] +=
-                    gradientUnit*potential[i]*byCentre[i][3 + k];
-            }
-        }
-
-        for (label i = 0; i < n; ++i)
-        {
-            for (label k = 1; k < 4; ++k)
-            {
-                const label j = tets[first + i].neighbours[k] - first;
-                excess[first + i].flux[k] =
-                    conductance(i, k)*(potential[i] - potential[j]);
-            }
-        }
     }
 
     //- Is the velocity at a patch given, as where the mesh has no third
@@ -336,26 +191,6 @@ namespace Foam
         return values.size() ? values[facei - patches[patchi].start()] : 0;
     }
 
-    //- The velocity in a tetrahedron as it is without bubbles
-    static tetFlow quadraticIn
-    (
-        const flowTet& tet,
-        const UList<flowVertex>& vertices,
-        const flowTetExcess& excess
-    )
-    {
-        tetFlow flow;
-        flow.setQuadratic
-        (
-            [&](const int a) -> const flowVertex&
-            {
-                return vertices[tet.vertices[a]];
-            },
-            excess.straight
-        );
-        return flow;
-    }
-
     //- Mean over a triangle of the velocity that is quadratic on its edges
     static vector meanVelocity
     (
@@ -408,29 +243,27 @@ namespace Foam
         }
     }
 
-    //- For each face of the mesh, of the cell that owns it, the face and the
-    //  first and the end of the tetrahedra at its triangles
+    //- For each face that a mesh cell owns, the face and the first and the end
+    //  of the tetrahedra at its triangles
     template<class Action>
-    static void forFaces
+    static void forOwnedFaces
     (
         const polyMesh& mesh,
         const labelUList& cellTets,
+        const label celli,
         const Action& action
     )
     {
-        for (label celli = 0; celli < mesh.nCells(); ++celli)
+        label teti = cellTets[celli];
+
+        for (const label facei : mesh.cells()[celli])
         {
-            label teti = cellTets[celli];
+            const label first = teti;
+            teti += mesh.faces()[facei].size() - 2;
 
-            for (const label facei : mesh.cells()[celli])
+            if (mesh.faceOwner()[facei] == celli)
             {
-                const label first = teti;
-                teti += mesh.faces()[facei].size() - 2;
-
-                if (mesh.faceOwner()[facei] == celli)
-                {
-                    action(facei, first, teti);
-                }
+                action(facei, first, teti);
             }
         }
     }
@@ -492,13 +325,18 @@ void Foam::frozenFlow::matchFluxes
             }
 
             const vector n(area/mag(area));
+            const symmTensor along(sqr(n));
+            const vector lacks((flux/mag(area))*n);
             for (const label i : corners)
             {
-                normals[i] += sqr(n);
-                missing[i] += (flux/mag(area))*n;
+                normals[i] += along;
+                missing[i] += lacks;
             }
         };
-    forFaces(mesh, cellTets_, compare);
+    for (label celli = 0; celli < mesh.nCells(); ++celli)
+    {
+        forOwnedFaces(mesh, cellTets_, celli, compare);
+    }
     images.add(normals, mesh.nCells());
     images.add(missing, mesh.nCells());
 
@@ -527,72 +365,32 @@ void Foam::frozenFlow::makeExcess
     );
     matchFluxes(undecomposed, images, fixed);
 
-    List<FixedList<scalar, 4>> areas(tets_.size());
-    List<FixedList<scalar, 4>> fluxes(tets_.size());
-    scalarField volumes(tets_.size());
-
-    forAll(tets_, teti)
-    {
-        const flowTet& tet = tets_[teti];
-        values_.excess[teti] =
-            flowTetExcess{{0, 0, 0, 0}, straightEdges(tet, edges, fixed)};
-
-        tetCoordinates c;
-        setCoordinates(teti, values_.vertices[tet.vertices[0]].x, c);
-        const tetFlow flow
-        (
-            quadraticIn(tet, values_.vertices, values_.excess[teti])
-        );
-        volumes[teti] = flow.volume();
-
-        for (label i = 0; i < 4; ++i)
-        {
-            areas[teti][i] = 3*mag(flow.volume()*c.gradient[i]);
-            fluxes[teti][i] = flow.quadraticFlux(c.gradient, i);
-        }
-    }
-
-    // Through the faces of the mesh, as to their triangles' areas
-    const auto share =
-        [&](const label facei, const label first, const label end)
-        {
-            scalar missing = fluxThrough(undecomposed.phi(), facei);
-            scalar area = 0;
-
-            for (label i = first; i < end; ++i)
-            {
-                area += areas[i][0];
-                missing -= fluxes[i][0];
-            }
-            for (label i = first; i < end; ++i)
-            {
-                values_.excess[i].flux[0] = missing*areas[i][0]/area;
-
-                if (tets_[i].neighbours[0] >= 0)
-                {
-                    values_.excess[tets_[i].neighbours[0]].flux[0] =
-                        -values_.excess[i].flux[0];
-                }
-            }
-        };
-    forFaces(mesh, cellTets_, share);
-
+    cellFluxes fluxes(tets_, values_.vertices, values_.excess);
     for (label celli = 0; celli < mesh.nCells(); ++celli)
     {
         const label first = cellTets_[celli];
-        const label n = cellTets_[celli + 1] - first;
-        const scalarField cellVolumes(SubField<scalar>(volumes, n, first));
+        const label end = cellTets_[celli + 1];
 
-        spread
+        for (label teti = first; teti < end; ++teti)
+        {
+            values_.excess[teti].straight =
+                straightEdges(tets_[teti], edges, fixed);
+        }
+        fluxes.take(first, end - first);
+
+        // An owner is the lower of two mesh cells, so what comes through the
+        // other faces is there
+        forOwnedFaces
         (
-            tets_,
-            SubList<FixedList<scalar, 4>>(areas, n, first),
-            cellVolumes,
-            missingIn(cellVolumes, fluxes, values_.excess, first),
-            first,
-            values_.excess,
-            values_.vertices
+            mesh,
+            cellTets_,
+            celli,
+            [&](const label facei, const label from, const label to)
+            {
+                fluxes.share(fluxThrough(undecomposed.phi(), facei), from, to);
+            }
         );
+        fluxes.spread();
     }
 }
 

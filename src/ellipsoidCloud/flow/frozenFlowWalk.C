@@ -36,16 +36,7 @@ void Foam::frozenFlow::setCoordinates
             values_.vertices[c.vertices[3]].x - c.origin
         };
 
-        // A flat tetrahedron holds nothing, but the walk has to get through it
-        const scalar volume = edges[0] & (edges[1] ^ edges[2]);
-        const scalar inverseVolume = 1/(volume != 0 ? volume : 1e-40);
-
-        c.gradient[0] = Zero;
-        for (int a = 1; a < 4; ++a)
-        {
-            c.gradient[a] = inverseVolume*(edges[a % 3] ^ edges[(a + 1) % 3]);
-            c.gradient[0] -= c.gradient[a];
-        }
+        tetFlow::setCoordinateGradients(edges, c.gradient);
     }
 
     c.weight[0] = 1;

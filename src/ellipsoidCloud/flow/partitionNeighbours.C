@@ -6,14 +6,10 @@ License
     SPDX-License-Identifier: GPL-3.0-or-later
     See COPYING at the top of the source tree.
 
-Description
-    What has a weight in each mesh cell, found on the master
-    (partitionOfUnity.H).
-
 \*---------------------------------------------------------------------------*/
-#include "partitionOfUnity.H"
+#include "partitionNeighbours.H"
+#include "frozenFlow.H"
 #include "partitionCells.H"
-#include "polyMesh.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -32,19 +28,32 @@ namespace Foam
         //- The larger of each
         vector half;
 
-        void set
+        extentOf
         (
-            const UList<point>& all,
-            const UList<label>& labels,
+            const dividedMesh& mesh,
+            const label celli,
             const point& centre
         )
         {
-            points.clear();
+            DynamicList<label> corners;
+            const label end = mesh.cellTets[celli + 1];
+            for (label teti = mesh.cellTets[celli]; teti < end; ++teti)
+            {
+                for (label a = 1; a < 4; ++a)
+                {
+                    const label vertexi = mesh.tets[teti].vertices[a];
+                    if (!corners.found(vertexi))
+                    {
+                        corners.append(vertexi);
+                    }
+                }
+            }
+
             size = 0;
             ends[0] = ends[1] = Zero;
-            for (const label pointi : labels)
+            for (const label vertexi : corners)
             {
-                const vector r(all[pointi] - centre);
+                const vector r(mesh.vertices[vertexi].x - centre);
                 points.append(r);
                 size = max(size, mag(r));
                 ends[0] = min(ends[0], r);
@@ -136,59 +145,6 @@ namespace Foam
             cmptProduct(diagonal) > cmptProduct(sphere) ? diagonal : sphere;
     }
 
-    //- What a support lies within, close together in memory
-    struct supportBounds
-    {
-        point x;
-        scalar radius;
-        vector form;
-    };
-
-    static List<supportBounds> boundsOf(const UList<weightSupport>& supports)
-    {
-        List<supportBounds> bounds(supports.size());
-        forAll(bounds, i)
-        {
-            bounds[i] = supportBounds
-            {
-                supports[i].x,
-                Foam::sqrt(supports[i].farthest),
-                formBelow(supports[i])
-            };
-        }
-        return bounds;
-    }
-
-    //- Note the octants in which the next source of a mesh cell has a weight
-    static inline void note
-    (
-        weightsNear& near,
-        const label source,
-        const unsigned octants,
-        DynamicList<label>& sources,
-        DynamicList<uint64_t>& masks
-    )
-    {
-        if (!octants)
-        {
-            return;
-        }
-        if (near.n % 64 == 0)
-        {
-            for (unsigned o = 0; o < 8; ++o)
-            {
-                masks.append(uint64_t(0));
-            }
-        }
-        uint64_t* of = masks.data() + near.firstMask + 8*(near.n/64);
-        for (unsigned o = 0; o < 8; ++o)
-        {
-            of[o] |= uint64_t(octants >> o & 1) << near.n % 64;
-        }
-        sources.append(source);
-        ++near.n;
-    }
-
     //- The octants of a mesh cell about x in which a triangle has a weight
     static unsigned octantsOf
     (
@@ -214,7 +170,134 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::labelList Foam::partitionOfUnity::firstTriangles
+void Foam::partitionNeighbours::note
+(
+    weightsNear& near,
+    const label source,
+    const unsigned octants
+) const
+{
+    if (!octants)
+    {
+        return;
+    }
+    if (near.n % 64 == 0)
+    {
+        for (unsigned o = 0; o < 8; ++o)
+        {
+            masks_.append(uint64_t(0));
+        }
+    }
+    uint64_t* of = masks_.data() + near.firstMask + 8*(near.n/64);
+    for (unsigned o = 0; o < 8; ++o)
+    {
+        of[o] |= uint64_t(octants >> o & 1) << near.n % 64;
+    }
+    sources_.append(source);
+    ++near.n;
+}
+
+
+void Foam::partitionNeighbours::find(const label celli) const
+{
+    const point& x = supports_[celli].x;
+    const extentOf extent(mesh_, celli, x);
+
+    weightsNear near = {sources_.size(), 0, 0, masks_.size()};
+    listed_.setSize(supports_.size(), -1);
+    listed_[celli] = celli;
+    queue_.clear();
+    queue_.append(celli);
+    reaching_.clear();
+
+    for (label i = 0; i < queue_.size(); ++i)
+    {
+        const label other = queue_[i];
+        const supportBounds& bounds = bounds_[other];
+        const vector d(bounds.x - x);
+        if
+        (
+            magSqr(d) >= sqr(bounds.radius + extent.size)
+         || !extent.reached(supports_[other].metric, d)
+        )
+        {
+            continue;
+        }
+
+        reaching_.append(other);
+        note(near, other, extent.octants(d, d, bounds.form, 1));
+
+        for (label k = start_[other]; k < start_[other + 1]; ++k)
+        {
+            const label next = around_[k];
+            if (listed_[next] != celli)
+            {
+                listed_[next] = celli;
+                queue_.append(next);
+            }
+        }
+    }
+
+    near.nCells = near.n;
+    for (const label other : reaching_)
+    {
+        const label end = firstTriangle_[other + 1];
+        for (label i = firstTriangle_[other]; i < end; ++i)
+        {
+            note(near, i, octantsOf(triangles_[i], x, extent));
+        }
+    }
+
+    place_[celli] = found_.size();
+    found_.append(near);
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::partitionNeighbours::partitionNeighbours
+(
+    const dividedMesh& mesh,
+    const UList<weightSupport>& supports,
+    const UList<wallTriangle>& triangles
+)
+:
+    mesh_(mesh),
+    supports_(supports),
+    triangles_(triangles)
+{}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::partitionNeighbours::make(const partitionCells* cells)
+{
+    labelList first;
+    List<supportBounds> bounds;
+    if (cells)
+    {
+        first = firstTriangles(cells->size(), triangles_);
+        bounds.setSize(cells->size());
+        forAll(bounds, i)
+        {
+            bounds[i] = supportBounds
+            {
+                supports_[i].x,
+                Foam::sqrt(supports_[i].farthest),
+                formBelow(supports_[i])
+            };
+        }
+    }
+    bounds_.fill(bounds);
+    firstTriangle_.fill(first);
+    start_.fill(cells ? cells->starts() : labelUList());
+    around_.fill(cells ? cells->allAround() : labelUList());
+
+    place_ = labelList(mesh_.cellTets.size() - 1, -1);
+}
+
+
+Foam::labelList Foam::partitionNeighbours::firstTriangles
 (
     const label n,
     const UList<wallTriangle>& triangles
@@ -230,77 +313,6 @@ Foam::labelList Foam::partitionOfUnity::firstTriangles
         first[celli] = i;
     }
     return first;
-}
-
-
-void Foam::partitionOfUnity::findNear
-(
-    const polyMesh& mesh,
-    const partitionCells& cells,
-    const UList<wallTriangle>& triangles,
-    DynamicList<label>& sources,
-    DynamicList<uint64_t>& masks
-)
-{
-    const labelList firstOf(firstTriangles(cells.size(), triangles));
-    const List<supportBounds> bounds(boundsOf(supports_));
-    const labelListList& cellPoints = mesh.cellPoints();
-    const pointField& points = mesh.points();
-    labelList listed(cells.size(), -1);
-    DynamicList<label> found;
-    DynamicList<label> reaching;
-    extentOf extent;
-
-    forAll(cellPoints, celli)
-    {
-        const point& x = supports_[celli].x;
-        extent.set(points, cellPoints[celli], x);
-
-        weightsNear& near = near_[celli];
-        near = weightsNear{sources.size(), 0, 0, masks.size()};
-        reaching.clear();
-        found.clear();
-        found.append(celli);
-        listed[celli] = celli;
-
-        for (label i = 0; i < found.size(); ++i)
-        {
-            const label other = found[i];
-            const vector d(bounds[other].x - x);
-            if
-            (
-                magSqr(d) >= sqr(bounds[other].radius + extent.size)
-             || !extent.reached(supports_[other].metric, d)
-            )
-            {
-                continue;
-            }
-
-            reaching.append(other);
-            const unsigned octants =
-                extent.octants(d, d, bounds[other].form, 1);
-            note(near, other, octants, sources, masks);
-
-            for (const label next : cells.around(other))
-            {
-                if (listed[next] != celli)
-                {
-                    listed[next] = celli;
-                    found.append(next);
-                }
-            }
-        }
-
-        near.nCells = near.n;
-        for (const label other : reaching)
-        {
-            for (label i = firstOf[other]; i < firstOf[other + 1]; ++i)
-            {
-                const unsigned octants = octantsOf(triangles[i], x, extent);
-                note(near, i, octants, sources, masks);
-            }
-        }
-    }
 }
 
 

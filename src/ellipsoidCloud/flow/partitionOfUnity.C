@@ -111,9 +111,7 @@ namespace Foam
 
 Foam::DynamicList<Foam::wallTriangle> Foam::partitionOfUnity::findTriangles
 (
-    const polyMesh& mesh,
-    const UList<flowTet>& tets,
-    const UList<flowVertex>& vertices
+    const polyMesh& mesh
 )
 {
     DynamicList<wallTriangle> triangles;
@@ -140,7 +138,8 @@ Foam::DynamicList<Foam::wallTriangle> Foam::partitionOfUnity::findTriangles
                 wallTriangle t;
                 for (label k = 0; k < 3; ++k)
                 {
-                    t.corners[k] = vertices[tets[teti].vertices[k + 1]].x;
+                    const label vertexi = mesh_.tets[teti].vertices[k + 1];
+                    t.corners[k] = mesh_.vertices[vertexi].x;
                 }
                 t.normal =
                     (t.corners[1] - t.corners[0])
@@ -183,7 +182,10 @@ Foam::DynamicList<Foam::wallTriangle> Foam::partitionOfUnity::findTriangles
 void Foam::partitionOfUnity::addImages(DynamicList<wallTriangle>& triangles)
 {
     const label nCells = moments_.size();
-    const labelList firstOf(firstTriangles(nCells, triangles));
+    const labelList firstOf
+    (
+        partitionNeighbours::firstTriangles(nCells, triangles)
+    );
 
     forAll(images_, i)
     {
@@ -267,14 +269,10 @@ void Foam::partitionOfUnity::make
 (
     const polyMesh* mesh,
     const baffleSides* baffles,
-    const domainImages& images,
-    const UList<flowTet>& tets,
-    const UList<flowVertex>& vertices
+    const domainImages& images
 )
 {
     DynamicList<wallTriangle> triangles;
-    DynamicList<label> sources;
-    DynamicList<uint64_t> masks;
     autoPtr<partitionCells> cells;
 
     if (mesh)
@@ -283,7 +281,6 @@ void Foam::partitionOfUnity::make
         cells.reset(new partitionCells(*mesh, *baffles, images));
     }
     supports_.reset(mesh ? cells->size() : 0);
-    near_.reset(mesh ? mesh->nCells() : 0);
 
     if (mesh)
     {
@@ -292,18 +289,15 @@ void Foam::partitionOfUnity::make
         moments_ = secondMoments(*mesh);
         images_ = cells->images();
         nFits_ = cells->size();
-        triangles = findTriangles(*mesh, tets, vertices);
+        triangles = findTriangles(*mesh);
         addImages(triangles);
         setSupports(*mesh);
-        findNear(*mesh, *cells, triangles, sources, masks);
     }
 
     broadcast(nFits_);
     triangles_.fill(triangles);
-    sources_.fill(sources);
-    masks_.fill(masks);
     supports_.share();
-    near_.share();
+    neighbours_.make(cells.get());
 }
 
 
@@ -361,11 +355,11 @@ Foam::weightedSums Foam::partitionOfUnity::sumsAt
     const point& x
 ) const
 {
-    const weightsNear& near = near_[celli];
-    const label* sources = sources_.cdata() + near.first;
+    const weightsNear& near = neighbours_.in(celli);
+    const label* sources = neighbours_.sources(near);
     const vector r(x - supports_[celli].x);
     const int octant = (r.x() >= 0) + 2*(r.y() >= 0) + 4*(r.z() >= 0);
-    const uint64_t* mask = masks_.cdata() + near.firstMask + octant;
+    const uint64_t* mask = neighbours_.masks(near) + octant;
     weightedSums sums = {};
     weightAt w;
 

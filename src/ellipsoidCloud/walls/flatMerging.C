@@ -46,6 +46,12 @@ class flatMerging
         //- Triangles at each point
         List<DynamicList<label>> pointTriangles_;
 
+        //- The points around one that may be moved and its targets; and those
+        //  around a target
+        DynamicList<label> around_;
+        DynamicList<label> targets_;
+        DynamicList<label> aroundTarget_;
+
 
     // Private Member Functions
 
@@ -58,10 +64,10 @@ class flatMerging
              && mag(normals_[a] ^ normals_[b]) < flatAngle;
         }
 
-        //- The points that share a triangle with a point
-        DynamicList<label> around(const label pointi) const
+        //- Set the points that share a triangle with a point
+        void setAround(const label pointi, DynamicList<label>& points) const
         {
-            DynamicList<label> points;
+            points.clear();
 
             for (const label trii : pointTriangles_[pointi])
             {
@@ -73,52 +79,58 @@ class flatMerging
                     }
                 }
             }
-
-            return points;
         }
 
-        //- The points that a point may be moved to by what the surface is like
-        //  around it; none at corners
-        DynamicList<label> targets(const label pointi) const
+        //- Set the points around a point, and those that it may be moved to by
+        //  what the surface is like around it; none at corners
+        void setTargets(const label pointi)
         {
-            const DynamicList<label> points(around(pointi));
-            DynamicList<label> creases;
+            setAround(pointi, around_);
+            targets_.clear();
 
-            for (const label other : points)
+            for (const label other : around_)
             {
-                DynamicList<label> sharing;
+                label sharing[2] = {-1, -1};
+                label n = 0;
                 for (const label trii : pointTriangles_[pointi])
                 {
                     if (triangles_[trii].found(other))
                     {
-                        sharing.append(trii);
+                        sharing[min(n, label(1))] = trii;
+                        ++n;
                     }
                 }
 
-                if (sharing.size() > 2)
+                if (n > 2)
                 {
-                    return DynamicList<label>();
+                    targets_.clear();
+                    return;
                 }
-                if (sharing.size() == 1 || !flat(sharing[0], sharing[1]))
+                if (n == 1 || !flat(sharing[0], sharing[1]))
                 {
-                    creases.append(other);
+                    targets_.append(other);
                 }
             }
 
-            if (creases.size() == 2)
+            if (targets_.empty())
+            {
+                targets_ = around_;
+                return;
+            }
+
+            // Along a straight crease
+            bool straight = false;
+            if (targets_.size() == 2)
             {
                 const point& x = points_[pointi];
-                const vector a(normalised(points_[creases[0]] - x));
-                const vector b(normalised(points_[creases[1]] - x));
-
-                // Along a straight crease
-                if ((a & b) < 0 && mag(a ^ b) < flatAngle)
-                {
-                    return creases;
-                }
+                const vector a(normalised(points_[targets_[0]] - x));
+                const vector b(normalised(points_[targets_[1]] - x));
+                straight = (a & b) < 0 && mag(a ^ b) < flatAngle;
             }
-
-            return creases.empty() ? points : DynamicList<label>();
+            if (!straight)
+            {
+                targets_.clear();
+            }
         }
 
         //- Longest edge of a triangle if its point is moved to another, or
@@ -152,13 +164,14 @@ class flatMerging
         }
 
         //- Longest edge if the point is moved to another, or GREAT if the
-        //  surface would not stay what it is or that is no less than another
+        //  surface would not stay what it is or that is no less than another.
+        //  The points around it are set.
         scalar cost
         (
             const label pointi,
             const label target,
             const scalar other
-        ) const
+        )
         {
             scalar longest = 0;
             label nShared = 0;
@@ -182,10 +195,10 @@ class flatMerging
 
             // Points next to both are those of the shared triangles, or the
             // surface would fold onto itself
-            const DynamicList<label> aroundTarget(around(target));
-            for (const label other : around(pointi))
+            setAround(target, aroundTarget_);
+            for (const label next : around_)
             {
-                nCommon += aroundTarget.found(other);
+                nCommon += aroundTarget_.found(next);
             }
 
             const label nTriangles =
@@ -279,7 +292,8 @@ public:
                 scalar best = GREAT;
                 label bestTarget = -1;
 
-                for (const label target : targets(pointi))
+                setTargets(pointi);
+                for (const label target : targets_)
                 {
                     const scalar c = cost(pointi, target, best);
 

@@ -98,7 +98,7 @@ Foam::List<Foam::narrowGap> Foam::narrowestGaps
     box.inflate(1e-3);
     const indexedOctree<treeDataFace> faces
     (
-        treeDataFace(true, mesh, limits), box, 8, 10, 3
+        treeDataFace(true, mesh, limits), box, 8, 40, 3
     );
 
     List<narrowGap> gaps(patches.size(), narrowGap{GREAT, Zero, GREAT});

@@ -530,6 +530,7 @@ int main(int argc, char *argv[])
         ],
         wordRes(),
         nullptr,
+        false,
         false
     );
     flow.renew(undecomposed, 997.5);

@@ -1,0 +1,311 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "cellFluxes.H"
+#include "tetFlow.H"
+
+#include <algorithm>
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::cellFluxes::setByCentre
+(
+    const scalar unit,
+    const scalar gradientUnit
+)
+{
+    byCentre_.setSize(nCentre*nPairs_);
+    for (direction k = 0; k < nCentre; ++k)
+    {
+        byCentre_[(k + 1)*nPairs_ - 1] = two{0, 0};
+    }
+    scalar* byCentre = numbers(byCentre_);
+    const label stride = 2*nPairs_;
+
+    for (label i = 0; i < n_; ++i)
+    {
+        const flowTet& tet = tets_[first_ + i];
+        const point& origin = vertices_[tet.vertices[0]].x;
+        vector edges[4];
+        for (label a = 0; a < 4; ++a)
+        {
+            edges[a] = vertices_[tet.vertices[a]].x - origin;
+        }
+
+        // A third of the areas of the faces, inwards
+        const vector S[4] =
+        {
+            ((edges[2] - edges[1]) ^ (edges[1] - edges[3]))/6,
+            (edges[2] ^ edges[3])/6,
+            (edges[3] ^ edges[1])/6,
+            (edges[1] ^ edges[2])/6
+        };
+        tensor byGradient(Zero);
+        for (label a = 1; a < 4; ++a)
+        {
+            byGradient += (gradientUnit/8)*(S[0] + S[a])*edges[a];
+        }
+
+        for (direction k = 0; k < 3; ++k)
+        {
+            byCentre[k*stride + i] = unit*S[0][k];
+        }
+        for (direction k = 0; k < 9; ++k)
+        {
+            byCentre[(3 + k)*stride + i] = byGradient[k];
+        }
+    }
+}
+
+
+void Foam::cellFluxes::setColumns()
+{
+    columns_.setSize(n_*nPairs_);
+    scalar* columns = numbers(columns_);
+    const label stride = 2*nPairs_;
+
+    for (label j = 0; j < n_; ++j)
+    {
+        two factors[nCentre];
+        for (direction k = 0; k < nCentre; ++k)
+        {
+            const scalar factor = byCentre_[k*nPairs_ + j/2][j % 2];
+            factors[k] = two{factor, factor};
+        }
+
+        for (label p = j/2; p < nPairs_; ++p)
+        {
+            two sum = {0, 0};
+            for (direction k = 0; k < nCentre; ++k)
+            {
+                sum += byCentre_[k*nPairs_ + p]*factors[k];
+            }
+            columns_[j*nPairs_ + p] = sum;
+        }
+    }
+
+    for (label i = 0; i < n_; ++i)
+    {
+        for (label k = 1; k < 4; ++k)
+        {
+            const label j = tets_[first_ + i].neighbours[k] - first_;
+            const scalar conductance =
+                sqr(of_[i].areas[k])
+               /(mag(of_[i].volume) + mag(of_[j].volume) + VSMALL);
+
+            conductances_[i][k - 1] = conductance;
+            columns[i*stride + i] += conductance;
+            if (j < i)
+            {
+                columns[j*stride + i] -= conductance;
+            }
+        }
+    }
+    columns[0] *= 2;
+}
+
+
+void Foam::cellFluxes::solve()
+{
+    scalar* x = numbers(missing_);
+
+    // Each column is taken from all later ones, and from the right-hand side
+    for (label k = 0; k < n_; ++k)
+    {
+        two* column = columns_.data() + k*nPairs_;
+        scalar& diagonal = numbers(columns_)[2*k*nPairs_ + k];
+        if (!(diagonal > 0))
+        {
+            FatalErrorInFunction
+                << "the fluxes about "
+                << vertices_[tets_[first_].vertices[0]].x
+                << " cannot be balanced: checkMesh says more"
+                << exit(FatalError);
+        }
+
+        const scalar root = Foam::sqrt(diagonal);
+        const two roots = {root, root};
+        for (label p = k/2; p < nPairs_; ++p)
+        {
+            column[p] /= roots;
+        }
+        diagonal = root;
+
+        x[k] /= root;
+        const two known = {x[k], x[k]};
+        if (k % 2 == 0)
+        {
+            x[k + 1] -= column[k/2][1]*x[k];
+        }
+        for (label p = k/2 + 1; p < nPairs_; ++p)
+        {
+            missing_[p] -= column[p]*known;
+        }
+
+        for (label j = k + 1; j < n_; ++j)
+        {
+            two* later = columns_.data() + j*nPairs_;
+            const scalar factor = column[j/2][j % 2];
+            const two factors = {factor, factor};
+            for (label p = j/2; p < nPairs_; ++p)
+            {
+                later[p] -= column[p]*factors;
+            }
+        }
+    }
+
+    for (label i = n_; i-- > 0;)
+    {
+        const scalar* column = numbers(columns_) + 2*i*nPairs_;
+        scalar sum = x[i];
+        for (label j = i + 1; j < n_; ++j)
+        {
+            sum -= column[j]*x[j];
+        }
+        x[i] = sum/column[i];
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::cellFluxes::cellFluxes
+(
+    const UList<flowTet>& tets,
+    UList<flowVertex>& vertices,
+    UList<flowTetExcess>& excess
+)
+:
+    tets_(tets),
+    vertices_(vertices),
+    excess_(excess),
+    first_(0),
+    n_(0),
+    nPairs_(0)
+{}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::cellFluxes::take(const label first, const label n)
+{
+    first_ = first;
+    n_ = n;
+    nPairs_ = (n + 1)/2;
+    of_.setSize(n);
+    missing_.setSize(nPairs_);
+    conductances_.setSize(n);
+
+    for (label i = 0; i < n; ++i)
+    {
+        const flowTet& tet = tets_[first + i];
+        const auto vertex =
+            [&](const int a) -> const flowVertex&
+            {
+                return vertices_[tet.vertices[a]];
+            };
+
+        tetFlow flow;
+        flow.setQuadratic(vertex, excess_[first + i].straight);
+        tetFluxes& of = of_[i];
+        vector g[4];
+        flow.coordinateGradients(g);
+        flow.quadraticFluxes(g, of.fluxes);
+        of.volume = flow.volume();
+        for (label k = 0; k < 4; ++k)
+        {
+            of.areas[k] = 3*mag(of.volume*g[k]);
+        }
+    }
+}
+
+
+void Foam::cellFluxes::share
+(
+    scalar flux,
+    const label first,
+    const label end
+)
+{
+    scalar area = 0;
+    for (label teti = first; teti < end; ++teti)
+    {
+        area += of_[teti - first_].areas[0];
+        flux -= of_[teti - first_].fluxes[0];
+    }
+
+    for (label teti = first; teti < end; ++teti)
+    {
+        const scalar part = flux*of_[teti - first_].areas[0]/area;
+        const label other = tets_[teti].neighbours[0];
+
+        excess_[teti].flux[0] = part;
+        if (other >= 0)
+        {
+            excess_[other].flux[0] = -part;
+        }
+    }
+}
+
+
+void Foam::cellFluxes::spread()
+{
+    missing_[nPairs_ - 1] = two{0, 0};
+    scalar* missing = numbers(missing_);
+    scalar volume = 0;
+    scalar net = 0;
+    for (label i = 0; i < n_; ++i)
+    {
+        const scalar* flux = of_[i].fluxes;
+        missing[i] =
+            -excess_[first_ + i].flux[0]
+          - flux[0] - flux[1] - flux[2] - flux[3];
+        net += missing[i];
+        volume += of_[i].volume;
+    }
+
+    // A flow that is not free of divergence has it everywhere in the mesh cell
+    const scalar divergence = net/volume;
+    for (label i = 0; i < n_; ++i)
+    {
+        missing[i] -= divergence*of_[i].volume;
+    }
+
+    const scalar unit = Foam::sqrt(100/volume);
+    const scalar gradientUnit = Foam::sqrt(1000/volume)/cbrt(volume);
+    setByCentre(unit, gradientUnit);
+    setColumns();
+    solve();
+
+    const scalar* byCentre = numbers(byCentre_);
+    const label stride = 2*nPairs_;
+    flowVertex& centre = vertices_[tets_[first_].vertices[0]];
+    for (label i = 0; i < n_; ++i)
+    {
+        for (direction k = 0; k < 3; ++k)
+        {
+            centre.u[k] += unit*missing[i]*byCentre[k*stride + i];
+        }
+        for (direction k = 0; k < 9; ++k)
+        {
+            centre.gradient[k] +=
+                gradientUnit*missing[i]*byCentre[(3 + k)*stride + i];
+        }
+
+        for (label k = 1; k < 4; ++k)
+        {
+            const label j = tets_[first_ + i].neighbours[k] - first_;
+            excess_[first_ + i].flux[k] =
+                conductances_[i][k - 1]*(missing[i] - missing[j]);
+        }
+    }
+}
+
+
+// ************************************************************************* //
