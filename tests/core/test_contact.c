@@ -355,6 +355,33 @@ static void test_along_a_wall(void **unused)
     wall_mesh_free(&mesh);
 }
 
+/* R(q) shrinks by q.q: to a point, where squares of that are not numbers. */
+static void test_shrunk_to_a_point(void **unused)
+{
+    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_model model = test_model(&options);
+    const double radius = options.bead_radius;
+    const double x[3] = {-2 * um, 1 * um, 0.5 * radius};
+    wall_mesh mesh = room_of(0);
+    counted_walls walls = {.mesh = &mesh};
+    const ellipsoid_surroundings surroundings = around(&walls);
+    static ellipsoid_facet_cache cache;
+
+    (void)unused;
+    for (double turn = 1e-10; turn > 1e-110; turn *= 1e-10)
+    {
+        const double q[4] = {0, 0, 0, turn};
+        ellipsoid_contact contact;
+
+        ellipsoid_facet_cache_clear(&cache);
+        assert_ok(
+            evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
+        assert_int_equal(contact.bead_contacts, model.bead_count);
+        assert_relative(contact.gap, -0.5 * radius, 1e-12);
+    }
+    wall_mesh_free(&mesh);
+}
+
 static void test_no_walls(void **unused)
 {
     ellipsoid_options options = ellipsoid_options_default();
@@ -482,6 +509,7 @@ int main(void)
         cmocka_unit_test(test_jacobian_is_exact),
         cmocka_unit_test(test_far_from_walls),
         cmocka_unit_test(test_along_a_wall),
+        cmocka_unit_test(test_shrunk_to_a_point),
         cmocka_unit_test(test_no_walls),
         cmocka_unit_test(test_failures_have_names),
         cmocka_unit_test(test_touched_surfaces),

@@ -64,7 +64,8 @@ static ellipsoid_bead bead_of(const ellipsoid_wall_contact *at, int b)
 }
 
 /* Looks for gaps below `range`, which is no more than the smallest so far, and
-   for contacts; returns how many of these there are. clear: how far beyond the bead no facet is, as its move tells */
+   for contacts; returns how many of these there are. clear: how far beyond the
+   bead no facet is, as its move tells */
 static int look_at_bead(ellipsoid_wall_contact *at,
                         const ellipsoid_facet_cache *cache, int b,
                         double clear, double range)

@@ -187,8 +187,9 @@ static double longest_step(const ellipsoid_cell *p,
 
 /*
     Sets *step to a first step. With inertia it resolves the relaxation.
-    Without, or on the slow manifold, the times in which q turns and in which the slopes change say how
-    long it may be; the latter from a short way along the slopes.
+    Without, or on the slow manifold, the times in which q turns and in which the
+    slopes change say how long it may be; the latter from a short way along the
+    slopes.
 */
 ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double t, double end,
                                       double *step)

@@ -66,12 +66,18 @@ static void set_beads(const ellipsoid_model *model, bead_set *beads)
     }
 }
 
-/* The square of how far a point is from the box that holds the beads. */
+/* The square of how far a point is from the box that holds the beads, or less.
+   Where squares of the stretch leave the range of numbers, the box is a point,
+   or all there is. */
 static inline double squared_from_box(const bead_set *beads, const double d[3])
 {
     const double squared = beads->stretch * beads->stretch;
     double sum = 0;
 
+    if (!(squared > 1e-200 && squared < 1e200))
+    {
+        return beads->stretch < 1 ? ellipsoid_dot(d, d) : 0;
+    }
     for (int i = 0; i < 3; i++)
     {
         const double along = beads->rotation[0][i] * d[0]

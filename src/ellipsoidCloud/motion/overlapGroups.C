@@ -69,7 +69,7 @@ static DynamicList<labelPair> pairsOf(const UList<boundBox>& boxes)
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
-Foam::DynamicList<Foam::overlapGroups::meeting>
+Foam::DynamicList<Foam::overlapGroups::overlap>
 Foam::overlapGroups::overlapping
 (
     const UList<boundBox>& boxes,
@@ -77,7 +77,7 @@ Foam::overlapGroups::overlapping
 )
 {
     DynamicList<boundBox> all(boxes);
-    DynamicList<meeting> images;
+    DynamicList<overlap> images;
     boundBox extent(boundBox::invertedBox);
     for (const boundBox& box : boxes)
     {
@@ -92,19 +92,19 @@ Foam::overlapGroups::overlapping
             if (image.overlaps(extent))
             {
                 all.append(image);
-                images.append(meeting{labelPair(i, i), by});
+                images.append(overlap{labelPair(i, i), by});
             }
         }
     }
 
-    DynamicList<meeting> found;
+    DynamicList<overlap> found;
     for (const labelPair& pair : pairsOf(all))
     {
         const label image = pair.second() - boxes.size();
 
         if (image < 0)
         {
-            found.append(meeting{pair, Zero});
+            found.append(overlap{pair, Zero});
         }
         else if
         (
@@ -114,7 +114,7 @@ Foam::overlapGroups::overlapping
         {
             found.append
             (
-                meeting
+                overlap
                 {
                     labelPair(pair.first(), images[image].items.first()),
                     images[image].moved
