@@ -285,7 +285,7 @@ Foam::frozenFlow::frozenFlow
 (
     const undecomposedFlow& undecomposed,
     const schemeType scheme,
-    const wordRes& unreached,
+    const labelHashSet& unreached,
     const autoPtr<volVectorField>& E,
     const bool pressure,
     const bool unsteady

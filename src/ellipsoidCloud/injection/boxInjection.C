@@ -52,10 +52,6 @@ class boxInjection
 
 public:
 
-    //- Runtime type information
-    TypeName("box");
-
-
     // Constructors
 
         //- Construct from its dictionary
@@ -79,12 +75,10 @@ public:
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
-defineTypeNameAndDebug(boxInjection, 0);
-
 static const cellInjection::addType<boxInjection> addBoxInjection
-({
-    "number", "rate", "min", "max"
-});
+(
+    "box", {"number", "rate", "min", "max"}
+);
 
 } // End namespace Foam
 

@@ -16,9 +16,6 @@ License
 
 namespace Foam
 {
-    defineTypeNameAndDebug(cellInjection, 0);
-    defineRunTimeSelectionTable(cellInjection, dictionary);
-
     //- End the run if the core could not answer about a cell
     static void check(const cellState& cell, const ellipsoid_status status)
     {
@@ -34,10 +31,11 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::HashTable<Foam::wordList>& Foam::cellInjection::keywords()
+Foam::HashTable<Foam::cellInjection::injectionType>&
+Foam::cellInjection::types()
 {
     // Made when the first type is added, before main()
-    static HashTable<wordList> table;
+    static HashTable<injectionType> table;
 
     return table;
 }
@@ -151,13 +149,9 @@ void Foam::cellInjection::setTimes(const label number)
 {
     const dictionary& dict = from_.dict;
 
+    const Switch relative(dict.getOrDefault("relativeStart", Switch(false)));
     const scalar start =
-        dict.getOrDefault<scalar>("start", 0)
-      + (
-            dict.getOrDefault("relativeStart", Switch(false))
-          ? from_.runStart
-          : 0
-        );
+        dict.getOrDefault<scalar>("start", 0) + (relative ? from_.runStart : 0);
     const scalar duration = checkedNumber(dict, "duration", atLeast(0), 0.0);
     const label seed = from_.population.properties().seed();
     times_.setSize(number);
@@ -248,9 +242,7 @@ Foam::autoPtr<Foam::cellInjection> Foam::cellInjection::New
 {
     checkEntries(from.dict);
 
-    const word type(from.dict.get<word>("type"));
-
-    return (*dictionaryConstructorTablePtr_)[type](from);
+    return types()[from.dict.get<word>("type")].make(from);
 }
 
 
@@ -260,11 +252,11 @@ void Foam::cellInjection::checkEntries(const dictionary& dict)
 {
     const word type(dict.get<word>("type"));
 
-    if (!keywords().found(type))
+    if (!types().found(type))
     {
         FatalIOErrorInFunction(streamOf(dict, "type"))
             << "unknown injection type " << type << nl
-            << "    allowed: " << flatOutput(keywords().sortedToc())
+            << "    allowed: " << flatOutput(types().sortedToc())
             << exit(FatalIOError);
     }
 
@@ -273,7 +265,7 @@ void Foam::cellInjection::checkEntries(const dictionary& dict)
         "type", "start", "relativeStart", "duration",
         "orientation", "axis", "quaternion", "eulerAngles"
     });
-    allowed.append(keywords()[type]);
+    allowed.append(types()[type].keywords);
     checkKeywords(dict, allowed);
 }
 
@@ -372,20 +364,6 @@ bool Foam::cellInjection::overlaps
              || contact.deepest > 1e-9*model.options.bead_radius
             )
         );
-}
-
-
-void Foam::cellInjection::drawOrientation
-(
-    const cellOrientation& orientation,
-    const label seed,
-    const label id,
-    scalar q[4]
-)
-{
-    scalar uniform[6];
-    ellipsoid_random_uniform(seed, id, rsPose, 0, 6, uniform);
-    orientation.set(uniform + 3, q);
 }
 
 

@@ -25,16 +25,7 @@ Foam::cellPopulation::distributionNames_
 
 void Foam::cellPopulation::readDistribution(const dictionary& dict)
 {
-    const word name(dict.get<word>("type"));
-
-    if (!distributionNames_.found(name))
-    {
-        FatalIOErrorInFunction(streamOf(dict, "type"))
-            << "unknown type " << name << " of sizes" << nl
-            << "    allowed: " << flatOutput(distributionNames_.names())
-            << exit(FatalIOError);
-    }
-    type_ = distributionNames_[name];
+    type_ = distributionNames_.get("type", dict);
 
     if (type_ == dtLogNormal)
     {

@@ -71,10 +71,6 @@ class patchInjection
 
 public:
 
-    //- Runtime type information
-    TypeName("patch");
-
-
     // Constructors
 
         //- Construct from its dictionary; collective
@@ -100,12 +96,10 @@ public:
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
-defineTypeNameAndDebug(patchInjection, 0);
-
 static const cellInjection::addType<patchInjection> addPatchInjection
-({
-    "number", "rate", "concentration", "patch"
-});
+(
+    "patch", {"number", "rate", "concentration", "patch"}
+);
 
 } // End namespace Foam
 

@@ -98,10 +98,6 @@ class positionsInjection
 
 public:
 
-    //- Runtime type information
-    TypeName("positions");
-
-
     // Constructors
 
         //- Construct from its dictionary
@@ -130,12 +126,10 @@ public:
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
-defineTypeNameAndDebug(positionsInjection, 0);
-
 static const cellInjection::addType<positionsInjection> addPositionsInjection
-({
-    "positions", "orientations", "sizes", "densities"
-});
+(
+    "positions", {"positions", "orientations", "sizes", "densities"}
+);
 
 } // End namespace Foam
 
