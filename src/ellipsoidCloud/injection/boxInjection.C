@@ -52,6 +52,10 @@ class boxInjection
 
 public:
 
+    //- Runtime type information
+    TypeName("box");
+
+
     // Constructors
 
         //- Construct from its dictionary
@@ -75,10 +79,12 @@ public:
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
+defineTypeNameAndDebug(boxInjection, 0);
+
 static const cellInjection::addType<boxInjection> addBoxInjection
-(
-    "box", {"number", "rate", "min", "max"}
-);
+({
+    "number", "rate", "min", "max"
+});
 
 } // End namespace Foam
 

@@ -16,6 +16,9 @@ License
 
 namespace Foam
 {
+    defineTypeNameAndDebug(cellInjection, 0);
+    defineRunTimeSelectionTable(cellInjection, dictionary);
+
     //- End the run if the core could not answer about a cell
     static void check(const cellState& cell, const ellipsoid_status status)
     {
@@ -31,11 +34,10 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::HashTable<Foam::cellInjection::injectionType>&
-Foam::cellInjection::types()
+Foam::HashTable<Foam::wordList>& Foam::cellInjection::keywords()
 {
     // Made when the first type is added, before main()
-    static HashTable<injectionType> table;
+    static HashTable<wordList> table;
 
     return table;
 }
@@ -149,9 +151,13 @@ void Foam::cellInjection::setTimes(const label number)
 {
     const dictionary& dict = from_.dict;
 
-    const Switch relative(dict.getOrDefault("relativeStart", Switch(false)));
     const scalar start =
-        dict.getOrDefault<scalar>("start", 0) + (relative ? from_.runStart : 0);
+        dict.getOrDefault<scalar>("start", 0)
+      + (
+            dict.getOrDefault("relativeStart", Switch(false))
+          ? from_.runStart
+          : 0
+        );
     const scalar duration = checkedNumber(dict, "duration", atLeast(0), 0.0);
     const label seed = from_.population.properties().seed();
     times_.setSize(number);
@@ -242,7 +248,9 @@ Foam::autoPtr<Foam::cellInjection> Foam::cellInjection::New
 {
     checkEntries(from.dict);
 
-    return types()[from.dict.get<word>("type")].make(from);
+    const word type(from.dict.get<word>("type"));
+
+    return (*dictionaryConstructorTablePtr_)[type](from);
 }
 
 
@@ -252,11 +260,11 @@ void Foam::cellInjection::checkEntries(const dictionary& dict)
 {
     const word type(dict.get<word>("type"));
 
-    if (!types().found(type))
+    if (!keywords().found(type))
     {
         FatalIOErrorInFunction(streamOf(dict, "type"))
             << "unknown injection type " << type << nl
-            << "    allowed: " << flatOutput(types().sortedToc())
+            << "    allowed: " << flatOutput(keywords().sortedToc())
             << exit(FatalIOError);
     }
 
@@ -265,7 +273,7 @@ void Foam::cellInjection::checkEntries(const dictionary& dict)
         "type", "start", "relativeStart", "duration",
         "orientation", "axis", "quaternion", "eulerAngles"
     });
-    allowed.append(types()[type].keywords);
+    allowed.append(keywords()[type]);
     checkKeywords(dict, allowed);
 }
 

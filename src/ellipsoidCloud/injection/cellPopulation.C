@@ -25,7 +25,16 @@ Foam::cellPopulation::distributionNames_
 
 void Foam::cellPopulation::readDistribution(const dictionary& dict)
 {
-    type_ = distributionNames_.get("type", dict);
+    const word name(dict.get<word>("type"));
+
+    if (!distributionNames_.found(name))
+    {
+        FatalIOErrorInFunction(streamOf(dict, "type"))
+            << "unknown type " << name << " of sizes" << nl
+            << "    allowed: " << flatOutput(distributionNames_.names())
+            << exit(FatalIOError);
+    }
+    type_ = distributionNames_[name];
 
     if (type_ == dtLogNormal)
     {

@@ -71,6 +71,10 @@ class patchInjection
 
 public:
 
+    //- Runtime type information
+    TypeName("patch");
+
+
     // Constructors
 
         //- Construct from its dictionary; collective
@@ -96,10 +100,12 @@ public:
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
+defineTypeNameAndDebug(patchInjection, 0);
+
 static const cellInjection::addType<patchInjection> addPatchInjection
-(
-    "patch", {"number", "rate", "concentration", "patch"}
-);
+({
+    "number", "rate", "concentration", "patch"
+});
 
 } // End namespace Foam
 

@@ -98,6 +98,10 @@ class positionsInjection
 
 public:
 
+    //- Runtime type information
+    TypeName("positions");
+
+
     // Constructors
 
         //- Construct from its dictionary
@@ -126,10 +130,12 @@ public:
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
+defineTypeNameAndDebug(positionsInjection, 0);
+
 static const cellInjection::addType<positionsInjection> addPositionsInjection
-(
-    "positions", {"positions", "orientations", "sizes", "densities"}
-);
+({
+    "positions", "orientations", "sizes", "densities"
+});
 
 } // End namespace Foam
 
