@@ -243,7 +243,8 @@ typedef struct ellipsoid_plan
 {
     double h, start, end; /* [s] */
     int last;      /* ends where the run does */
-    int shortened; /* less than proposed, to land there */
+    int shortened; /* less than proposed, to end there or where a bead lands */
+    double kept;   /* [s] what the next is to be at least, if shortened */
 } ellipsoid_plan;
 
 /* -------------------------------------------------------------- a group */
@@ -565,8 +566,14 @@ void ellipsoid_forget_corrections(ellipsoid_group *group);
 
 /* -------------------------------------------------------- step control */
 
-/* The next step from t towards end (stepControl.c). */
-ellipsoid_plan ellipsoid_plan_step(double proposal, double t, double end);
+/* The next step from t towards end, as proposed or up to where the next bead
+   lands on a wall (stepControl.c). */
+ellipsoid_plan ellipsoid_plan_step(double proposal, double landing, double t,
+                                   double end);
+
+/* How long the next bead takes to land on a wall, from the start on; `time` if
+   that is less. */
+double ellipsoid_time_to_landing(const ellipsoid_group *group, double time);
 
 /* Sets *step to a first step from the start at t towards end. */
 ellipsoid_status ellipsoid_first_step(ellipsoid_group *group, double t,
