@@ -243,8 +243,8 @@ typedef struct ellipsoid_plan
 {
     double h, start, end; /* [s] */
     int last;      /* ends where the run does */
-    int shortened; /* less than proposed, to end there or where a bead lands */
-    double kept;   /* [s] what the next is to be at least, if shortened */
+    int shortened; /* to end there, or where a bead lands, */
+    double kept;   /* [s] which leaves so much for the next at least */
 } ellipsoid_plan;
 
 /* -------------------------------------------------------------- a group */
@@ -566,15 +566,11 @@ void ellipsoid_forget_corrections(ellipsoid_group *group);
 
 /* -------------------------------------------------------- step control */
 
-/* The next step from t towards end, as proposed or up to where the next bead
-   lands on a wall (stepControl.c). */
+/* The next step from t towards end (stepControl.c), at most until the next bead
+   lands on a wall: after this time, or `time` if that is less. */
 ellipsoid_plan ellipsoid_plan_step(double proposal, double landing, double t,
                                    double end);
-
-/* How long the next bead takes to land on a wall, from the start on; `time` if
-   that is less. */
 double ellipsoid_time_to_landing(const ellipsoid_group *group, double time);
-
 /* Sets *step to a first step from the start at t towards end. */
 ellipsoid_status ellipsoid_first_step(ellipsoid_group *group, double t,
                                       double end, double *step);
