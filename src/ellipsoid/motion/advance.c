@@ -345,7 +345,7 @@ static void count_attempt(const ellipsoid_group *g, int accepted)
    controller. largest: the factor by which the next may be longer. */
 static void accept_step(ellipsoid_group *g, const ellipsoid_plan *planned,
                         int explicitly, double error, double largest,
-                        double proposal, ellipsoid_controller *controller)
+                        ellipsoid_controller *controller)
 {
     const double factor = ellipsoid_step_factor(g->stages[0].order, error,
                                                 controller->previous_error);
@@ -353,7 +353,7 @@ static void accept_step(ellipsoid_group *g, const ellipsoid_plan *planned,
     controller->step = planned->h * fmin(factor, largest);
     if (planned->shortened)
     {
-        controller->step = fmax(controller->step, proposal);
+        controller->step = fmax(controller->step, planned->kept);
     }
     else
     {
@@ -381,16 +381,18 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
     const ellipsoid_options *o = &g->cell[0].model->options;
     const double shortest =
         fmax(o->minimum_step, 4 * DBL_EPSILON * fmax(fabs(t), DBL_MIN));
-    double largest_factor = 5, proposal = controller->step;
+    double largest_factor = 5, proposal = controller->step, landing;
     ellipsoid_status status = propose_step(g, t, end, shortest, &proposal);
 
     if (status != ELLIPSOID_OK)
     {
         return status;
     }
+    landing = fmax(ellipsoid_time_to_landing(g, proposal), shortest);
     while (*attempts < o->maximum_steps)
     {
-        const ellipsoid_plan planned = ellipsoid_plan_step(proposal, t, end);
+        const ellipsoid_plan planned =
+            ellipsoid_plan_step(proposal, landing, t, end);
         double error = 0;
         int explicitly;
 
@@ -401,7 +403,7 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
         if (status == ELLIPSOID_OK && error <= 1)
         {
             accept_step(g, &planned, explicitly, error, largest_factor,
-                        proposal, controller);
+                        controller);
             g->on_manifold = g->inertial && explicitly;
             return ELLIPSOID_OK;
         }
