@@ -101,6 +101,11 @@ static ellipsoid_status keep_or_not(ellipsoid_group *g,
     return status;
 }
 
+/* Of a free cell planes may be linear over a step that is longer by this than
+   one over which the resistance may be kept: whatever walls do in it is then a
+   matter of one tolerance. */
+static const double longer = 2;
+
 /* What stages may take for linear in the pose. */
 typedef struct linear_parts
 {
@@ -120,7 +125,8 @@ static ellipsoid_status solve_step(ellipsoid_group *g,
     status = g->keeps ? keep_or_not(g, planned) : ELLIPSOID_OK;
     linear->planes =
         linear->planes && !g->kept_last && planes->count >= 0
-        && ellipsoid_in_contact(&g->start[0].contact);
+        && (ellipsoid_in_contact(&g->start[0].contact)
+            || planned->h <= longer * g->start[0].resistance.longest);
     g->cell[0].planes = linear->planes ? planes : NULL;
     if (status == ELLIPSOID_OK)
     {
