@@ -9,6 +9,7 @@ across the flow, |O_x1| and |O_x3| high; |O_x2| has recovered when it leaves the
 """
 
 from collections import namedtuple
+from functools import lru_cache
 
 import numpy as np
 
@@ -97,6 +98,12 @@ class Account(namedtuple(
         ]
 
 
+@lru_cache(maxsize=1)
+def finer_track(case, cell):
+    """The cell's track between its rows: of one cell all sieves are asked in turn."""
+    return case.tracks[cell].finer(10)
+
+
 def detour(case, cell, sieve=SIEVE):
     """(track, row at which it is nearest, gap there) of an escaped cell that comes near a sieve;
     None of the others."""
@@ -109,7 +116,7 @@ def detour(case, cell, sieve=SIEVE):
     x = rows.x[:, :2]
     if not ((x > corners.min(axis=0) - reach) & (x < corners.max(axis=0) + reach)).all(1).any():
         return None
-    track = rows.finer(10)
+    track = finer_track(case, cell)
     gaps = walls.distance(case, [sieve], track.x, within=2 * NEAR)
     nearest = int(np.argmin(gaps))
     return (track, nearest, gaps[nearest]) if np.isfinite(gaps[nearest]) else None

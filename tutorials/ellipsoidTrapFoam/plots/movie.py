@@ -147,7 +147,7 @@ def draw_stage(case, sieve, window, scale, caption):
         LEFT / size[0], BELOW / size[1], width / size[0], height / size[1]
     ))
     style.plan_axes(ax, (x0, x1), (y0, y1))
-    image = style.draw_speed(ax, case.plane, vmin=0)
+    image = style.draw_speed(ax, case.plane)
     style.draw_outlines(ax, case, linewidth=1.5)
     bar = figure.add_axes((
         (LEFT + width + 20) / size[0], BELOW / size[1], 24 / size[0], height / size[1]

@@ -37,7 +37,7 @@ def draw(case):
     bounds = np.array(plane.bounds)
     margin = 0.04 * np.ptp(bounds, axis=1).max()
     figure, ax = style.plan_figure(*(bounds + [-margin, margin]))
-    image = style.draw_speed(ax, plane, vmin=0)
+    image = style.draw_speed(ax, plane)
     style.draw_outlines(ax, case)
     style.name_openings(ax, case)
     figure.colorbar(image, ax=ax, label="speed |u| at\nhalf depth [mm/s]", aspect=35, pad=0.02)

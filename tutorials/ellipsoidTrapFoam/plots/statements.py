@@ -274,12 +274,17 @@ def table(case, members):
     return "".join("| " + " | ".join(row) + " |\n" for row in rows)
 
 
-def put_into(file, text):
-    """In place of what stands between the marks."""
+def marked(file):
+    """The text of a file with the marks."""
     with open(file, encoding="utf-8") as source:
-        old = source.read()
-    if old.count(BEGIN) != 1 or old.count(END) != 1:
+        text = source.read()
+    if text.count(BEGIN) != 1 or text.count(END) != 1:
         raise CaseError(f"{file}: not one '{BEGIN.strip()}' and one '{END}'")
+    return text
+
+
+def put_into(file, old, text):
+    """In place of what stands between the marks."""
     new = re.sub(f"({BEGIN}).*({END})", lambda found: found[1] + text + found[2], old, flags=re.S)
     with open(file, "w", encoding="utf-8") as target:
         target.write(new)
@@ -297,9 +302,10 @@ def main():
         case = Case(given.case)
         if not (case.chamber and set(NAMED) <= set(case.sieves)):
             raise CaseError(f"{given.case}: the supplement is of a circular trap with the sieves S1 to S8")
+        page = marked(given.into) if given.into else ""
         text = table(case, [Case(one) for one in given.members])
         if given.into:
-            put_into(given.into, text)
+            put_into(given.into, page, text)
         else:
             print(text, end="")
     except CaseError as error:

@@ -17,9 +17,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import patheffects
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, TriMesh
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
+from matplotlib.tri import Triangulation
 
 from case import NotApplicable
 from files import CaseError, write_csv
@@ -127,11 +128,17 @@ def name_openings(ax, case):
                 )
 
 
-def draw_speed(ax, plane, **options):
-    """The flow's speed in the limits of the axes; an image for a colour bar."""
+def draw_speed(ax, plane, norm=None, cmap=SPEED_MAP):
+    """The flow's speed in the limits of the axes, from 0 if no norm says otherwise; an image for
+    a colour bar."""
     x, y, triangles, speed = plane.speed_in(ax.get_xlim(), ax.get_ylim())
-    look = {"shading": "gouraud", "cmap": SPEED_MAP, "rasterized": True, **options}
-    return ax.tripcolor(x, y, triangles, speed, **look)
+    image = TriMesh(Triangulation(x, y, triangles), norm=norm, cmap=cmap, rasterized=True)
+    image.set_array(speed)
+    if norm is None:
+        image.set_clim(0, speed.max())
+    ax.grid(False)
+    # tripcolor() would make a path of every triangle to find limits that the axes have
+    return ax.add_collection(image, autolim=False)
 
 
 def draw_outlines(ax, case, linewidth=0.6, sieve_color="black"):
