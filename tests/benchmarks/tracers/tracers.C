@@ -528,7 +528,7 @@ int main(int argc, char *argv[])
         [
             args.getOrDefault<word>("interpolation", "divergenceFree")
         ],
-        wordRes(),
+        labelHashSet(),
         nullptr,
         false,
         false
