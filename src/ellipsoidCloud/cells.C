@@ -52,6 +52,7 @@ Description
 #include "flow/baffleSides.C"
 #include "flow/domainImages.C"
 #include "flow/electricField.C"
+#include "flow/frozenFlowVertices.C"
 #include "flow/inletFlux.C"
 #include "flow/mirrorsAtVertices.C"
 #include "flow/possibleInflow.C"

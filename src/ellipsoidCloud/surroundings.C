@@ -19,7 +19,6 @@ Description
 #include "flow/frozenFlow.C"
 #include "flow/frozenFlowFluxes.C"
 #include "flow/frozenFlowTets.C"
-#include "flow/frozenFlowVertices.C"
 #include "flow/frozenFlowWalk.C"
 #include "flow/partitionCells.C"
 #include "flow/partitionNeighbours.C"

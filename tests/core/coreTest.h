@@ -44,9 +44,9 @@ static inline void test_near(double actual, double expected, double tolerance,
 #define assert_ok(status) assert_int_equal(status, ELLIPSOID_OK)
 
 /*
-    So many samples of the core every day, in the full run, and where it is run
-    to find faults of memory and arithmetic (ELLIPSOID_TEST_FEW=1), which a part
-    of them shows as well.
+    How many samples a test takes: few where it is run to find faults of memory
+    and arithmetic (ELLIPSOID_TEST_FEW=1), which a part of them shows as well;
+    else those of every day or, with ELLIPSOID_TEST_FULL=1, of the full run.
 */
 static inline long test_count(long few, long everyday, long full)
 {

@@ -363,7 +363,10 @@ void Foam::flowFields::write()
         rm(path/"uniform");
     }
     mkDir(path/"uniform");
-    atomicWrite(digestsFile(instance), written);
+    OStringStream os;
+    written.write(os, false);
+    IOobject::writeEndDivider(os);
+    atomicWrite(digestsFile(instance), os.str());
 
     label all = 1;
     reduce(all, sumOp<label>());

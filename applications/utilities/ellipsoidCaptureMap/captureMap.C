@@ -79,7 +79,7 @@ Foam::List<Foam::captureMap::pose> Foam::captureMap::readPoses
             {
                 p.name += Foam::name(i + 1);
             }
-            cellInjection::drawOrientation(orientation, seed, nDrawn, p.q);
+            orientation.draw(seed, nDrawn, p.q);
             nDrawn += orientation.random();
             poses.append(p);
         }

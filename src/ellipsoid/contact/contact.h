@@ -55,6 +55,17 @@ int ellipsoid_bead_contact(const ellipsoid_bead *bead,
                            int derivatives, ellipsoid_bead_forces *forces,
                            ellipsoid_contact *report);
 
+/*
+    When the next of a cell's beads comes into contact with a wall, all going on
+    as they move in this state, for which the cache is current, and is then so
+    deep [m]; `time` [s] if that is less (wallContact.c). moved: as
+    ellipsoid_facet_cache_update() has set it.
+*/
+double ellipsoid_landing(const ellipsoid_model *model,
+                         const ellipsoid_state *state,
+                         const ellipsoid_facet_cache *cache, double moved,
+                         double depth, double time);
+
 /* --------------------------------------------- derivatives of a wrench */
 
 /*

@@ -154,6 +154,68 @@ static void add_beads(ellipsoid_wall_contact *at,
     contact->deepest = fmax(0, -contact->gap);
 }
 
+/* When a bead reaches the first facet that it is not in contact with, moving on
+   at `velocity`, and is `depth` beyond; at most `time`, in which it travels so
+   far. */
+static double bead_landing(const ellipsoid_facet_cache *cache, int b,
+                           const ellipsoid_bead *bead,
+                           const double velocity[3], double depth, double time)
+{
+    const double range = bead->radius + bead->laws->range;
+    const double travel = (1 + 1e-9) * time * ellipsoid_length(velocity);
+    const double look = fmin(2 * bead->radius, range + travel);
+
+    for (int k = cache->first[b]; k < cache->first[b + 1]; k++)
+    {
+        const ellipsoid_facet *facet = &cache->facets[cache->facet[k]];
+        ellipsoid_nearest found;
+
+        if (ellipsoid_facet_nearest(facet, bead->centre, look, &found)
+            && found.height > range)
+        {
+            const double closing = -ellipsoid_dot(found.normal, velocity);
+            const double way = found.height - range + depth;
+
+            time = closing * time > way ? way / closing : time;
+        }
+    }
+    return time;
+}
+
+double ellipsoid_landing(const ellipsoid_model *model,
+                         const ellipsoid_state *state,
+                         const ellipsoid_facet_cache *cache, double moved,
+                         double depth, double time)
+{
+    const double speed = ellipsoid_length(state->u)
+                       + model->reach * ellipsoid_length(state->omega);
+    ellipsoid_wall_laws laws;
+    double r[3][3];
+
+    ellipsoid_wall_laws_set(&laws, &model->options);
+    ellipsoid_rotation_inline(state->q, r);
+    for (int n = 0; n < cache->bead_count; n++)
+    {
+        const int b = cache->bead[n];
+        ellipsoid_bead bead = {.radius = model->options.bead_radius,
+                               .laws = &laws};
+        double turn[3], velocity[3];
+
+        if (cache->nearest[b] - moved - bead.radius - laws.range > time * speed)
+        {
+            continue;
+        }
+        ellipsoid_cross(state->omega, model->bead[b], turn);
+        for (int i = 0; i < 3; i++)
+        {
+            bead.centre[i] = state->x[i] + ellipsoid_dot(r[i], model->bead[b]);
+            velocity[i] = state->u[i] + ellipsoid_dot(r[i], turn);
+        }
+        time = bead_landing(cache, b, &bead, velocity, depth, time);
+    }
+    return time;
+}
+
 ellipsoid_status ellipsoid_contact_evaluate(
     const ellipsoid_model *model,
     const ellipsoid_surroundings *surroundings,

@@ -15,9 +15,10 @@
 static const double margin_parts[] = {0.4, 0.1};
 
 /* The same of those that count near a pose, and how far the body may turn: the
-   Frobenius norm of the difference of its axes. Facets are listed apart that
-   count within parts of both. */
-static const double live_part = 0.04, live_turn = 0.12;
+   Frobenius norm of the difference of its axes, which moves a unit vector by no
+   more than that over the root of two. Facets are listed apart that count within
+   parts of both. */
+static const double live_part = 0.04, live_turn = 0.08;
 static const double live_levels[ELLIPSOID_LIVE_LEVELS] = {0.1, 0.25, 0.5, 1};
 
 /*
@@ -204,7 +205,7 @@ int ellipsoid_look_closer(const ellipsoid_wall_search *s,
     idle_limits limits = {
         .shift = wide * shift,
         .per_shift = 1 / (wide * shift),
-        .turn = wide * live_turn,
+        .turn = wide * live_turn * 0.70710678118654752,
         .rim = s->range * (1 + ellipsoid_fading * s->longest / s->shortest)};
     double moved = 0, turned = 0, change;
 

@@ -101,6 +101,11 @@ static ellipsoid_status keep_or_not(ellipsoid_group *g,
     return status;
 }
 
+/* Of a free cell planes may be linear over a step that is longer by this than
+   one over which the resistance may be kept: whatever walls do in it is then a
+   matter of one tolerance. */
+static const double longer = 2;
+
 /* What stages may take for linear in the pose. */
 typedef struct linear_parts
 {
@@ -120,7 +125,8 @@ static ellipsoid_status solve_step(ellipsoid_group *g,
     status = g->keeps ? keep_or_not(g, planned) : ELLIPSOID_OK;
     linear->planes =
         linear->planes && !g->kept_last && planes->count >= 0
-        && ellipsoid_in_contact(&g->start[0].contact);
+        && (ellipsoid_in_contact(&g->start[0].contact)
+            || planned->h <= longer * g->start[0].resistance.longest);
     g->cell[0].planes = linear->planes ? planes : NULL;
     if (status == ELLIPSOID_OK)
     {
@@ -345,7 +351,7 @@ static void count_attempt(const ellipsoid_group *g, int accepted)
    controller. largest: the factor by which the next may be longer. */
 static void accept_step(ellipsoid_group *g, const ellipsoid_plan *planned,
                         int explicitly, double error, double largest,
-                        double proposal, ellipsoid_controller *controller)
+                        ellipsoid_controller *controller)
 {
     const double factor = ellipsoid_step_factor(g->stages[0].order, error,
                                                 controller->previous_error);
@@ -353,7 +359,7 @@ static void accept_step(ellipsoid_group *g, const ellipsoid_plan *planned,
     controller->step = planned->h * fmin(factor, largest);
     if (planned->shortened)
     {
-        controller->step = fmax(controller->step, proposal);
+        controller->step = fmax(controller->step, planned->kept);
     }
     else
     {
@@ -381,16 +387,18 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
     const ellipsoid_options *o = &g->cell[0].model->options;
     const double shortest =
         fmax(o->minimum_step, 4 * DBL_EPSILON * fmax(fabs(t), DBL_MIN));
-    double largest_factor = 5, proposal = controller->step;
+    double largest_factor = 5, proposal = controller->step, landing;
     ellipsoid_status status = propose_step(g, t, end, shortest, &proposal);
 
     if (status != ELLIPSOID_OK)
     {
         return status;
     }
+    landing = fmax(ellipsoid_time_to_landing(g, proposal), shortest);
     while (*attempts < o->maximum_steps)
     {
-        const ellipsoid_plan planned = ellipsoid_plan_step(proposal, t, end);
+        const ellipsoid_plan planned =
+            ellipsoid_plan_step(proposal, landing, t, end);
         double error = 0;
         int explicitly;
 
@@ -401,7 +409,7 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
         if (status == ELLIPSOID_OK && error <= 1)
         {
             accept_step(g, &planned, explicitly, error, largest_factor,
-                        proposal, controller);
+                        controller);
             g->on_manifold = g->inertial && explicitly;
             return ELLIPSOID_OK;
         }

@@ -243,7 +243,8 @@ typedef struct ellipsoid_plan
 {
     double h, start, end; /* [s] */
     int last;      /* ends where the run does */
-    int shortened; /* less than proposed, to land there */
+    int shortened; /* to end there, or where a bead lands, */
+    double kept;   /* [s] which leaves so much for the next at least */
 } ellipsoid_plan;
 
 /* -------------------------------------------------------------- a group */
@@ -565,9 +566,11 @@ void ellipsoid_forget_corrections(ellipsoid_group *group);
 
 /* -------------------------------------------------------- step control */
 
-/* The next step from t towards end (stepControl.c). */
-ellipsoid_plan ellipsoid_plan_step(double proposal, double t, double end);
-
+/* The next step from t towards end (stepControl.c), at most until the next bead
+   lands on a wall: after this time, or `time` if that is less. */
+ellipsoid_plan ellipsoid_plan_step(double proposal, double landing, double t,
+                                   double end);
+double ellipsoid_time_to_landing(const ellipsoid_group *group, double time);
 /* Sets *step to a first step from the start at t towards end. */
 ellipsoid_status ellipsoid_first_step(ellipsoid_group *group, double t,
                                       double end, double *step);

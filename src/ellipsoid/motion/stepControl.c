@@ -128,29 +128,75 @@ static double unseen_travel(const ellipsoid_cell *p,
     return worst;
 }
 
+/* A bead that has landed is so deep at the end of the step, as a part of the
+   deepest there is: the derivatives there know of its contact, and it has not
+   been pushed away yet. At least so many bead radii. */
+static const double landed_part = 0.1, landed_least = 3e-5;
+
+/* After a landing the next step is this part of the one proposed before. */
+static const double after_landing = 0.5;
+
+/*
+    A contact that begins inside a Rosenbrock step is not in its derivatives, and
+    is so stiff that a long one is rejected. So the step ends where it begins, if
+    the bead goes on as it moves at the start, of which the result depends alone.
+    At the tolerances of motion with inertia that saves hardly a step.
+*/
+double ellipsoid_time_to_landing(const ellipsoid_group *g, double time)
+{
+    for (int cell = 0; !g->inertial && cell < g->count; cell++)
+    {
+        const ellipsoid_cell *p = &g->cell[cell];
+        const ellipsoid_options *o = &p->model->options;
+        const ellipsoid_evaluation *start = &g->start[cell];
+        const ellipsoid_contact *contact = &start->contact;
+        const double horizon = ellipsoid_gap_horizon(p->model);
+        double moved;
+
+        if (p->walls && o->contact_shape != ELLIPSOID_CONTACT_ELLIPSOID
+            && contact->gap < horizon
+            && ellipsoid_facet_cache_update(p->cache, p->model,
+                                            &p->surroundings, start->state.x,
+                                            start->state.q, horizon, &moved)
+                   == ELLIPSOID_OK
+            && p->cache->clearance <= 0)
+        {
+            const double depth = fmax(landed_part * contact->deepest,
+                                      landed_least * o->bead_radius);
+
+            time = ellipsoid_landing(p->model, &start->state, p->cache, moved,
+                                     depth, time);
+        }
+    }
+    return time;
+}
+
 /*
     The last two steps share what is left, so that none is tiny. A proposal
     that lands on `end` but for rounding is not altered: a run cut there goes
     on as if it had not been cut.
 */
-ellipsoid_plan ellipsoid_plan_step(double proposal, double t, double end)
+ellipsoid_plan ellipsoid_plan_step(double proposal, double landing, double t,
+                                   double end)
 {
-    const double left = end - t;
-    const double tolerance = 4 * DBL_EPSILON * fmax(fabs(t), proposal);
+    const int lands = landing < proposal;
+    const double left = end - t, h = lands ? landing : proposal;
+    const double kept = lands ? after_landing * proposal : proposal;
+    const double tolerance = 4 * DBL_EPSILON * fmax(fabs(t), h);
 
-    if (fabs(left - proposal) <= tolerance)
+    if (fabs(left - h) <= tolerance)
     {
-        return (ellipsoid_plan){proposal, t, end, 1, 0};
+        return (ellipsoid_plan){h, t, end, 1, lands, kept};
     }
-    if (left < proposal)
+    if (left < h)
     {
-        return (ellipsoid_plan){left, t, end, 1, 1};
+        return (ellipsoid_plan){left, t, end, 1, 1, kept};
     }
-    if (left < 1.25 * proposal)
+    if (left < 1.25 * h)
     {
-        return (ellipsoid_plan){0.5 * left, t, t + 0.5 * left, 0, 1};
+        return (ellipsoid_plan){0.5 * left, t, t + 0.5 * left, 0, 1, kept};
     }
-    return (ellipsoid_plan){proposal, t, t + proposal, 0, 0};
+    return (ellipsoid_plan){h, t, t + h, 0, lands, kept};
 }
 
 /*

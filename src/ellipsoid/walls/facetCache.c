@@ -247,16 +247,16 @@ static int keep_free(ellipsoid_facet_cache *cache, const ellipsoid_model *model,
 
     /* an unlisted one is beyond list->reach of the centre */
     const double taken = (1 + 1e-6) * near;
-    const double free = ellipsoid_facet_bound(model, list,
-                                              list->reach - reach + near,
-                                              taken + margin, cache)
-                      - taken;
+    const double least = taken + margin;
+    const double bound = ellipsoid_facet_bound(
+        model, list, list->reach - reach + near, least, cache);
 
-    if (!(free > margin))
+    /* the search ends early by the same comparison */
+    if (!(bound > least))
     {
         return 0;
     }
-    cache->margin = free;
+    cache->margin = bound - taken;
     cache->bead_count = 0;
     cache->nearest_of_all = HUGE_VAL;
     cache->valid = 1;

@@ -67,8 +67,8 @@ static void set_beads(const ellipsoid_model *model, bead_set *beads)
 }
 
 /* The square of how far a point is from the box that holds the beads, or less.
-   Where squares of the stretch leave the range of numbers, the box is a point,
-   or all there is. */
+   Where squares of the stretch leave the range of numbers, the distance is that
+   from its centre, or zero. */
 static inline double squared_from_box(const bead_set *beads, const double d[3])
 {
     const double squared = beads->stretch * beads->stretch;

@@ -8,7 +8,6 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "atomicWrite.H"
-#include "dictionary.H"
 #include "IFstream.H"
 #include "OFstream.H"
 #include "OSspecific.H"
@@ -88,16 +87,6 @@ void Foam::atomicWrite
         cannotWrite(file);
     }
     std::remove((file + (zipped ? "" : ".gz")).c_str());
-}
-
-
-void Foam::atomicWrite(const fileName& file, const dictionary& dict)
-{
-    OStringStream os;
-    os.precision(17);
-    dict.write(os, false);
-    IOobject::writeEndDivider(os);
-    atomicWrite(file, os.str());
 }
 
 

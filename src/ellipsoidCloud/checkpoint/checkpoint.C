@@ -128,15 +128,24 @@ namespace Foam
     static const fileName stateFile("uniform/ellipsoidCloudRestart");
     static const word fieldName("ellipsoidCloudState");
 
-    //- The state in a time directory
-    static fileName statePath(const fileName& path)
+    //- Where ranks that share their files have a time directory
+    static fileName sharedTime(const fileName& path)
     {
-        if (sharedFiles())
+        if (!Pstream::parRun())
         {
-            const word parts("processors" + Foam::name(Pstream::nProcs()));
-            return path.path().path()/parts/path.name()/stateFile;
+            return path;
         }
-        return path/stateFile;
+        const word parts("processors" + Foam::name(Pstream::nProcs()));
+        return path.path().path()/parts/path.name();
+    }
+
+
+    //- The state in a time directory, whether or not ranks shared their files
+    //  when it was written
+    static fileName stateIn(const fileName& path)
+    {
+        const fileName shared(sharedTime(path)/stateFile);
+        return isFile(shared) ? shared : path/stateFile;
     }
 
 
@@ -160,7 +169,15 @@ namespace Foam
     //- Was a state begun in a time directory, be it complete or not?
     static bool begun(const fileName& path)
     {
-        return isFile(path/fieldName) || isFile(statePath(path));
+        return isFile(path/fieldName) || isFile(stateIn(path));
+    }
+
+
+    //- Is there a state in a time directory that earlier versions of this program
+    //  wrote?
+    static bool earlierVersion(const fileName& path)
+    {
+        return isFile(path/"uniform/ellipsoidCloudFiles");
     }
 
 
@@ -194,7 +211,7 @@ Foam::checkpoint::checkpoint(const Time& time)
 :
     path_(time.path()/time.timeName())
 {
-    const fileName file(statePath(path_));
+    const fileName file(stateIn(path_));
     string text(textOf(file));
     broadcast(text);
 
@@ -211,9 +228,14 @@ Foam::checkpoint::checkpoint(const Time& time)
     {
         const std::string complaint
         (
-            text.empty()
-          ? "time " + time.timeName() + " was not written to its end"
-          : file + " is damaged: it is not what was written"
+            text.size()
+          ? file + " is damaged: it is not what was written"
+          : "time " + time.timeName()
+          + (
+                earlierVersion(path_)
+              ? " has cells of an earlier version of this program"
+              : " was not written to its end"
+            )
         );
         FatalErrorInFunction
             << complaint.c_str() << nl
@@ -311,13 +333,18 @@ Foam::word Foam::checkpoint::setAsideIncomplete
         const word& name = time->second;
         const fileName path(args.path()/name);
         const bool other = isFile(path/"U") || isDir(path/"polyMesh");
+        const bool kept =
+            (Pstream::parRun() && isDir(sharedTime(path)))
+         || earlierVersion(path);
         const bool complete =
             isDir(path) && (isFile(path/stateFile) || !Pstream::master());
 
-        // Complete, or a flow or mesh to start from, or another program's
+        // To be looked at when it is read, complete, a flow or mesh to start
+        // from, or another program's
         if
         (
-            returnReduce(complete, andOp<bool>())
+            returnReduce(kept, orOp<bool>())
+         || returnReduce(complete, andOp<bool>())
          || (
                 !returnReduce(begun(path), orOp<bool>())
              && (!tracked || returnReduce(other, orOp<bool>()))
@@ -355,10 +382,13 @@ void Foam::checkpoint::begin(const fvMesh& mesh)
     const fileName path(mesh.time().path()/mesh.time().timeName());
 
     // A link of decomposePar leads into the undecomposed case: its state stays
-    const fileName state(statePath(path));
-    if (Foam::type(state.path(), false) == fileName::LINK)
+    for (const fileName& time : {path, sharedTime(path)})
     {
-        rm(state.path());
+        const fileName folder((time/stateFile).path());
+        if (Foam::type(folder, false) == fileName::LINK)
+        {
+            rm(folder);
+        }
     }
 
     volScalarField::Internal field
@@ -369,7 +399,8 @@ void Foam::checkpoint::begin(const fvMesh& mesh)
     );
     atomicWrite(field);
     meet();
-    rm(state);
+    rm(path/stateFile);
+    rm(sharedTime(path)/stateFile);
     rmDir(path/cloud::prefix/"ellipsoidCloud", true);
 }
 
@@ -380,9 +411,10 @@ void Foam::checkpoint::end(const Time& time, const std::string& text)
     meet();
     if (Pstream::master())
     {
+        const fileName path(time.path()/time.timeName());
         atomicWrite
         (
-            statePath(time.path()/time.timeName()),
+            (sharedFiles() ? sharedTime(path) : path)/stateFile,
             text + digestEntry(text),
             time.writeCompression()
         );

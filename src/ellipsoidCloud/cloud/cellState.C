@@ -125,6 +125,13 @@ namespace Foam
     )
     {
         const List<Type> values(dict.get<List<Type>>(field.name));
+        if (std::size_t(values.size()) != field.count*cells.size())
+        {
+            FatalIOErrorInFunction(dict)
+                << field.name << " of " << cells.size() << " cells has "
+                << values.size() << " values: the state is of another version"
+                << " of this program" << exit(FatalIOError);
+        }
         forAll(cells, i)
         {
             void* state = &cells[i];

@@ -311,9 +311,19 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
     }
     if (earlier_.found())
     {
-        cells_ = readStates(earlier_.notes().subDict("cells"));
+        const masterGate once;
+
+        cells_ = readStates(earlier_.takeCells());
         for (const cellState& cell : cells_)
         {
+            const string why(population_.complaint(cell.size));
+            if (!why.empty())
+            {
+                FatalErrorInFunction
+                    << "time " << mesh.time().timeName() << ": cell "
+                    << cell.id << " has a size for which " << why.c_str()
+                    << exit(FatalError);
+            }
             population_.take(cell.id, cell.size);
         }
     }

@@ -164,7 +164,6 @@ void Foam::ellipsoidCloud::write()
     }
     notes.add("tables", tables);
 
-
     OStringStream os;
     os.precision(17);
     notes.write(os, false);

@@ -95,10 +95,7 @@ namespace Foam
         const word keyword(option.entry);
 
         return
-            hasUnit
-            (
-                dict, keyword, nameOf(option), option.unit
-            )
+            hasUnit(dict, keyword, nameOf(option), option.unit)
           ? dimensioned<Type>(keyword, dict).value()
           : dict.get<Type>(keyword);
     }
@@ -138,22 +135,18 @@ namespace Foam
                 break;
 
             case ELLIPSOID_OPTION_CHOICE:
-                while
-                (
-                    option.words[value]
-                 && dict.get<word>(keyword) != option.words[value]
-                )
+            {
+                const word given(dict.get<word>(keyword));
+                while (option.words[value] && given != option.words[value])
                 {
                     ++value;
                 }
                 if (!option.words[value])
                 {
-                    refuseEntry
-                    (
-                        dict, keyword, nameOf(option), option.range
-                    );
+                    refuseEntry(dict, keyword, nameOf(option), option.range);
                 }
                 break;
+            }
         }
 
         std::memcpy(member, &value, sizeof(value));

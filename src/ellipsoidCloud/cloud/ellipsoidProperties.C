@@ -16,18 +16,15 @@ License
 #include "cellInjection.H"
 #include "polyBoundaryMeshEntries.H"
 #include "processorPolyPatch.H"
-#include "stringListOps.H"
 #include "Time.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::ellipsoidProperties::checkUnreached
-(
-    const polyBoundaryMesh& patches
-) const
+void Foam::ellipsoidProperties::readUnreached(const polyBoundaryMesh& patches)
 {
-    const wordRes unreached(this->unreached());
-    DynamicList<word> constrained;
+    const wordRes names(getOrDefault("unreached", wordRes()));
+    labelHashSet constrained;
+    unreached_ = patches.patchSet(names, false, false);
 
     for (const polyPatch& pp : patches)
     {
@@ -40,9 +37,9 @@ void Foam::ellipsoidProperties::checkUnreached
             continue;
         }
 
-        constrained.append(pp.name());
+        constrained.insert(pp.index());
 
-        if (!unreached.match(pp.name()) && !domainImages::isSeam(pp))
+        if (!unreached_.found(pp.index()) && !domainImages::isSeam(pp))
         {
             FatalIOErrorInFunction(*this)
                 << "patch " << pp.name() << " of "
@@ -57,14 +54,18 @@ void Foam::ellipsoidProperties::checkUnreached
         }
     }
 
-    for (const wordRe& name : unreached)
+    for (const wordRe& name : names)
     {
-        if (findStrings(name, constrained).empty())
+        labelHashSet named(patches.patchSet(wordRes({name}), false, false));
+        named &= constrained;
+
+        if (named.empty())
         {
+            const labelList labels(constrained.sortedToc());
             FatalIOErrorInFunction(*this)
                 << "unreached " << name << " matches no patch of type cyclic "
-                << "or symmetry" << nl
-                << "    patches of such types: " << flatOutput(constrained)
+                << "or symmetry" << nl << "    patches of such types: "
+                << flatOutput(wordList(patches.names(), labels))
                 << exit(FatalIOError);
         }
     }
@@ -76,8 +77,6 @@ void Foam::ellipsoidProperties::checkPatches
     const polyBoundaryMesh& patches
 ) const
 {
-    checkUnreached(patches);
-
     const dictionary& injections = subDict("injection");
 
     for (const entry& e : injections)
@@ -168,6 +167,7 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
 
     readOptions();
     checkOptions();
+    readUnreached(mesh.boundaryMesh());
     checkPatches(mesh.boundaryMesh());
 }
 

@@ -10,12 +10,56 @@ License
 #include "cellFluxes.H"
 #include "tetFlow.H"
 
-#include <algorithm>
-
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::cellFluxes::take(const flowValues& values)
+{
+    nPairs_ = (n_ + 1)/2;
+    of_.setSize(n_);
+    conductances_.setSize(n_);
+    missing_.setSize(nPairs_);
+    missing_[nPairs_ - 1] = two{0, 0};
+    scalar* missing = numbers(missing_);
+    scalar volume = 0;
+    scalar net = 0;
+
+    for (label i = 0; i < n_; ++i)
+    {
+        const auto vertex =
+            [&](const int a) -> const flowVertex&
+            {
+                return values.vertices[tets_[first_ + i].vertices[a]];
+            };
+
+        tetFlow flow;
+        vector g[4];
+        flow.setQuadratic(vertex, values.straight[first_ + i]);
+        flow.coordinateGradients(g);
+        tetSize& of = of_[i];
+        of.volume = flow.volume();
+        missing[i] = -values.outwards[first_ + i];
+        for (label k = 0; k < 4; ++k)
+        {
+            of.areas[k] = 3*mag(of.volume*g[k]);
+            missing[i] -= flow.quadraticFlux(g, k);
+        }
+        net += missing[i];
+        volume += of.volume;
+    }
+
+    // A flow that is not free of divergence has it everywhere in the mesh cell
+    const scalar divergence = net/volume;
+    for (label i = 0; i < n_; ++i)
+    {
+        missing[i] -= divergence*of_[i].volume;
+    }
+    return volume;
+}
+
 
 void Foam::cellFluxes::setByCentre
 (
+    const UList<flowVertex>& vertices,
     const scalar unit,
     const scalar gradientUnit
 )
@@ -31,11 +75,11 @@ void Foam::cellFluxes::setByCentre
     for (label i = 0; i < n_; ++i)
     {
         const flowTet& tet = tets_[first_ + i];
-        const point& origin = vertices_[tet.vertices[0]].x;
+        const point& origin = vertices[tet.vertices[0]].x;
         vector edges[4];
         for (label a = 0; a < 4; ++a)
         {
-            edges[a] = vertices_[tet.vertices[a]].x - origin;
+            edges[a] = vertices[tet.vertices[a]].x - origin;
         }
 
         // A third of the areas of the faces, inwards
@@ -123,8 +167,7 @@ void Foam::cellFluxes::solve()
         if (!(diagonal > 0))
         {
             FatalErrorInFunction
-                << "the fluxes about "
-                << vertices_[tets_[first_].vertices[0]].x
+                << "the fluxes in mesh cell " << tets_[first_].vertices[0]
                 << " cannot be balanced: checkMesh says more"
                 << exit(FatalError);
         }
@@ -175,16 +218,9 @@ void Foam::cellFluxes::solve()
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::cellFluxes::cellFluxes
-(
-    const UList<flowTet>& tets,
-    UList<flowVertex>& vertices,
-    UList<flowTetExcess>& excess
-)
+Foam::cellFluxes::cellFluxes(const UList<flowTet>& tets)
 :
     tets_(tets),
-    vertices_(vertices),
-    excess_(excess),
     first_(0),
     n_(0),
     nPairs_(0)
@@ -193,118 +229,91 @@ Foam::cellFluxes::cellFluxes
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::cellFluxes::take(const label first, const label n)
-{
-    first_ = first;
-    n_ = n;
-    nPairs_ = (n + 1)/2;
-    of_.setSize(n);
-    missing_.setSize(nPairs_);
-    conductances_.setSize(n);
-
-    for (label i = 0; i < n; ++i)
-    {
-        const flowTet& tet = tets_[first + i];
-        const auto vertex =
-            [&](const int a) -> const flowVertex&
-            {
-                return vertices_[tet.vertices[a]];
-            };
-
-        tetFlow flow;
-        flow.setQuadratic(vertex, excess_[first + i].straight);
-        tetFluxes& of = of_[i];
-        vector g[4];
-        flow.coordinateGradients(g);
-        flow.quadraticFluxes(g, of.fluxes);
-        of.volume = flow.volume();
-        for (label k = 0; k < 4; ++k)
-        {
-            of.areas[k] = 3*mag(of.volume*g[k]);
-        }
-    }
-}
-
-
 void Foam::cellFluxes::share
 (
     scalar flux,
     const label first,
-    const label end
+    const label end,
+    flowValues& values
 )
 {
     scalar area = 0;
+    of_.setSize(end - first);
     for (label teti = first; teti < end; ++teti)
     {
-        area += of_[teti - first_].areas[0];
-        flux -= of_[teti - first_].fluxes[0];
+        const auto vertex =
+            [&](const int a) -> const flowVertex&
+            {
+                return values.vertices[tets_[teti].vertices[a]];
+            };
+
+        tetFlow flow;
+        vector g[4];
+        flow.setFace(vertex, values.straight[teti]);
+        flow.coordinateGradients(g);
+        scalar& part = of_[teti - first].areas[0];
+        part = 3*mag(flow.volume()*g[0]);
+        area += part;
+        flux -= flow.quadraticFlux(g, 0);
     }
 
     for (label teti = first; teti < end; ++teti)
     {
-        const scalar part = flux*of_[teti - first_].areas[0]/area;
+        const scalar part = flux*of_[teti - first].areas[0]/area;
         const label other = tets_[teti].neighbours[0];
 
-        excess_[teti].flux[0] = part;
+        values.outwards[teti] = part;
         if (other >= 0)
         {
-            excess_[other].flux[0] = -part;
+            values.outwards[other] = -part;
         }
     }
 }
 
 
-void Foam::cellFluxes::spread()
+void Foam::cellFluxes::spread
+(
+    const label first,
+    const label n,
+    const flowValues& values
+)
 {
-    missing_[nPairs_ - 1] = two{0, 0};
-    scalar* missing = numbers(missing_);
-    scalar volume = 0;
-    scalar net = 0;
-    for (label i = 0; i < n_; ++i)
-    {
-        const scalar* flux = of_[i].fluxes;
-        missing[i] =
-            -excess_[first_ + i].flux[0]
-          - flux[0] - flux[1] - flux[2] - flux[3];
-        net += missing[i];
-        volume += of_[i].volume;
-    }
+    first_ = first;
+    n_ = n;
 
-    // A flow that is not free of divergence has it everywhere in the mesh cell
-    const scalar divergence = net/volume;
-    for (label i = 0; i < n_; ++i)
-    {
-        missing[i] -= divergence*of_[i].volume;
-    }
-
+    const scalar volume = take(values);
     const scalar unit = Foam::sqrt(100/volume);
     const scalar gradientUnit = Foam::sqrt(1000/volume)/cbrt(volume);
-    setByCentre(unit, gradientUnit);
+    setByCentre(values.vertices, unit, gradientUnit);
     setColumns();
     solve();
 
+    const scalar* potential = numbers(missing_);
     const scalar* byCentre = numbers(byCentre_);
     const label stride = 2*nPairs_;
-    flowVertex& centre = vertices_[tets_[first_].vertices[0]];
-    for (label i = 0; i < n_; ++i)
+    const label celli = tets_[first].vertices[0];
+    flowVertex centre(values.vertices[celli]);
+    for (label i = 0; i < n; ++i)
     {
         for (direction k = 0; k < 3; ++k)
         {
-            centre.u[k] += unit*missing[i]*byCentre[k*stride + i];
+            centre.u[k] += unit*potential[i]*byCentre[k*stride + i];
         }
         for (direction k = 0; k < 9; ++k)
         {
             centre.gradient[k] +=
-                gradientUnit*missing[i]*byCentre[(3 + k)*stride + i];
+                gradientUnit*potential[i]*byCentre[(3 + k)*stride + i];
         }
 
+        scalar* flux = values.excess[first + i].flux;
+        flux[0] = values.outwards[first + i];
         for (label k = 1; k < 4; ++k)
         {
-            const label j = tets_[first_ + i].neighbours[k] - first_;
-            excess_[first_ + i].flux[k] =
-                conductances_[i][k - 1]*(missing[i] - missing[j]);
+            const label j = tets_[first + i].neighbours[k] - first;
+            flux[k] = conductances_[i][k - 1]*(potential[i] - potential[j]);
         }
     }
+    values.centres[celli] = centre;
 }
 
 

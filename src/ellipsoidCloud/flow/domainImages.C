@@ -119,7 +119,7 @@ Foam::domainImages::seam Foam::domainImages::translational(const polyPatch& pp)
 Foam::domainImages::domainImages
 (
     const polyMesh& mesh,
-    const wordRes& unreached
+    const labelHashSet& unreached
 )
 {
     if (!Pstream::master())
@@ -132,7 +132,7 @@ Foam::domainImages::domainImages
 
     for (const polyPatch& pp : mesh.boundaryMesh())
     {
-        if (isSeam(pp) && pp.size() && !unreached.match(pp.name()))
+        if (isSeam(pp) && pp.size() && !unreached.found(pp.index()))
         {
             seamAt_[pp.index()] = seams.size();
             seams.append(isMirror(pp) ? symmetry(pp) : translational(pp));
@@ -159,12 +159,12 @@ bool Foam::domainImages::isSeam(const polyPatch& pp)
 bool Foam::domainImages::any
 (
     const polyBoundaryMesh& patches,
-    const wordRes& unreached
+    const labelHashSet& unreached
 )
 {
     for (const polyPatch& pp : patches)
     {
-        if (isSeam(pp) && !unreached.match(pp.name()))
+        if (isSeam(pp) && !unreached.found(pp.index()))
         {
             return true;
         }

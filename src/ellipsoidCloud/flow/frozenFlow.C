@@ -9,6 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 #include "frozenFlow.H"
 #include "baffleSides.H"
+#include "cellFluxes.H"
 #include "foamVersions.H"
 #include "indexedOctree.H"
 #include "treeDataPoint.H"
@@ -75,7 +76,7 @@ void Foam::frozenFlow::sampleOf
     const auto gradient =
         [&](const label i) -> const tensor&
         {
-            return values.vertices[i].gradient;
+            return values.vertex(i).gradient;
         };
     const auto gradp =
         [&](const label i) -> const vector&
@@ -169,7 +170,7 @@ void Foam::frozenFlow::velocityOf
         );
         for (int a = 0; a < 4; ++a)
         {
-            value += (c.weight[a] - inside[a])*values.vertices[c.vertices[a]].u;
+            value += (c.weight[a] - inside[a])*values.vertex(c.vertices[a]).u;
         }
         copy(c.back(value), velocity);
         if (jacobian)
@@ -285,7 +286,7 @@ Foam::frozenFlow::frozenFlow
 (
     const undecomposedFlow& undecomposed,
     const schemeType scheme,
-    const wordRes& unreached,
+    const labelHashSet& unreached,
     const autoPtr<volVectorField>& E,
     const bool pressure,
     const bool unsteady
@@ -297,6 +298,7 @@ Foam::frozenFlow::frozenFlow
     start_(0),
     end_(0),
     unity_(dividedMesh{tets_, cellTets_, values_.vertices}),
+    fluxes_(new cellFluxes(tets_)),
     images_(undecomposed.mesh(), unreached)
 {
     make(undecomposed, E);
@@ -357,9 +359,7 @@ void Foam::frozenFlow::renew
     const scalar rho
 )
 {
-    values_.vertices.close();
-    values_.excess.close();
-    values_.fits.close();
+    values_.close();
 
     if (Pstream::master())
     {
@@ -382,16 +382,12 @@ void Foam::frozenFlow::advance
 {
     if (laterValues_.vertices.empty())
     {
-        laterValues_.vertices.copy(values_.vertices);
-        laterValues_.excess.copy(values_.excess);
-        laterValues_.fits.copy(values_.fits);
+        laterValues_.copy(values_);
     }
 
     // What was the flow at the start of the last step is that at the end of this
     renew(undecomposed, rho);
-    laterValues_.vertices.swap(values_.vertices);
-    laterValues_.excess.swap(values_.excess);
-    laterValues_.fits.swap(values_.fits);
+    laterValues_.swap(values_);
 
     start_ = start;
     end_ = end;

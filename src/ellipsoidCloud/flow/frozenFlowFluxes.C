@@ -365,33 +365,42 @@ void Foam::frozenFlow::makeExcess
     );
     matchFluxes(undecomposed, images, fixed);
 
-    cellFluxes fluxes(tets_, values_.vertices, values_.excess);
+    forAll(tets_, teti)
+    {
+        values_.straight[teti] = straightEdges(tets_[teti], edges, fixed);
+    }
+    const auto share =
+        [&](const label facei, const label first, const label end)
+        {
+            fluxes_->share
+            (
+                fluxThrough(undecomposed.phi(), facei), first, end, values_
+            );
+        };
     for (label celli = 0; celli < mesh.nCells(); ++celli)
     {
-        const label first = cellTets_[celli];
-        const label end = cellTets_[celli + 1];
-
-        for (label teti = first; teti < end; ++teti)
-        {
-            values_.excess[teti].straight =
-                straightEdges(tets_[teti], edges, fixed);
-        }
-        fluxes.take(first, end - first);
-
-        // An owner is the lower of two mesh cells, so what comes through the
-        // other faces is there
-        forOwnedFaces
-        (
-            mesh,
-            cellTets_,
-            celli,
-            [&](const label facei, const label from, const label to)
-            {
-                fluxes.share(fluxThrough(undecomposed.phi(), facei), from, to);
-            }
-        );
-        fluxes.spread();
+        forOwnedFaces(mesh, cellTets_, celli, share);
     }
+
+    static_cast<UList<direction>&>(values_.balanced) = direction(0);
+}
+
+
+void Foam::frozenFlow::balance
+(
+    const flowValues& values,
+    const label celli
+) const
+{
+    direction* balanced = &values.balanced[celli];
+    if (__atomic_load_n(balanced, __ATOMIC_ACQUIRE))
+    {
+        return;
+    }
+
+    const label first = cellTets_[celli];
+    fluxes_->spread(first, cellTets_[celli + 1] - first, values);
+    __atomic_store_n(balanced, direction(1), __ATOMIC_RELEASE);
 }
 
 

@@ -221,7 +221,7 @@ void Foam::frozenFlow::make
     values_.vertices.reset(nVertices);
     if (scheme_ == stDivergenceFree)
     {
-        values_.excess.reset(nTets);
+        values_.makeConservative(nTets, cellTets_.size() - 1);
     }
     if (hasField)
     {
@@ -238,8 +238,6 @@ void Foam::frozenFlow::make
             mesh, *baffles, scheme_ == stDivergenceFree, cellTets_, tets_
         );
         makeVertices(mesh, *baffles, values_.vertices);
-        static_cast<UList<flowTetExcess>&>(values_.excess) =
-            flowTetExcess{{0, 0, 0, 0}, 0};
 
         if (hasField)
         {

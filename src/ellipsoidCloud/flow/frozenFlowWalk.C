@@ -214,12 +214,18 @@ const Foam::tetFlow& Foam::frozenFlow::flowIn
         const auto vertex =
             [&](const int a) -> const flowVertex&
             {
-                return values.vertices[c.vertices[a]];
+                return values.vertex(c.vertices[a]);
             };
 
+        balance(values, c.vertices[0]);
         c.flowOf = values.vertices.cdata();
-        const flowTetExcess& excess = values.excess[c.tet];
-        c.flow.set(c.gradient, vertex, excess.flux, excess.straight);
+        c.flow.set
+        (
+            c.gradient,
+            vertex,
+            values.excess[c.tet].flux,
+            values.straight[c.tet]
+        );
     }
 
     return c.flow;

@@ -30,31 +30,17 @@ Foam::inletFlux::inletFlux
 {
     const fvMesh& mesh = U.mesh();
 
-    const label n = patches.size();
-
-    // One message for all sums
-    scalarField sums(3*n + 2);
-
     forAll(patches, i)
     {
         const scalarField& phip = phi.boundaryField()[patches[i]];
 
-        sums[i] = sum(phip);
-        sums[n + i] = sum(mag(phip));
-        sums[2*n + i] = sum(mesh.magSf().boundaryField()[patches[i]]);
+        flux[i] = gSum(phip);
+        magFlux[i] = gSumMag(phip);
+        area[i] = gSum(mesh.magSf().boundaryField()[patches[i]]);
     }
-    sums[3*n] = sum(mag(U.primitiveField())*mesh.V());
-    sums[3*n + 1] = sum(mesh.V().field());
 
-    Pstream::listCombineGather(sums, plusEqOp<scalar>());
-    broadcast(sums);
-
-    flux = SubList<scalar>(sums, n);
-    magFlux = SubList<scalar>(sums, n, n);
-    area = SubList<scalar>(sums, n, 2*n);
-
-    const scalar volume = sums[3*n + 1];
-    meanSpeed = sums[3*n]/volume;
+    const scalar volume = gSum(mesh.V().field());
+    meanSpeed = gSum(mag(U.primitiveField())*mesh.V())/volume;
     crossing = meanSpeed*pow(volume, 2.0/3.0);
     rounding = 1e-9*crossing;
 

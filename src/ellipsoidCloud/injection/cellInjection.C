@@ -375,20 +375,6 @@ bool Foam::cellInjection::overlaps
 }
 
 
-void Foam::cellInjection::drawOrientation
-(
-    const cellOrientation& orientation,
-    const label seed,
-    const label id,
-    scalar q[4]
-)
-{
-    scalar uniform[6];
-    ellipsoid_random_uniform(seed, id, rsPose, 0, 6, uniform);
-    orientation.set(uniform + 3, q);
-}
-
-
 void Foam::cellInjection::append
 (
     const scalar start,

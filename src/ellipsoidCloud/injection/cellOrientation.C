@@ -8,9 +8,11 @@ License
 
 \*---------------------------------------------------------------------------*/
 #include "cellOrientation.H"
-#include "ellipsoidCore.H"
+#include "ellipsoidProperties.H"
 #include "unitConversion.H"
 #include "vector.H"
+
+#include <numeric>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -63,13 +65,11 @@ void Foam::cellOrientation::setQuaternion
     scalar q[4]
 )
 {
-    scalar sum = 0;
-    for (const scalar component : given)
-    {
-        sum += sqr(component);
-    }
+    const auto begin = given.begin();
+    const scalar length =
+        sqrt(std::inner_product(begin, given.end(), begin, scalar(0)));
 
-    if (!(mag(sqrt(sum) - 1) < 1e-3))
+    if (!(mag(length - 1) < 1e-3))
     {
         FatalIOErrorInFunction(dict)
             << "quaternion " << given << " is not of length 1"
@@ -78,7 +78,7 @@ void Foam::cellOrientation::setQuaternion
 
     for (int d = 0; d < 4; ++d)
     {
-        q[d] = given[d]/sqrt(sum);
+        q[d] = given[d]/length;
     }
 }
 
@@ -93,6 +93,19 @@ void Foam::cellOrientation::set(const scalar uniform[3], scalar q[4]) const
     {
         std::copy_n(q_, 4, q);
     }
+}
+
+
+void Foam::cellOrientation::draw
+(
+    const label seed,
+    const label id,
+    scalar q[4]
+) const
+{
+    scalar uniform[6];
+    ellipsoid_random_uniform(seed, id, rsPose, 0, 6, uniform);
+    set(uniform + 3, q);
 }
 
 

@@ -259,11 +259,7 @@ Foam::List<Foam::groupScheduler::unit> Foam::groupScheduler::unitsOf
         if (!stay.found(k))
         {
             label& to = unitOf[lowest[k]];
-            if (to < 0)
-            {
-                to = nUnits++;
-                units[to].inParts = false;
-            }
+            to = to < 0 ? nUnits++ : to;
             units[to].cells.append(here[k]);
         }
     }
@@ -316,42 +312,32 @@ Foam::labelList Foam::groupScheduler::join
     }
 
     const labelList lowest(overlapGroups::connected(units.size(), bonds));
-    labelList merged(units.size(), -1);
     DynamicList<label> again;
-    label nUnits = 0;
 
+    // Each goes into the lowest that it hangs together with, and is left empty
     forAll(units, unitI)
     {
         const label first = lowest[unitI];
-        const bool isFirst = (first == unitI);
-        travel[first] = max(travel[first], travel[unitI]);
 
-        if (isFirst)
+        if (first != unitI)
         {
-            merged[first] = nUnits++;
-            if (merged[first] != unitI)
-            {
-                units[merged[first]] = std::move(units[unitI]);
-            }
-        }
-        else
-        {
-            units[merged[first]].cells.append(units[unitI].cells);
+            units[first].cells.append(units[unitI].cells);
+            units[unitI] = unit();
+            travel[first] = max(travel[first], travel[unitI]);
+            travel[unitI] = -1;
         }
     }
-    forAll(merged, unitI)
+    forAll(units, unitI)
     {
-        if (merged[unitI] >= 0 && travel[unitI] >= 0)
+        if (travel[unitI] >= 0)
         {
-            unit& joined = units[merged[unitI]];
-            sort(joined.cells);
-            joined.inParts = travel[unitI] > longTravel;
-            joined.rows.clear();
-            again.append(merged[unitI]);
+            sort(units[unitI].cells);
+            units[unitI].inParts = travel[unitI] > longTravel;
+            units[unitI].rows.clear();
+            again.append(unitI);
         }
     }
 
-    units.setSize(nUnits);
     return labelList(std::move(again));
 }
 

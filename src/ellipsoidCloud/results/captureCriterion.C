@@ -11,7 +11,6 @@ License
 #include "checkedEntries.H"
 #include "Map.H"
 #include "polyBoundaryMesh.H"
-#include "stringListOps.H"
 #include "wallPolyPatch.H"
 #include "wordRes.H"
 
@@ -147,7 +146,10 @@ Foam::captureCriterion::captureCriterion
 
     for (const wordRe& name : dict.getOrDefault("sieves", wordRes()))
     {
-        const labelList matched(findStrings(name, patches.names()));
+        const labelHashSet matched
+        (
+            patches.patchSet(wordRes({name}), false, false)
+        );
 
         if (matched.empty())
         {
@@ -157,7 +159,7 @@ Foam::captureCriterion::captureCriterion
                 << exit(FatalIOError);
         }
 
-        for (const label patchi : matched)
+        for (const label patchi : matched.sortedToc())
         {
             if (!isA<wallPolyPatch>(patches[patchi]))
             {

@@ -456,7 +456,7 @@ int Foam::wallFacets::list
     {
         const region& here = regionAt(c, reach);
 
-        // Without a branch, which the processor could not foresee
+        // Without a branch, which would be predicted wrongly half of the time
         listed.setSize(here.facets.size());
         label n = 0;
         forAll(here.facets, i)
