@@ -25,6 +25,9 @@ rest_in_between()
 if [ -n "$ELLIPSOID_TEST_CASES" ]; then rest_in_between || exit; fi
 # Memory that is read before it was set holds numbers that overflow when they are added
 export MALLOC_PERTURB_=128
+if [ -n "$ELLIPSOID_PYTHON" ] && [ -z "$ELLIPSOID_TEST_PYTHON" ]; then
+    export ELLIPSOID_TEST_PYTHON=$ELLIPSOID_PYTHON ELLIPSOID_PYTHON=$PWD/tests/cases/programs/python
+fi
 # For the sourcing tests
 # shellcheck disable=SC2034
 cases=$PWD/tests/cases

@@ -37,26 +37,33 @@ def camera(azimuth, elevation):
     return np.array([right, np.cross(towards, right), towards])
 
 
-def picture(bodies, view, xlim, ylim, scale):
-    """RGBA image, first row at the top, of a window in the plane of the view; scale in
-    pixels a micrometre."""
+def parts(bodies, view, xlim, ylim, scale):
+    """RGBA images of what is drawn in a window in the plane of the view, each with its rows from the
+    top and its columns; scale in pixels a micrometre. Where two overlap they are the same."""
     width, height = (int(round(scale * (high - low))) for low, high in (xlim, ylim))
     fine = scale * FINER
+    # Most of the window is empty, and zeros take time only where something is drawn
     colour = np.zeros((height * FINER, width * FINER, 4), dtype=np.float32)
-    depth = np.full(colour.shape[:2], -np.inf, dtype=np.float32)
-    image = np.zeros((height, width, 4), dtype=np.float32)
+    depth = np.zeros(colour.shape[:2], dtype=np.float32)
     boxes = [_draw(body, view, (xlim[0], ylim[0]), fine, colour, depth) for body in bodies]
-    # Most of the window is empty: only where bodies are are rays brought together
     for rows, columns in boxes:
-        parts = [
+        rays = [
             colour[FINER * rows.start + i:FINER * rows.stop:FINER,
                    FINER * columns.start + j:FINER * columns.stop:FINER]
             for i in range(FINER) for j in range(FINER)
         ]
-        mean = sum(parts[1:], parts[0]) / len(parts)
+        mean = sum(rays[1:], rays[0]) / len(rays)
         mean[..., :3] /= np.maximum(mean[..., 3:], 1e-6)
-        image[rows, columns] = mean.clip(0, 1)
-    return image[::-1]
+        yield slice(height - rows.stop, height - rows.start), columns, mean.clip(0, 1)[::-1]
+
+
+def picture(bodies, view, xlim, ylim, scale):
+    """RGBA image, first row at the top, of all of the window."""
+    width, height = (int(round(scale * (high - low))) for low, high in (xlim, ylim))
+    image = np.zeros((height, width, 4), dtype=np.float32)
+    for rows, columns, part in parts(bodies, view, xlim, ylim, scale):
+        image[rows, columns] = part
+    return image
 
 
 def _draw(body, view, corner, fine, colour, depth):
@@ -92,7 +99,7 @@ def _draw(body, view, corner, fine, colour, depth):
     normal /= np.linalg.norm(normal, axis=0)
 
     window = slice(low, high), slice(left, right)
-    hit &= z + dw > depth[window]
+    hit &= (z + dw > depth[window]) | (colour[window][..., 3] == 0)
     bright = 0.42 + 0.58 * np.clip(np.tensordot(LIGHT, normal, 1), 0, 1)
     bright = np.where(normal[2] < RIM, 0.3 * bright, bright)
     paint = np.where(

@@ -54,7 +54,7 @@ class Film:
     """Frames that are saved like a figure."""
 
     def __init__(self, frames):
-        self.frames = frames   # a function that yields them
+        self.frames = frames   # a function that yields them, as images
         self.halves = None
         self.suffixes = ("mp4", "webp") if shutil.which("ffmpeg") else ("webp",)
         if len(self.suffixes) == 1:
@@ -65,20 +65,20 @@ class Film:
         if file.endswith(".mp4"):
             self.encode(file)
             return
-        first, *others = self.halves or [half(frame) for frame in self.frames()]
+        first, *others = self.halves or [frame.reduce(2) for frame in self.frames()]
         first.save(
             file, save_all=True, append_images=others, duration=FRAME, loop=0,
             quality=QUALITY, method=1,
         )
 
     def encode(self, file):
-        """The MP4; keeps the frames of the WebP."""
+        """The MP4; keeps the frames of the WebP, which have half as many lines."""
         self.halves = []
         encoder = None
         for frame in self.frames():
-            self.halves.append(half(frame))
+            self.halves.append(frame.reduce(2))
             if encoder is None:
-                words = ENCODE.format(*frame.shape[1::-1], MILLI / FRAME).split()
+                words = ENCODE.format(*frame.size, MILLI / FRAME).split()
                 encoder = subprocess.Popen(
                     [*words, file], stdin=subprocess.PIPE, stderr=subprocess.PIPE
                 )
@@ -89,11 +89,6 @@ class Film:
         _, said = encoder.communicate()
         if encoder.returncode != 0:
             raise CaseError(f"{file}: ffmpeg: {said.decode(errors='replace').strip()}")
-
-
-def half(frame):
-    """A frame of half as many lines, as an image."""
-    return Image.fromarray(frame).reduce(2)
 
 
 def visit(track, window):
@@ -256,15 +251,15 @@ def film_of(case, sieve, window, times, actors, caption):
                 bodies.Body(track.x[i], track.q[i], semi_axes, *colours)
                 for _, there, track, semi_axes, colours in actors if there[i]
             ]
-            over = bodies.picture(cells, bodies.FROM_ABOVE, *window, scale)
             frame = stage.copy()
-            part = frame[ABOVE:ABOVE + over.shape[0], LEFT:LEFT + over.shape[1]]
-            seen = over[..., 3] > 0
-            colour, alpha = over[seen, :3], over[seen, 3:]
-            part[seen] = (255 * colour * alpha + part[seen] * (1 - alpha)).astype(np.uint8)
+            for rows, columns, over in bodies.parts(cells, bodies.FROM_ABOVE, *window, scale):
+                rows = slice(ABOVE + rows.start, ABOVE + rows.stop)
+                columns = slice(LEFT + columns.start, LEFT + columns.stop)
+                colour, alpha = over[..., :3], over[..., 3:]
+                frame[rows, columns] = 255 * colour * alpha + stage[rows, columns] * (1 - alpha)
             image = Image.fromarray(frame)
             ImageDraw.Draw(image).text((LEFT, 16), f"{MILLI * t:5.1f} ms", "black", font)
-            yield np.asarray(image)
+            yield image
 
     film = Film(frames)
     style.describe(
