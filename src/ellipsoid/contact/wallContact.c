@@ -189,27 +189,27 @@ double ellipsoid_landing(const ellipsoid_model *model,
 {
     const double speed = ellipsoid_length(state->u)
                        + model->reach * ellipsoid_length(state->omega);
-    ellipsoid_wall_laws laws;
-    double r[3][3];
+    ellipsoid_wall_contact at = {.model = model, .state = state};
 
-    ellipsoid_wall_laws_set(&laws, &model->options);
-    ellipsoid_rotation_inline(state->q, r);
+    ellipsoid_wall_laws_set(&at.laws, &model->options);
+    ellipsoid_rotation_inline(state->q, at.r);
     for (int n = 0; n < cache->bead_count; n++)
     {
         const int b = cache->bead[n];
-        ellipsoid_bead bead = {.radius = model->options.bead_radius,
-                               .laws = &laws};
+        ellipsoid_bead bead;
         double turn[3], velocity[3];
 
-        if (cache->nearest[b] - moved - bead.radius - laws.range > time * speed)
+        if (cache->nearest[b] - moved - model->options.bead_radius
+                - at.laws.range
+            > time * speed)
         {
             continue;
         }
+        bead = bead_of(&at, b);
         ellipsoid_cross(state->omega, model->bead[b], turn);
         for (int i = 0; i < 3; i++)
         {
-            bead.centre[i] = state->x[i] + ellipsoid_dot(r[i], model->bead[b]);
-            velocity[i] = state->u[i] + ellipsoid_dot(r[i], turn);
+            velocity[i] = state->u[i] + ellipsoid_dot(at.r[i], turn);
         }
         time = bead_landing(cache, b, &bead, velocity, depth, time);
     }
