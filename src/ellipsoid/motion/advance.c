@@ -312,11 +312,11 @@ static void describe_step(const ellipsoid_group *g, int explicitly)
         step->contact = g->next[cell].contact;
         if (explicitly)
         {
-            ellipsoid_explicit_dense(g, &g->stages[cell], step, step->dense);
+            ellipsoid_explicit_dense(g, cell, step->dense);
         }
         else
         {
-            ellipsoid_rosenbrock_dense(&g->stages[cell], step->dense);
+            ellipsoid_rosenbrock_dense(g, cell, step->dense);
         }
     }
 }

@@ -125,6 +125,7 @@ static ellipsoid_status advance(ellipsoid_group *g,
         g->start[cell].contact = g->next[cell].contact = nothing;
     }
     g->inertial = g->cell[0].inertial;
+    g->third_order = !g->inertial && g->piecewise;
     g->keeps = g->inertial && g->count == 1
             && ellipsoid_has_near_walls(g->cell[0].model,
                                         &g->cell[0].surroundings);

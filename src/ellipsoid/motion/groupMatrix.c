@@ -70,12 +70,13 @@ static void add_vector(double sign, double m[6][6], const double w[6],
 }
 
 static void fill(ellipsoid_group *g, int row, int column,
-                 const ellipsoid_jacobian_blocks *blocks, double h,
+                 const ellipsoid_jacobian_blocks *blocks, double per_g,
                  ellipsoid_reduced *reduced, int *used)
 {
     double(*m)[6] = make_block(g, row, column, used);
 
-    ellipsoid_stage_matrix_reduce(blocks, &g->start[column].state, h, reduced);
+    ellipsoid_stage_matrix_reduce(blocks, &g->start[column].state, per_g,
+                                  reduced);
     for (int i = 0; i < 6; i++)
     {
         for (int j = 0; j < 6; j++)
@@ -122,10 +123,9 @@ static int factorise(const ellipsoid_group *g, int *used)
     return 1;
 }
 
-int ellipsoid_group_matrix_prepare(ellipsoid_group *g, double h)
+int ellipsoid_group_matrix_prepare(ellipsoid_group *g, double per_g)
 {
     ellipsoid_pairs *pairs = g->pairs;
-    const double per_g = ellipsoid_rosenbrock_set.gamma * h;
     int used = 0;
 
     for (int n = 0; n < g->count * g->count; n++)
@@ -138,20 +138,20 @@ int ellipsoid_group_matrix_prepare(ellipsoid_group *g, double h)
         ellipsoid_stage_matrix *s = &g->system[cell];
         ellipsoid_reduced reduced;
 
-        fill(g, cell, cell, &start->blocks, h, &reduced, &used);
+        fill(g, cell, cell, &start->blocks, per_g, &reduced, &used);
         for (int i = 0; i < 6; i++)
         {
             block_at(g, cell, cell)[i][i] += g->inertial ? 1 / per_g : 0;
         }
         memcpy(s->to_rates[AT_X], reduced.x, sizeof(reduced.x));
         memcpy(s->to_rates[AT_Q], reduced.q, sizeof(reduced.q));
-        ellipsoid_stage_matrix_kinematics(s, &start->state, h);
+        ellipsoid_stage_matrix_kinematics(s, &start->state, per_g);
     }
     for (int n = 0; n < pairs->count; n++)
     {
         ellipsoid_coupling *c = &pairs->coupling[n];
 
-        fill(g, c->row, c->column, &c->blocks, h, &c->reduced, &used);
+        fill(g, c->row, c->column, &c->blocks, per_g, &c->reduced, &used);
     }
     return factorise(g, &used);
 }

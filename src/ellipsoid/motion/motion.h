@@ -37,13 +37,15 @@ static inline int ellipsoid_is_rate(int n)
     The Rosenbrock coefficients as in Hairer & Wanner II, eq. (IV.7.25):
     (1/(gamma h) - J) K_i = f(t0 + alpha_i h, y0 + sum a_ij K_j)
                             + sum c_ij/h K_j + gamma_i h df/dt(t0, y0),
-    y1 = y0 + sum m_j K_j; the error estimate is K_6, and
-    y(s) = y0 (1-s) + s (y1 + (1-s) (d_0 + s d_1)), d_i = sum_j dense_ij K_j.
+    y1 = y0 + sum m_j K_j; the error estimate is the last K, and
+    y(s) = y0 (1-s) + s (y1 + (1-s) (d_0 + s d_1)), d_i = sum_j dense_ij K_j,
+    unless that is Hermite's cubic.
 */
-#define ELLIPSOID_ROSENBROCK_STAGES 6
+#define ELLIPSOID_ROSENBROCK_STAGES 6 /* at most */
 
 typedef struct ellipsoid_rosenbrock_table
 {
+    int stages, order;
     double gamma;
     double a[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
     double c[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
@@ -54,7 +56,8 @@ typedef struct ellipsoid_rosenbrock_table
 } ellipsoid_rosenbrock_table;
 
 extern const ellipsoid_rosenbrock_table
-    ellipsoid_rosenbrock_set; /* rodas4p2.c */
+    ellipsoid_rosenbrock_set,   /* rodas4p2.c */
+    ellipsoid_rosenbrock_third; /* rodas3.c */
 
 /* -------------------------------------------------------- the equations */
 
@@ -71,8 +74,8 @@ ellipsoid_add_body_forces(const ellipsoid_model *model,
 
 /* --------------------------------------------------------------- a cell */
 
-/* How the end of a step is corrected by what an average that is linear over it
-   leaves out (flowAverage.c); velocities (u, omega) of a free body. */
+/* How the end of a step is corrected by what a linear average leaves out
+   (flowAverage.c); velocities (u, omega) of a free body. */
 typedef struct ellipsoid_correction
 {
     const ellipsoid_average *start; /* NULL: it is not */
@@ -164,8 +167,7 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
 ellipsoid_status ellipsoid_evaluate_untouched(const ellipsoid_cell *cell,
                                               ellipsoid_evaluation *at);
 
-/* Does Faxen's average act on this cell that may be taken for linear over a
-   step (flowAverage.c)? */
+/* Has it Faxen's average that may be linear over a step (flowAverage.c)? */
 int ellipsoid_has_average(const ellipsoid_cell *cell);
 
 #define ELLIPSOID_MAX_STAGES 7
@@ -173,8 +175,7 @@ int ellipsoid_has_average(const ellipsoid_cell *cell);
 /* The stages of one step. */
 typedef struct ellipsoid_stages
 {
-    /* two more, for the change of velocities that forceBalance.c looks for and
-       the best ones so far */
+    /* two more, for forceBalance.c: a change, and the best velocities so far */
     double k[ELLIPSOID_MAX_STAGES + 2][UNKNOWNS];
     double time_derivative[UNKNOWNS]; /* df/dt at the start, if unsteady */
     double y[UNKNOWNS]; /* result */
@@ -190,14 +191,7 @@ typedef struct ellipsoid_stages
     double inertia[2][6], stage_inertia[6];
 } ellipsoid_stages;
 
-/*
-    (g M - J) k = r with g = 1/(gamma h), M = I but for inertialess motion.
-    As dx/dt = u, k_x = (r_x + k_u)/g. As Q^2 = -|omega|^2 I,
-        (g I - Q/2)^-1 = (g I + Q/2)/(g^2 + |omega|^2/4)
-    gives k_q from k_omega. A dense 6x6 system in (k_u, k_omega) is left. The
-    solution is wanted six times, hence explicit matrices instead of
-    substitutions, in which each number waits for the one before.
-*/
+/* What solves the linear system of a stage (stageMatrix.c). */
 typedef struct ellipsoid_stage_matrix
 {
     double per_g;
@@ -216,11 +210,11 @@ typedef struct ellipsoid_reduced
     double rates[6][6];
 } ellipsoid_reduced;
 
-/* Returns 0 if the step is so long that the matrix is singular
-   (stageMatrix.c). */
+/* per_g is gamma h. Returns 0 if the step is so long that the matrix is
+   singular. */
 int ellipsoid_stage_matrix_prepare(ellipsoid_stage_matrix *system,
                                    const ellipsoid_evaluation *start,
-                                   int inertial, double h);
+                                   int inertial, double per_g);
 
 /* r and k may be the same. */
 void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *system,
@@ -229,10 +223,11 @@ void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *system,
 /* The same by parts, for a group: rows against the unknowns of `column`; what
    the cell needs for k_x and k_q; these from r and (k_u, k_omega). */
 void ellipsoid_stage_matrix_reduce(const ellipsoid_jacobian_blocks *blocks,
-                                   const ellipsoid_state *column, double h,
+                                   const ellipsoid_state *column, double per_g,
                                    ellipsoid_reduced *reduced);
 void ellipsoid_stage_matrix_kinematics(ellipsoid_stage_matrix *system,
-                                       const ellipsoid_state *state, double h);
+                                       const ellipsoid_state *state,
+                                       double per_g);
 void ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *system,
                                    const double rates[6],
                                    const double r[UNKNOWNS],
@@ -284,8 +279,9 @@ typedef struct ellipsoid_pairs
 typedef struct ellipsoid_group
 {
     int count;
-    int inertial; /* all or none */
-    int stiff;    /* is one a dipole in a field or under an external force? */
+    int inertial;    /* all or none */
+    int third_order; /* are Rosenbrock steps those of Rodas3? */
+    int stiff;       /* is one a dipole in a field or under a given force? */
     int unsteady; /* do the surroundings of one depend on time? */
     int keeps;       /* may the resistance near walls be kept over a step? */
     int kept_last;   /* was it, in the last step? */
@@ -404,7 +400,7 @@ const ellipsoid_body *ellipsoid_placed_body(ellipsoid_group *group,
                                             const ellipsoid_evaluation *points,
                                             int cell);
 
-/* Where a cell at x is nearest to another: x itself, or the image that is set. */
+/* Where a cell at x is nearest to another: x, or the image that is set. */
 const double *ellipsoid_nearest_image(const ellipsoid_surroundings *around,
                                       const double to[3], const double x[3],
                                       double image[3]);
@@ -425,14 +421,22 @@ ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *group,
     The linear system of several cells: that of each, coupled by contacts. It is
     solved for stages k_i in place. 0 if it is singular (groupMatrix.c).
 */
-int ellipsoid_group_matrix_prepare(ellipsoid_group *group, double h);
+int ellipsoid_group_matrix_prepare(ellipsoid_group *group, double per_g);
 void ellipsoid_group_matrix_solve(const ellipsoid_group *group, int stage);
+
+static inline const ellipsoid_rosenbrock_table *
+ellipsoid_rosenbrock_set_of(const ellipsoid_group *g)
+{
+    return g->third_order ? &ellipsoid_rosenbrock_third
+                          : &ellipsoid_rosenbrock_set;
+}
 
 static inline int ellipsoid_group_prepare(ellipsoid_group *g, double h)
 {
-    return g->pairs ? ellipsoid_group_matrix_prepare(g, h)
+    const double per_g = ellipsoid_rosenbrock_set_of(g)->gamma * h;
+    return g->pairs ? ellipsoid_group_matrix_prepare(g, per_g)
                     : ellipsoid_stage_matrix_prepare(g->system, g->start,
-                                                     g->inertial, h);
+                                                     g->inertial, per_g);
 }
 
 static inline void ellipsoid_group_solve(const ellipsoid_group *g, int stage)
@@ -463,24 +467,20 @@ static inline double ellipsoid_stage_time(const ellipsoid_plan *plan,
 ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *group,
                                            const ellipsoid_plan *plan);
 
-/* The continuous extension of such a step. */
-void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,
-                                double dense[3][UNKNOWNS]);
-
 /*
     One explicit step of inertialess motion, or on the slow manifold
     (rungeKutta.c). Its last stage is `next`, the end of the step. *touched is
     set, and the step not finished, where a stage touches something: the
     equations are stiff there.
 */
-ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *group,
+ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
                                          const ellipsoid_plan *plan,
                                          int *touched);
 
-/* The continuous extension of such a step. */
-void ellipsoid_explicit_dense(const ellipsoid_group *group,
-                              ellipsoid_stages *stages,
-                              const ellipsoid_step *step,
+/* The continuous extensions of such steps of a cell. */
+void ellipsoid_rosenbrock_dense(const ellipsoid_group *group, int cell,
+                                double dense[3][UNKNOWNS]);
+void ellipsoid_explicit_dense(const ellipsoid_group *group, int cell,
                               double dense[3][UNKNOWNS]);
 
 /* At the start of a noise interval that lasts many relaxation times: takes the
@@ -529,12 +529,11 @@ ellipsoid_status ellipsoid_manifold_enter(ellipsoid_group *group, double t,
 int ellipsoid_manifold_is_near(const ellipsoid_group *group, double h);
 
 /* The slopes of an explicit step. */
-static inline ellipsoid_status ellipsoid_group_slopes(ellipsoid_group *g,
-                                               double t,
-                                               ellipsoid_evaluation *points)
+static inline ellipsoid_status
+ellipsoid_group_slopes(ellipsoid_group *g, double t, ellipsoid_evaluation *at)
 {
-    return g->inertial ? ellipsoid_manifold_evaluate(g, t, points)
-                       : ellipsoid_group_evaluate(g, t, points, 1, 0);
+    return g->inertial ? ellipsoid_manifold_evaluate(g, t, at)
+                       : ellipsoid_group_evaluate(g, t, at, 1, 0);
 }
 
 /* Has cells take that of these points for linear from now on; none if NULL
@@ -566,11 +565,12 @@ void ellipsoid_forget_corrections(ellipsoid_group *group);
 
 /* -------------------------------------------------------- step control */
 
-/* The next step from t towards end (stepControl.c), at most until the next bead
-   lands on a wall: after this time, or `time` if that is less. */
+/* The next step from t towards end, at most until the next bead lands on a wall:
+   after this time, or `time` if that is less. */
 ellipsoid_plan ellipsoid_plan_step(double proposal, double landing, double t,
                                    double end);
 double ellipsoid_time_to_landing(const ellipsoid_group *group, double time);
+
 /* Sets *step to a first step from the start at t towards end. */
 ellipsoid_status ellipsoid_first_step(ellipsoid_group *group, double t,
                                       double end, double *step);
@@ -584,9 +584,9 @@ ellipsoid_status ellipsoid_judge_step(const ellipsoid_group *group, double h,
 double ellipsoid_step_factor(int order, double error, double previous_error);
 
 /* Is it a failure that a shorter step may cure? */
-static inline int ellipsoid_may_recover(ellipsoid_status status)
+static inline int ellipsoid_may_recover(ellipsoid_status s)
 {
-    return status == ELLIPSOID_STEP_UNDERFLOW || status == ELLIPSOID_NON_FINITE;
+    return s == ELLIPSOID_STEP_UNDERFLOW || s == ELLIPSOID_NON_FINITE;
 }
 
 /* Takes a group from *t to `end` [s]; the observer may stop it (advance.c).

@@ -31,11 +31,11 @@ static inline void weighted_sum(double k[][UNKNOWNS], const double *weight,
     }
 }
 
-static inline void stage_sums(double k[][UNKNOWNS], int stage,
+static inline void stage_sums(const ellipsoid_rosenbrock_table *set,
+                              double k[][UNKNOWNS], int stage,
                               double a[UNKNOWNS], double c[UNKNOWNS])
 {
-    const double *wa = ellipsoid_rosenbrock_set.a[stage];
-    const double *wc = ellipsoid_rosenbrock_set.c[stage];
+    const double *wa = set->a[stage], *wc = set->c[stage];
 
     switch (stage)
     {
@@ -63,13 +63,14 @@ static inline void stage_sums(double k[][UNKNOWNS], int stage,
 
 /* Sets the state of a stage and, in k, what belongs to its right-hand side
    besides the equations: sum c_ij/h K_j, where there is mass. */
-static inline int set_stage(const ellipsoid_evaluation *start, int stage,
+static inline int set_stage(const ellipsoid_rosenbrock_table *set,
+                            const ellipsoid_evaluation *start, int stage,
                             const double mass[UNKNOWNS], ellipsoid_stages *s,
                             ellipsoid_evaluation *at)
 {
     double change[UNKNOWNS], *k = s->k[stage];
 
-    stage_sums(s->k, stage, change, k);
+    stage_sums(set, s->k, stage, change, k);
     for (int n = 0; n < UNKNOWNS; n++)
     {
         at->y[n] = start->y[n] + change[n];
@@ -120,7 +121,7 @@ static ellipsoid_status set_time_derivatives(ellipsoid_group *g,
 
 static void add_time_derivatives(const ellipsoid_group *g, int stage, double h)
 {
-    const double factor = ellipsoid_rosenbrock_set.gamma_sum[stage] * h;
+    const double factor = ellipsoid_rosenbrock_set_of(g)->gamma_sum[stage] * h;
 
     for (int cell = 0; cell < g->count; cell++)
     {
@@ -137,6 +138,8 @@ static void add_time_derivatives(const ellipsoid_group *g, int stage, double h)
 static inline void take_first_stage(ellipsoid_group *g, int count, double h,
                                     double mass[UNKNOWNS])
 {
+    const ellipsoid_rosenbrock_table *set = ellipsoid_rosenbrock_set_of(g);
+
     for (int n = 0; n < UNKNOWNS; n++)
     {
         mass[n] = ellipsoid_is_rate(n) && !g->inertial ? 0 : 1 / h;
@@ -145,9 +148,9 @@ static inline void take_first_stage(ellipsoid_group *g, int count, double h,
     {
         ellipsoid_stages *s = &g->stages[cell];
 
-        s->order = 4;
-        s->sampled = ELLIPSOID_ROSENBROCK_STAGES;
-        s->in_time = ellipsoid_rosenbrock_set.in_time;
+        s->order = set->order;
+        s->sampled = set->stages;
+        s->in_time = set->in_time;
         memcpy(s->k[0], g->start[cell].slope, sizeof(s->k[0]));
         if (ellipsoid_has_contact(g, cell))
         {
@@ -161,10 +164,41 @@ static inline void take_first_stage(ellipsoid_group *g, int count, double h,
     ellipsoid_group_solve(g, 0);
 }
 
+/* The slopes of a stage, in its k; those of a stage at the start are known. */
+static inline ellipsoid_status evaluate_stage(ellipsoid_group *g, int count,
+                                              int stage,
+                                              const ellipsoid_plan *plan)
+{
+    const double part = ellipsoid_rosenbrock_set_of(g)->alpha[stage];
+    const ellipsoid_evaluation *at = part > 0 ? g->next : g->start;
+    ellipsoid_status status = ELLIPSOID_OK;
+
+    if (part > 0)
+    {
+        status = ellipsoid_group_evaluate(g, ellipsoid_stage_time(plan, part),
+                                          g->next, 0, 0);
+    }
+    for (int cell = 0; status == ELLIPSOID_OK && cell < count; cell++)
+    {
+        ellipsoid_stages *s = &g->stages[cell];
+
+        if (ellipsoid_has_contact(g, cell))
+        {
+            ellipsoid_stages_sample(s, stage, &at[cell]);
+        }
+        for (int n = 0; n < UNKNOWNS; n++)
+        {
+            s->k[stage][n] += at[cell].slope[n];
+        }
+    }
+    return status;
+}
+
 /* All of the step for `count` cells; inlined for one and for several. */
 static inline ellipsoid_status take(ellipsoid_group *g, int count,
                                     const ellipsoid_plan *plan)
 {
+    const ellipsoid_rosenbrock_table *set = ellipsoid_rosenbrock_set_of(g);
     const double h = plan->h;
     double mass[UNKNOWNS]; /* over h */
 
@@ -178,37 +212,22 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count,
         }
     }
     take_first_stage(g, count, h, mass);
-    for (int i = 1; i < ELLIPSOID_ROSENBROCK_STAGES; i++)
+    for (int i = 1; i < set->stages; i++)
     {
         ellipsoid_status status;
 
         for (int cell = 0; cell < count; cell++)
         {
-            if (!set_stage(&g->start[cell], i, mass, &g->stages[cell],
+            if (!set_stage(set, &g->start[cell], i, mass, &g->stages[cell],
                            &g->next[cell]))
             {
                 return ELLIPSOID_STEP_UNDERFLOW;
             }
         }
-        status = ellipsoid_group_evaluate(
-            g, ellipsoid_stage_time(plan, ellipsoid_rosenbrock_set.alpha[i]),
-            g->next, 0, 0);
+        status = evaluate_stage(g, count, i, plan);
         if (status != ELLIPSOID_OK)
         {
             return status;
-        }
-        for (int cell = 0; cell < count; cell++)
-        {
-            ellipsoid_stages *s = &g->stages[cell];
-
-            if (ellipsoid_has_contact(g, cell))
-            {
-                ellipsoid_stages_sample(s, i, &g->next[cell]);
-            }
-            for (int n = 0; n < UNKNOWNS; n++)
-            {
-                s->k[i][n] += g->next[cell].slope[n];
-            }
         }
         if (g->unsteady)
         {
@@ -223,7 +242,7 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count,
 
         for (int n = 0; n < UNKNOWNS; n++)
         {
-            s->error[n] = s->k[ELLIPSOID_ROSENBROCK_STAGES - 1][n];
+            s->error[n] = s->k[set->stages - 1][n];
             s->y[n] = g->next[cell].y[n] + s->error[n];
         }
     }
@@ -240,12 +259,38 @@ ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *g,
     return g->count == 1 ? take(g, 1, plan) : take(g, g->count, plan);
 }
 
-void ellipsoid_rosenbrock_dense(ellipsoid_stages *stages,
+/* Hermite's cubic for x and q; u and omega are linear. */
+static void hermite(const ellipsoid_step *step, const double before[UNKNOWNS],
+                    const double after[UNKNOWNS], double dense[3][UNKNOWNS])
+{
+    const double h = step->end - step->start;
+    double from[UNKNOWNS], to[UNKNOWNS];
+
+    memcpy(from, &step->before, sizeof(from));
+    memcpy(to, &step->after, sizeof(to));
+    for (int n = 0; n < UNKNOWNS; n++)
+    {
+        const double change = to[n] - from[n];
+        const int is_rate = ellipsoid_is_rate(n);
+
+        dense[0][n] = is_rate ? 0 : h * before[n] - change;
+        dense[1][n] = is_rate ? 0 : change - h * after[n] - dense[0][n];
+    }
+}
+
+void ellipsoid_rosenbrock_dense(const ellipsoid_group *g, int cell,
                                 double dense[3][UNKNOWNS])
 {
-    for (int i = 0; i < 2; i++)
+    const ellipsoid_rosenbrock_table *set = ellipsoid_rosenbrock_set_of(g);
+
+    if (g->third_order)
     {
-        weighted_sum(stages->k, ellipsoid_rosenbrock_set.dense[i],
+        hermite(&g->step[cell], g->start[cell].slope, g->next[cell].slope,
+                dense);
+    }
+    for (int i = 0; i < 2 && !g->third_order; i++)
+    {
+        weighted_sum(g->stages[cell].k, set->dense[i],
                      ELLIPSOID_ROSENBROCK_STAGES - 1, dense[i]);
     }
     memset(dense[2], 0, sizeof(dense[2]));

@@ -322,15 +322,14 @@ ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
     d_2 = h sum_j dense_j k_j. u and omega are slopes: theirs is the derivative
     of the extension of x, and of that of an angle with slopes omega.
 */
-void ellipsoid_explicit_dense(const ellipsoid_group *g,
-                              ellipsoid_stages *stages,
-                              const ellipsoid_step *step,
+void ellipsoid_explicit_dense(const ellipsoid_group *g, int cell,
                               double dense[3][UNKNOWNS])
 {
     const method *m = method_of(g);
+    const ellipsoid_step *step = &g->step[cell];
     const int last = m->stages - 1;
     const double h = step->end - step->start;
-    double(*k)[UNKNOWNS] = stages->k;
+    double(*k)[UNKNOWNS] = g->stages[cell].k;
     double before[UNKNOWNS], after[UNKNOWNS], change[UNKNOWNS];
 
     memcpy(before, &step->before, sizeof(before));

@@ -5,6 +5,13 @@
 
     stageMatrix.c - the linear systems of a Rosenbrock step.
 
+    (g M - J) k = r with g = 1/(gamma h), M = I but for inertialess motion.
+    As dx/dt = u, k_x = (r_x + k_u)/g. As Q^2 = -|omega|^2 I,
+        (g I - Q/2)^-1 = (g I + Q/2)/(g^2 + |omega|^2/4)
+    gives k_q from k_omega. A dense 6x6 system in (k_u, k_omega) is left. The
+    solution is wanted four or six times, hence explicit matrices instead of
+    substitutions, in which each number waits for the one before.
+
     In a file of its own so that it is compiled once: inlined into the stages it
     makes them slower, as they outgrow the processor's cache for instructions.
 */
@@ -21,9 +28,9 @@ typedef struct elimination
     double per_square; /* 1/(g^2 + |omega|^2/4) */
 } elimination;
 
-static inline elimination of_step(const ellipsoid_state *state, double h)
+static inline elimination of_step(const ellipsoid_state *state, double per_g)
 {
-    const double per_g = ellipsoid_rosenbrock_set.gamma * h, g = 1 / per_g;
+    const double g = 1 / per_g;
     const double square =
         g * g + 0.25 * ellipsoid_dot(state->omega, state->omega);
 
@@ -128,9 +135,9 @@ static void fill_quaternion_part(const elimination *e,
 
 int ellipsoid_stage_matrix_prepare(ellipsoid_stage_matrix *s,
                                    const ellipsoid_evaluation *start,
-                                   int inertial, double h)
+                                   int inertial, double per_g)
 {
-    const elimination e = of_step(&start->state, h);
+    const elimination e = of_step(&start->state, per_g);
     ellipsoid_reduced reduced;
 
     reduce(&e, &start->blocks, &reduced);
@@ -201,18 +208,19 @@ void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *s,
 }
 
 void ellipsoid_stage_matrix_reduce(const ellipsoid_jacobian_blocks *blocks,
-                                   const ellipsoid_state *column, double h,
+                                   const ellipsoid_state *column, double per_g,
                                    ellipsoid_reduced *reduced)
 {
-    const elimination e = of_step(column, h);
+    const elimination e = of_step(column, per_g);
 
     reduce(&e, blocks, reduced);
 }
 
 void ellipsoid_stage_matrix_kinematics(ellipsoid_stage_matrix *s,
-                                       const ellipsoid_state *state, double h)
+                                       const ellipsoid_state *state,
+                                       double per_g)
 {
-    const elimination e = of_step(state, h);
+    const elimination e = of_step(state, per_g);
 
     s->per_g = e.per_g;
     fill_quaternion_part(&e, s);
