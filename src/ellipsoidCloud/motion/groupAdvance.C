@@ -34,7 +34,9 @@ struct Foam::groupAdvance::member
         const ellipsoid_model& model;
         const cellDomain& domain;
         const bool sweeping;
-        const bool recording;
+
+        //- Steps that end before have no row of a track [s]
+        const scalar firstRow;
         DynamicList<segment>& path;
         cellSurroundings here;
         frozenFlow::locationType location;
@@ -87,7 +89,7 @@ struct Foam::groupAdvance::member
                 return 1;
             }
 
-            if (m.recording)
+            if (step->end >= m.firstRow)
             {
                 m.path.append(segment{m.index, *step, tet});
             }
@@ -313,13 +315,19 @@ void Foam::groupAdvance::enter
             ellipsoid_facet_cache_clear(caches_[id]);
         }
 
+        // What unfolds the way follows from all steps. That of a cell that
+        // enters is 0
+        const scalar nextRow =
+            domain_.flow.images().empty() ? cell.state.nextRow : -GREAT;
+
         own.set
         (
             i,
             new member
             {
                 group[i], cell, model(id), domain_,
-                properties.pushing() || onTrial(), !onTrial(), path,
+                properties.pushing() || onTrial(),
+                onTrial() ? GREAT : nextRow, path,
                 {domain_, frozenFlow::probe{cell.state.tet, -1}},
                 frozenFlow::pInside, isometry(), ellipsoid_step(),
                 cell.state.centre(), cell.state.time, id == tried ? reach : 0

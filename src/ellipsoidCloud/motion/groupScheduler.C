@@ -123,26 +123,43 @@ namespace Foam
         const labelUList& ranks
     )
     {
-        DynamicList<cellSweep> mine;
+        const label me = Pstream::myProcNo();
+        labelList counts(Pstream::nProcs(), Zero);
+        DynamicList<label> mine;
+
         forAll(listed, k)
         {
-            if (ranks[k] == Pstream::myProcNo())
+            const labelList& members = units[listed[k]].cells;
+            counts[ranks[k]] += members.size();
+            if (ranks[k] == me)
             {
-                for (const label i : units[listed[k]].cells)
-                {
-                    mine.append(cells[i]);
-                }
+                mine.append(members);
             }
         }
 
-        const List<List<cellSweep>> all(fromAllRanks(List<cellSweep>(mine)));
-        labelList next(all.size(), 0);
+        List<List<cellSweep>> sent(counts.size());
+        List<List<cellSweep>> all;
+        forAll(sent, rank)
+        {
+            if (rank != me)
+            {
+                sent[rank] = UIndirectList<cellSweep>(cells, mine);
+            }
+        }
+        counts[me] = 0;
+        Pstream::exchange<List<cellSweep>, cellSweep>(sent, counts, all);
 
+        labelList next(counts.size(), Zero);
         forAll(listed, k)
         {
+            const label rank = ranks[k];
+
             for (const label i : units[listed[k]].cells)
             {
-                cells[i] = all[ranks[k]][next[ranks[k]]++];
+                if (rank != me)
+                {
+                    cells[i] = all[rank][next[rank]++];
+                }
             }
         }
     }
