@@ -28,6 +28,7 @@ Description
 
 #include "motion/groupAdvance.C"
 #include "motion/groupScheduler.C"
+#include "motion/groupSharing.C"
 #include "motion/overlapGroups.C"
 
 #include "walls/flatMerging.C"

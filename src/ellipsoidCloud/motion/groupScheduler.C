@@ -11,6 +11,7 @@ License
 #include "captureCriterion.H"
 #include "cellDomain.H"
 #include "HashSet.H"
+#include "groupSharing.H"
 #include "overlapGroups.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -26,9 +27,6 @@ namespace Foam
     static const scalar unitGap = 0.5;
     static const scalar unseenGap = 0.1;
     static const scalar shortTravel = 2;
-
-    //- Steps to be expected of a cell that has taken none
-    static const scalar newSteps = 100;
 
     static inline bool waits(const cellSweep& cell)
     {
@@ -66,102 +64,6 @@ namespace Foam
         }
 
         return found;
-    }
-
-    //- Ranks to advance the units listed, of even load
-    static labelList distributed
-    (
-        const List<groupScheduler::unit>& units,
-        const labelUList& listed,
-        const groupScheduler::span& time
-    )
-    {
-        labelList ranks(listed.size(), 0);
-
-        if (!time.shared || !Pstream::parRun())
-        {
-            return ranks;
-        }
-
-        // By the steps to be expected; all of a group go with the shortest
-        scalarList work(listed.size());
-        forAll(listed, k)
-        {
-            const labelList& members = units[listed[k]].cells;
-            scalar steps = 1;
-            for (const label i : members)
-            {
-                const scalar step = time.before[i].state.controller.step;
-                steps = max
-                (
-                    steps, step > 0 ? (time.end - time.start)/step : newSteps
-                );
-            }
-            work[k] = steps*members.size();
-        }
-
-        // The most expensive first
-        scalarList load(Pstream::nProcs(), Zero);
-        labelList order;
-        sortedOrder(work, order, UList<scalar>::greater(work));
-
-        for (const label k : order)
-        {
-            ranks[k] = findMin(load);
-            load[ranks[k]] += work[k];
-        }
-
-        return ranks;
-    }
-
-    //- Bring together what these ranks have advanced; collective
-    static void exchange
-    (
-        List<cellSweep>& cells,
-        const List<groupScheduler::unit>& units,
-        const labelUList& listed,
-        const labelUList& ranks
-    )
-    {
-        const label me = Pstream::myProcNo();
-        labelList counts(Pstream::nProcs(), Zero);
-        DynamicList<label> mine;
-
-        forAll(listed, k)
-        {
-            const labelList& members = units[listed[k]].cells;
-            counts[ranks[k]] += members.size();
-            if (ranks[k] == me)
-            {
-                mine.append(members);
-            }
-        }
-
-        List<List<cellSweep>> sent(counts.size());
-        List<List<cellSweep>> all;
-        forAll(sent, rank)
-        {
-            if (rank != me)
-            {
-                sent[rank] = UIndirectList<cellSweep>(cells, mine);
-            }
-        }
-        counts[me] = 0;
-        Pstream::exchange<List<cellSweep>, cellSweep>(sent, counts, all);
-
-        labelList next(counts.size(), Zero);
-        forAll(listed, k)
-        {
-            const label rank = ranks[k];
-
-            for (const label i : units[listed[k]].cells)
-            {
-                if (rank != me)
-                {
-                    cells[i] = all[rank][next[rank]++];
-                }
-            }
-        }
     }
 }
 
@@ -492,9 +394,9 @@ Foam::List<Foam::groupScheduler::unit> Foam::groupScheduler::advance
 
     while (todo.size())
     {
-        const labelList ranks(distributed(units, todo, time));
+        const labelList ranks(groupSharing::distributed(units, todo, time));
 
-        forAll(todo, k)
+        for (const label k : groupSharing::inMeshOrder(cells, units, todo))
         {
             unit& u = units[todo[k]];
 
@@ -510,7 +412,7 @@ Foam::List<Foam::groupScheduler::unit> Foam::groupScheduler::advance
 
         if (time.shared && Pstream::parRun())
         {
-            exchange(cells, units, todo, ranks);
+            groupSharing::exchange(cells, units, todo, ranks);
         }
 
         todo = join
