@@ -264,13 +264,13 @@ static void test_coupled_system(void **unused)
     for (int n = 0; n < 100; n++)
     {
         const double h = pow(10, -9 + n % 8);
-        const double g_h = 1 / (ellipsoid_rosenbrock_set.gamma * h);
+        const double per_g = 0.25 * h, g_h = 1 / per_g;
         ellipsoid_group g;
         ellipsoid_pairs pairs;
 
         overlapping(&c, &g, &pairs, 1e-8, &seed);
         assert_ok(ellipsoid_group_evaluate(&g, 0, g.start, 0, 1));
-        assert_true(ellipsoid_group_prepare(&g, h));
+        assert_true(ellipsoid_group_prepare(&g, per_g));
         for (int cell = 0; cell < 2; cell++)
         {
             memcpy(g.stages[cell].k[0], g.start[cell].slope,

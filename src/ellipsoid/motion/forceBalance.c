@@ -122,7 +122,7 @@ static int set_changes(ellipsoid_group *g, ellipsoid_evaluation *points)
     }
     g->start = points;
     g->inertial = 0;
-    regular = ellipsoid_group_prepare(g, 1e-20 * shortest);
+    regular = ellipsoid_group_prepare(g, 2.5e-21 * shortest);
     if (regular)
     {
         ellipsoid_group_solve(g, CHANGE);

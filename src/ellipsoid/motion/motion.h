@@ -431,9 +431,8 @@ ellipsoid_rosenbrock_set_of(const ellipsoid_group *g)
                           : &ellipsoid_rosenbrock_set;
 }
 
-static inline int ellipsoid_group_prepare(ellipsoid_group *g, double h)
+static inline int ellipsoid_group_prepare(ellipsoid_group *g, double per_g)
 {
-    const double per_g = ellipsoid_rosenbrock_set_of(g)->gamma * h;
     return g->pairs ? ellipsoid_group_matrix_prepare(g, per_g)
                     : ellipsoid_stage_matrix_prepare(g->system, g->start,
                                                      g->inertial, per_g);
