@@ -23,11 +23,13 @@ enum
     MOST_ITERATIONS = 60,
     MOST_HALVINGS = 40, /* damping turns sharply where it lets go */
     CHANGE = ELLIPSOID_MAX_STAGES, /* beyond the stages of a step */
-    BEST
+    BEST,
+    LAST
 };
 
-/* The slip speeds begin at so much of their value, and fall by a factor. */
-static const double smoothest = 1e12, less_smooth = 0.1;
+/* The slip speeds begin at so much of their value, and fall by a factor, or its
+   root where Newton's method goes round in circles, up to this one. */
+static const double smoothest = 1e12, less_smooth = 0.1, gentlest = 0.8;
 
 /* Newton has converged when it changes velocities by so much of themselves; or
    by this little more, and goes no further: rounding, where speeds are very
@@ -132,28 +134,29 @@ static int set_changes(ellipsoid_group *g, ellipsoid_evaluation *points)
     return regular;
 }
 
-/* Keeps the velocities. */
-static void remember(const ellipsoid_group *g,
+/* Keeps the velocities: the BEST of one system or those of the LAST. */
+static void remember(const ellipsoid_group *g, int which,
                      const ellipsoid_evaluation *points)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
-        double *best = g->stages[cell].k[BEST];
+        double *kept = g->stages[cell].k[which];
 
-        ellipsoid_copy(points[cell].state.u, best + AT_U);
-        ellipsoid_copy(points[cell].state.omega, best + AT_OMEGA);
+        ellipsoid_copy(points[cell].state.u, kept + AT_U);
+        ellipsoid_copy(points[cell].state.omega, kept + AT_OMEGA);
     }
 }
 
 /* Takes those kept. */
-static void recall(const ellipsoid_group *g, ellipsoid_evaluation *points)
+static void recall(const ellipsoid_group *g, int which,
+                   ellipsoid_evaluation *points)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
-        const double *best = g->stages[cell].k[BEST];
+        const double *kept = g->stages[cell].k[which];
 
-        ellipsoid_copy(best + AT_U, points[cell].state.u);
-        ellipsoid_copy(best + AT_OMEGA, points[cell].state.omega);
+        ellipsoid_copy(kept + AT_U, points[cell].state.u);
+        ellipsoid_copy(kept + AT_OMEGA, points[cell].state.omega);
     }
 }
 
@@ -183,7 +186,7 @@ static ellipsoid_status iterate(ellipsoid_group *g,
         if (rounded && fabs(before) < least && are_small(g, points, stalled))
         {
             least = fabs(before);
-            remember(g, points);
+            remember(g, BEST, points);
         }
         previous = before;
         status = ellipsoid_group_evaluate_once(g, points, 0, 1);
@@ -198,7 +201,7 @@ static ellipsoid_status iterate(ellipsoid_group *g,
     }
     if (status == ELLIPSOID_OK && least < HUGE_VAL)
     {
-        recall(g, points);
+        recall(g, BEST, points);
         return ELLIPSOID_OK;
     }
     return status == ELLIPSOID_OK ? ELLIPSOID_NON_FINITE : status;
@@ -213,8 +216,38 @@ static void be_at_rest(const ellipsoid_group *g, ellipsoid_evaluation *points)
     }
 }
 
-/* First as it is; then with slip speeds that fall to their values; in both
-   without the gyroscopic torque. */
+/* With slip speeds that fall to their values. */
+static ellipsoid_status lower_slip_speeds(ellipsoid_group *g,
+                                          ellipsoid_evaluation *points,
+                                          ellipsoid_smoothed_model *smoothed)
+{
+    ellipsoid_status status = ELLIPSOID_OK;
+    double smooth = smoothest, factor = less_smooth;
+
+    be_at_rest(g, points);
+    while (status == ELLIPSOID_OK && smooth > 0.5)
+    {
+        for (int cell = 0; cell < g->count; cell++)
+        {
+            smoothed[cell].model.options.slip_speed =
+                smooth * smoothed[cell].own->options.slip_speed;
+        }
+        remember(g, LAST, points);
+        status = iterate(g, points, 1);
+        if (status == ELLIPSOID_NON_FINITE && smooth < smoothest
+            && factor < gentlest)
+        {
+            recall(g, LAST, points);
+            smooth /= factor;
+            factor = sqrt(factor);
+            status = ELLIPSOID_OK;
+        }
+        smooth *= factor;
+    }
+    return status;
+}
+
+/* First as it is; then so; in both without the gyroscopic torque. */
 static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
                                          ellipsoid_evaluation *points,
                                          ellipsoid_smoothed_model *smoothed)
@@ -232,18 +265,7 @@ static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
     status = iterate(g, points, 0);
     if (status == ELLIPSOID_NON_FINITE)
     {
-        be_at_rest(g, points);
-        status = ELLIPSOID_OK;
-        for (double smooth = smoothest; status == ELLIPSOID_OK && smooth > 0.5;
-             smooth *= less_smooth)
-        {
-            for (int cell = 0; cell < g->count; cell++)
-            {
-                smoothed[cell].model.options.slip_speed =
-                    smooth * smoothed[cell].own->options.slip_speed;
-            }
-            status = iterate(g, points, 1);
-        }
+        status = lower_slip_speeds(g, points, smoothed);
     }
     for (int cell = 0; cell < g->count; cell++)
     {
