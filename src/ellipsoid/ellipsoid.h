@@ -272,6 +272,9 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 #define ELLIPSOID_MAX_LISTED 256
 #define ELLIPSOID_LIVE_LEVELS 4
 
+/* Facets kept of the pose looked at last. */
+#define ELLIPSOID_MAX_MET 64
+
 /*
     Which facets each bead, or the ellipsoid, may touch, and which the
     resistance may know of, kept while the cell moves little. One per cell; its
@@ -309,6 +312,10 @@ typedef struct ellipsoid_facet_cache
     double live_x[3], live_axis[3][3]; /* where; the body's axes there */
     /* which of near_facet, ascending */
     short live[ELLIPSOID_LIVE_LEVELS][ELLIPSOID_MAX_NEAR];
+    /* likewise those that count in the pose looked at last; -1: not known */
+    int met_count;
+    double met_x[3], met_axis[3][3];
+    short met[ELLIPSOID_MAX_MET];
 } ellipsoid_facet_cache;
 
 /*

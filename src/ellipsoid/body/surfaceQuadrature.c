@@ -49,7 +49,8 @@ static void add_point(ellipsoid_model *model, const double n[3], double weight)
     model->flow_weight[p] = weight;
 }
 
-/* All signs of the numbers that are not zero. */
+/* All signs of the numbers that are not zero; after each point the one
+   opposite. */
 static void add_signs(ellipsoid_model *model, const double n[3], double weight)
 {
     for (int sign = 0; sign < 8; sign++)
@@ -57,11 +58,16 @@ static void add_signs(ellipsoid_model *model, const double n[3], double weight)
         const double s[3] = {sign & 1 ? -1 : 1, sign & 2 ? -1 : 1,
                              sign & 4 ? -1 : 1};
         const double point[3] = {s[0] * n[0], s[1] * n[1], s[2] * n[2]};
+        const double opposite[3] = {-point[0], -point[1], -point[2]};
+        const double first = n[0] > 0   ? s[0]
+                             : n[1] > 0 ? s[1]
+                                        : s[2];
 
-        if ((n[0] > 0 || s[0] > 0) && (n[1] > 0 || s[1] > 0)
+        if (first > 0 && (n[0] > 0 || s[0] > 0) && (n[1] > 0 || s[1] > 0)
             && (n[2] > 0 || s[2] > 0))
         {
             add_point(model, point, weight);
+            add_point(model, opposite, weight);
         }
     }
 }

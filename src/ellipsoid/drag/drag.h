@@ -104,7 +104,7 @@ typedef struct ellipsoid_plane
 typedef struct ellipsoid_planes
 {
     int count;
-    ellipsoid_plane at[ELLIPSOID_MAX_PLANES];
+    ellipsoid_plane at[ELLIPSOID_MAX_PLANES + 1]; /* one, where it is tried */
 } ellipsoid_planes;
 
 /* The planes at the pose of a state (wallPlanes.c). */

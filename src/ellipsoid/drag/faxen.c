@@ -47,10 +47,12 @@ static int velocities_of_flow(const ellipsoid_surroundings *surroundings,
 }
 
 /* Sums over the points, with their weights: of products of a point's components
-   in the body frame and the velocity or its derivatives in the lab's. */
+   in the body frame and the velocity or its derivatives in the lab's. Points
+   come in opposite pairs (surfaceQuadrature.c), of which odd products take the
+   difference, even ones the sum. */
 typedef struct moments
 {
-    double u[3][3];     /* c_j v, v relative to the centre */
+    double u[3][3];     /* c_j v */
     double g[3][3];     /* G */
     double cg[3][3][3]; /* c_j G */
     double ccg[6][3][3]; /* c_j c_s G, j <= s */
@@ -67,16 +69,31 @@ static inline void add_scaled(const double *g, double factor, double *sum)
     }
 }
 
-static void add_jacobian(const double c[3], double weight, const double *g,
-                         moments *sums)
+/* Those of a point and of the one opposite. */
+static void add_jacobians(const double c[3], double weight, const double *g,
+                          const double *opposite, moments *sums)
 {
-    add_scaled(g, weight, sums->g[0]);
+    double sum[9], difference[9];
+
+    for (int n = 0; n < 9; n++)
+    {
+        sum[n] = weight * (g[n] + opposite[n]);
+        difference[n] = weight * (g[n] - opposite[n]);
+    }
+    add_scaled(sum, 1, sums->g[0]);
     for (int j = 0; j < 3; j++)
     {
-        add_scaled(g, weight * c[j], sums->cg[j][0]);
+        if (c[j] == 0)
+        {
+            continue;
+        }
+        add_scaled(difference, c[j], sums->cg[j][0]);
         for (int s = j; s < 3; s++)
         {
-            add_scaled(g, weight * c[j] * c[s], sums->ccg[pair[j][s]][0]);
+            if (c[s] != 0)
+            {
+                add_scaled(sum, c[j] * c[s], sums->ccg[pair[j][s]][0]);
+            }
         }
     }
 }
@@ -195,26 +212,25 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
     memset(free, 0, sizeof *free);
     memset(&sums, 0, sizeof sums);
     ellipsoid_copy(centre_velocity, free->u);
-    for (int p = 0; p < count; p++)
+    for (int p = 0; p < count; p += 2)
     {
         const double *c = model->flow_point[p], weight = model->flow_weight[p];
-        double rel[3];
+        const double *v = velocity[p], *opposite = velocity[p + 1];
 
         for (int i = 0; i < 3; i++)
         {
-            rel[i] = weight * (velocity[p][i] - centre_velocity[i]);
-            free->u[i] += rel[i];
-        }
-        for (int j = 0; j < 3; j++)
-        {
-            for (int i = 0; i < 3; i++)
-            {
-                sums.u[j][i] += c[j] * rel[i];
-            }
+            const double odd = weight * (v[i] - opposite[i]);
+
+            free->u[i] += weight
+                        * ((v[i] - centre_velocity[i])
+                           + (opposite[i] - centre_velocity[i]));
+            sums.u[0][i] += c[0] * odd;
+            sums.u[1][i] += c[1] * odd;
+            sums.u[2][i] += c[2] * odd;
         }
         if (wanted)
         {
-            add_jacobian(c, weight, jacobian[p][0], &sums);
+            add_jacobians(c, weight, jacobian[p][0], jacobian[p + 1][0], &sums);
         }
     }
     if (wanted)

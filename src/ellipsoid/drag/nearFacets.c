@@ -109,7 +109,7 @@ ellipsoid_collect_near(const ellipsoid_surroundings *surroundings,
     {
         return ELLIPSOID_OK;
     }
-    cache->near_count = cache->live_count[0] = -1;
+    cache->near_count = cache->live_count[0] = cache->met_count = -1;
     for (int k = 0; k < count; k++)
     {
         status = list_near(surroundings, x, range, margin_parts[k] * range,

@@ -182,14 +182,26 @@ static int is_out_of_range(const ellipsoid_wall_search *s,
     return 1;
 }
 
+/* How far a point in the facet's plane lies beyond edge k, times that edge's
+   length, which `along` has. */
+static inline double beyond(const ellipsoid_facet *facet, const double foot[3],
+                            int k, double along[3])
+{
+    double inward[3], from[3];
+
+    ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k], along);
+    ellipsoid_cross(facet->normal, along, inward);
+    ellipsoid_difference(facet->vertex[k], foot, from);
+    return ellipsoid_dot(inward, from);
+}
+
 /* Finds the plane that this facet gives; 0 if there is none. */
 int ellipsoid_find_feature(const ellipsoid_wall_search *s,
                            const ellipsoid_facet *facet,
                            ellipsoid_wall_view *view,
                            ellipsoid_wall_feature *p)
 {
-    const int has_rim = ellipsoid_facet_has_convex_edge(facet);
-    double from[3], foot[3], aside[3], height;
+    double from[3], foot[3], aside[3], along[3], height;
     int outside[3], on_rim = 0, on_flat = 0;
 
     ellipsoid_difference(s->x, facet->middle, from);
@@ -199,14 +211,16 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
         return 0;
     }
     ellipsoid_look_along(s, facet->normal, view);
-    if (!has_rim && height * view->far >= s->range)
-    {
-        return 0; /* its plane is too far to count (wallPlanes.c) */
-    }
     for (int i = 0; i < 3; i++)
     {
         aside[i] = from[i] - view->way[i] * height;
         foot[i] = s->x[i] - view->way[i] * height;
+    }
+    for (int k = 0; k < 3; k++)
+    {
+        outside[k] = facet->edge[k] == ELLIPSOID_EDGE_CONVEX
+                  && beyond(facet, foot, k, along) > 0;
+        on_rim = on_rim || outside[k];
     }
 
     const double beside = ellipsoid_facet_is_extended(facet)
@@ -214,27 +228,24 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
                             : ellipsoid_lap;
     const double wide = facet->radius + beside * height;
 
-    if (!has_rim && ellipsoid_dot(aside, aside) > wide * wide)
+    if (!on_rim
+        && (height * view->far >= s->range
+            || ellipsoid_dot(aside, aside) > wide * wide))
     {
-        return 0; /* it has faded, or is another facet's */
+        return 0; /* its plane is too far to count (wallPlanes.c), it has faded,
+                     or is another facet's */
     }
     for (int k = 0; k < 3; k++)
     {
-        double along[3], inward[3], out;
-
-        ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
-                             along);
-        ellipsoid_cross(facet->normal, along, inward);
-        ellipsoid_difference(facet->vertex[k], foot, from);
-        out = ellipsoid_dot(inward, from);
-        outside[k] = out > 0;
-        on_rim = on_rim
-              || (outside[k] && facet->edge[k] == ELLIPSOID_EDGE_CONVEX);
-        if (outside[k] && facet->edge[k] == ELLIPSOID_EDGE_FLAT)
+        if (facet->edge[k] != ELLIPSOID_EDGE_CONVEX)
         {
-            outside[k] = 0;
+            const double out = beyond(facet, foot, k, along);
+
+            outside[k] = out > 0 && facet->edge[k] != ELLIPSOID_EDGE_FLAT;
             on_flat = on_flat
-                   || out > ellipsoid_lap * height * ellipsoid_length(along);
+                   || (out > 0 && !outside[k]
+                       && out > ellipsoid_lap * height
+                                    * ellipsoid_length(along));
         }
     }
     if (on_rim ? is_out_of_range(s, facet, outside) : on_flat)

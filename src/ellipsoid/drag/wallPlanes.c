@@ -293,11 +293,12 @@ static int is_one_feature(const ellipsoid_wall_search *s,
     }
 }
 
-/* Of features seen twice the one that fades less is kept. Whether planes of
-   others are nearly the same must not matter: they fade in gradually. */
-static void keep(const ellipsoid_wall_search *s, const ellipsoid_plane *plane,
-                 ellipsoid_planes *all)
+/* Takes the plane behind all, unless it is seen already: of features seen twice
+   the one that fades less is kept. Whether planes of others are nearly the same
+   must not matter: they fade in gradually. */
+static void keep(const ellipsoid_wall_search *s, ellipsoid_planes *all)
 {
+    const ellipsoid_plane *plane = &all->at[all->count];
     int farthest = 0;
 
     for (int i = 0; i < all->count; i++)
@@ -317,7 +318,7 @@ static void keep(const ellipsoid_wall_search *s, const ellipsoid_plane *plane,
     }
     if (all->count < ELLIPSOID_MAX_PLANES)
     {
-        all->at[all->count++] = *plane;
+        all->count++;
     }
     else if (plane->height.value < all->at[farthest].height.value)
     {
@@ -328,7 +329,7 @@ static void keep(const ellipsoid_wall_search *s, const ellipsoid_plane *plane,
 static void add_plane(const ellipsoid_wall_search *s,
                       const ellipsoid_wall_feature *p, ellipsoid_planes *all)
 {
-    ellipsoid_plane plane;
+    ellipsoid_plane *plane = &all->at[all->count];
     window_way way;
 
     set_way(s, p->normal, p->height, &way);
@@ -336,35 +337,35 @@ static void add_plane(const ellipsoid_wall_search *s,
     {
         return; /* too far */
     }
-    memset(&plane, 0, sizeof(plane));
-    ellipsoid_copy(p->normal, plane.normal);
-    plane.height.value = p->height;
-    plane.extent.value = 1;
-    plane.feature = p->feature;
-    plane.vertex[0] = p->facet->vertex[p->k];
-    plane.vertex[1] = p->facet->vertex[(p->k + 1) % 3];
+    memset(plane, 0, sizeof(*plane));
+    ellipsoid_copy(p->normal, plane->normal);
+    plane->height.value = p->height;
+    plane->extent.value = 1;
+    plane->feature = p->feature;
+    plane->vertex[0] = p->facet->vertex[p->k];
+    plane->vertex[1] = p->facet->vertex[(p->k + 1) % 3];
     if (s->turned)
     {
         if (p->feature == ELLIPSOID_ON_FACE)
         {
-            face_slopes(s, p, &plane);
+            face_slopes(s, p, plane);
         }
         else
         {
-            rim_slopes(s, p, &plane);
+            rim_slopes(s, p, plane);
         }
     }
-    set_window(s, &way, &plane);
-    for (int k = 0; k < 3 && plane.window.value * plane.extent.value > 0; k++)
+    set_window(s, &way, plane);
+    for (int k = 0; k < 3 && plane->window.value * plane->extent.value > 0; k++)
     {
         if (p->over[k])
         {
-            fade(s, p, k, &plane);
+            fade(s, p, k, plane);
         }
     }
-    if (plane.window.value * plane.extent.value > 0)
+    if (plane->window.value * plane->extent.value > 0)
     {
-        keep(s, &plane, all);
+        keep(s, all);
     }
 }
 
@@ -397,6 +398,44 @@ static void join_same(const ellipsoid_wall_search *s, ellipsoid_planes *all)
         }
     }
     all->count = count;
+}
+
+/* Adds the planes of facets that may be met, and keeps which are. */
+static void look_at(const ellipsoid_wall_search *s, const short which[],
+                    int count, ellipsoid_facet_cache *cache,
+                    ellipsoid_planes *planes)
+{
+    ellipsoid_wall_view view = {.along = {0}};
+    int met = 0;
+
+    for (int k = 0; k < count; k++)
+    {
+        const short near = which[k]; /* may be one of those kept */
+        ellipsoid_wall_feature found;
+
+        if (ellipsoid_find_feature(
+                s, &cache->near_facets[cache->near_facet[near]], &view, &found))
+        {
+            add_plane(s, &found, planes);
+            if (met < ELLIPSOID_MAX_MET)
+            {
+                cache->met[met] = near;
+            }
+            met++;
+        }
+    }
+    cache->met_count = met <= ELLIPSOID_MAX_MET ? met : -1;
+    ellipsoid_copy(s->x, cache->met_x);
+    memcpy(cache->met_axis, s->axis, sizeof(cache->met_axis));
+}
+
+/* A pose is often looked at twice, for resistance and for slopes. */
+static int is_looked_at(const ellipsoid_wall_search *s,
+                        const ellipsoid_facet_cache *cache)
+{
+    return cache->met_count >= 0
+        && memcmp(s->x, cache->met_x, sizeof(cache->met_x)) == 0
+        && memcmp(s->axis, cache->met_axis, sizeof(cache->met_axis)) == 0;
 }
 
 /* Axes of length one, and their derivatives, from those of any q. */
@@ -445,20 +484,17 @@ ellipsoid_find_planes(const ellipsoid_model *model,
         state->x, {a[0] * a[0], a[1] * a[1], a[2] * a[2]},
         unit,     frame->by_q ? turned : NULL,
         range,    longest, shortest};
-    ellipsoid_wall_view view = {.along = {0}};
-    const int level = ellipsoid_look_closer(&s, cache);
-    const short *live = cache->live[level];
 
-    for (int k = 0; k < cache->live_count[level]; k++)
+    if (is_looked_at(&s, cache))
     {
-        const ellipsoid_facet *facet =
-            &cache->near_facets[cache->near_facet[live[k]]];
-        ellipsoid_wall_feature found;
+        look_at(&s, cache->met, cache->met_count, cache, planes);
+    }
+    else
+    {
+        const int level = ellipsoid_look_closer(&s, cache);
 
-        if (ellipsoid_find_feature(&s, facet, &view, &found))
-        {
-            add_plane(&s, &found, planes);
-        }
+        look_at(&s, cache->live[level], cache->live_count[level], cache,
+                planes);
     }
     ellipsoid_weigh_planes(model, planes, s.turned != NULL);
     join_same(&s, planes);

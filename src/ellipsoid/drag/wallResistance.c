@@ -99,43 +99,43 @@ static int set_far(plane_geometry *g)
     return ellipsoid_invert3(z, g->inverse);
 }
 
-static plane_geometry geometry(const ellipsoid_model *model,
-                               const double normal[3], double height)
+static void set_geometry(const ellipsoid_model *model, const double normal[3],
+                         double height, plane_geometry *g)
 {
     const double *a = model->options.semi_axes;
-    plane_geometry g = {.model = model};
     double bb, ratio, length, g2;
 
-    ellipsoid_copy(normal, g.m);
-    ellipsoid_set(g.square, a[0] * a[0], a[1] * a[1], a[2] * a[2]);
-    g.trace = ellipsoid_sum(g.square);
+    g->model = model;
+    ellipsoid_copy(normal, g->m);
+    ellipsoid_set(g->square, a[0] * a[0], a[1] * a[1], a[2] * a[2]);
+    g->trace = ellipsoid_sum(g->square);
     for (int i = 0; i < 3; i++)
     {
-        g.b[i] = g.square[i] * g.m[i];
+        g->b[i] = g->square[i] * g->m[i];
     }
-    g.support2 = ellipsoid_dot(g.m, g.b);
-    g.support = sqrt(g.support2);
-    g.gap = cut_off(height - g.support, model->options.lubrication_gap,
-                    &g.gap_slope);
-    g.height = g.support + g.gap;
-    ellipsoid_set(g.arm, -g.b[0] / g.support, -g.b[1] / g.support,
-                  -g.b[2] / g.support);
-    g.regular = set_far(&g);
+    g->support2 = ellipsoid_dot(g->m, g->b);
+    g->support = sqrt(g->support2);
+    g->gap = cut_off(height - g->support, model->options.lubrication_gap,
+                     &g->gap_slope);
+    g->height = g->support + g->gap;
+    ellipsoid_set(g->arm, -g->b[0] / g->support, -g->b[1] / g->support,
+                  -g->b[2] / g->support);
+    g->regular = set_far(g);
 
-    bb = ellipsoid_dot(g.b, g.b);
-    g.s = a[0] * a[1] * a[2] / g.support2;
-    g.tau = (g.trace - bb / g.support2) / g.support;
-    g2 = g.s * g.s;
-    g.e1 = 12 * (2 * g.tau * g.tau + g2) / (6 * g.tau * g.tau + g2);
-    g.e2 = 24 * g.tau / (6 * g.tau * g.tau + g2);
-    ratio = 0.5 * g.tau / g.s;
-    length = g.support * ratio * sqrt(ratio);
-    g.near = length / (length + g.gap);
-    g.squeeze = 12 * pi * g2 * g.s / (g.tau * g.gap) * g.near * g.near * g.near;
-    g.close = g.support / g.height;
-    g.log_tail = log_tail(g.close, g.gap / g.height);
-    g.shear = 2 * pi * g.s * g.log_tail;
-    return g;
+    bb = ellipsoid_dot(g->b, g->b);
+    g->s = a[0] * a[1] * a[2] / g->support2;
+    g->tau = (g->trace - bb / g->support2) / g->support;
+    g2 = g->s * g->s;
+    g->e1 = 12 * (2 * g->tau * g->tau + g2) / (6 * g->tau * g->tau + g2);
+    g->e2 = 24 * g->tau / (6 * g->tau * g->tau + g2);
+    ratio = 0.5 * g->tau / g->s;
+    length = g->support * ratio * sqrt(ratio);
+    g->near = length / (length + g->gap);
+    g->squeeze = 12 * pi * g2 * g->s / (g->tau * g->gap) * g->near * g->near
+               * g->near;
+    g->close = g->support / g->height;
+    g->log_tail = log_tail(g->close, g->gap / g->height);
+    g->shear = 2 * pi * g->s * g->log_tail;
 }
 
 /* The change with the normal's component n, or with the height, n = 3. */
@@ -223,36 +223,35 @@ typedef struct response
     double spun[3], along;                /* C omega; n.C omega */
 } response;
 
-static response respond(plane_geometry *g, const double rates[6])
+static void respond(plane_geometry *g, const double rates[6], response *r)
 {
     const double *k = g->model->resistance, *c = g->model->rotation_resistance;
-    response r = {.omega = rates + 3};
     double rolled[3];
 
-    ellipsoid_cross(r.omega, g->arm, r.at_surface);
-    ellipsoid_add(r.at_surface, rates);
-    r.out = ellipsoid_dot(r.at_surface, g->m);
-    ellipsoid_cross(g->m, r.omega, r.turning);
-    curved(g, r.turning, rolled);
+    r->omega = rates + 3;
+    ellipsoid_cross(r->omega, g->arm, r->at_surface);
+    ellipsoid_add(r->at_surface, rates);
+    r->out = ellipsoid_dot(r->at_surface, g->m);
+    ellipsoid_cross(g->m, r->omega, r->turning);
+    curved(g, r->turning, rolled);
     for (int i = 0; i < 3; i++)
     {
-        r.across[i] = r.at_surface[i] - r.out * g->m[i];
-        r.wedge[i] = 0.5 * r.across[i] - rolled[i];
-        r.pushed[i] = k[i] * rates[i];
-        r.spun[i] = c[i] * r.omega[i];
+        r->across[i] = r->at_surface[i] - r->out * g->m[i];
+        r->wedge[i] = 0.5 * r->across[i] - rolled[i];
+        r->pushed[i] = k[i] * rates[i];
+        r->spun[i] = c[i] * r->omega[i];
     }
-    curved(g, r.wedge, r.bent);
+    curved(g, r->wedge, r->bent);
     for (int i = 0; i < 3; i++)
     {
-        r.raw[i] = g->e1 * r.wedge[i] - g->e2 * r.bent[i];
-        r.pull[i] = g->shear * r.raw[i];
-        r.force[i] = g->squeeze * r.out * g->m[i] + g->shear * r.across[i]
-                   + 0.5 * r.pull[i];
+        r->raw[i] = g->e1 * r->wedge[i] - g->e2 * r->bent[i];
+        r->pull[i] = g->shear * r->raw[i];
+        r->force[i] = g->squeeze * r->out * g->m[i] + g->shear * r->across[i]
+                   + 0.5 * r->pull[i];
     }
-    curved(g, r.pull, r.moment);
-    ellipsoid_product(g->inverse, r.pushed, r.far);
-    r.along = ellipsoid_dot(g->m, r.spun);
-    return r;
+    curved(g, r->pull, r->moment);
+    ellipsoid_product(g->inverse, r->pushed, r->far);
+    r->along = ellipsoid_dot(g->m, r->spun);
 }
 
 /* Force and torque. */
@@ -351,21 +350,93 @@ static void respond_change(plane_geometry *g, const plane_change *d,
     }
 }
 
+/* Two unit vectors across the normal and each other. */
+static void set_tangents(const double m[3], double tangent[2][3])
+{
+    const int k = fabs(m[0]) < fabs(m[1]) ? (fabs(m[0]) < fabs(m[2]) ? 0 : 2)
+                                          : (fabs(m[1]) < fabs(m[2]) ? 1 : 2);
+    const double axis[3] = {k == 0, k == 1, k == 2};
+    double length;
+
+    ellipsoid_cross(m, axis, tangent[0]);
+    length = ellipsoid_length(tangent[0]);
+    for (int i = 0; i < 3; i++)
+    {
+        tangent[0][i] /= length;
+    }
+    ellipsoid_cross(m, tangent[0], tangent[1]);
+}
+
+/* Lubrication, in which with P y = u_s the matrix of a dissipation is P^T ... P
+   and so a sum of products of rows, along n and two tangents t. */
+static void add_near(const plane_geometry *g, double matrix[6][6])
+{
+    double tangent[2][3], out[6], across[2][6], wedge[2][6], pull[2][6];
+    double bent[2][3], mixed;
+
+    set_tangents(g->m, tangent);
+    ellipsoid_copy(g->m, out);
+    ellipsoid_cross(g->arm, g->m, out + 3);
+    for (int a = 0; a < 2; a++)
+    {
+        double turning[3];
+
+        ellipsoid_copy(tangent[a], across[a]);
+        ellipsoid_cross(g->arm, tangent[a], across[a] + 3);
+        curved(g, tangent[a], bent[a]);
+        ellipsoid_cross(g->m, bent[a], turning);
+        for (int i = 0; i < 3; i++)
+        {
+            wedge[a][i] = 0.5 * across[a][i];
+            wedge[a][i + 3] = 0.5 * across[a][i + 3] + turning[i];
+        }
+    }
+    mixed = -g->e2 * ellipsoid_dot(tangent[0], bent[1]);
+    for (int a = 0; a < 2; a++)
+    {
+        const double own = g->e1 - g->e2 * ellipsoid_dot(tangent[a], bent[a]);
+
+        for (int i = 0; i < 6; i++)
+        {
+            pull[a][i] =
+                g->shear * (own * wedge[a][i] + mixed * wedge[1 - a][i]);
+        }
+    }
+    for (int i = 0; i < 6; i++)
+    {
+        const double squeezed = g->squeeze * out[i];
+        const double sheared[2] = {g->shear * across[0][i],
+                                   g->shear * across[1][i]};
+
+        for (int j = 0; j < 6; j++)
+        {
+            matrix[i][j] += squeezed * out[j] + sheared[0] * across[0][j]
+                          + sheared[1] * across[1][j]
+                          + wedge[0][i] * pull[0][j] + wedge[1][i] * pull[1][j];
+        }
+    }
+}
+
 int ellipsoid_plane_matrix(const ellipsoid_model *model,
                            const double normal[3], double height,
                            double matrix[6][6])
 {
-    plane_geometry g = geometry(model, normal, height);
+    const double *k = model->resistance, *c = model->rotation_resistance;
+    plane_geometry g;
 
-    for (int n = 0; n < 6; n++)
+    set_geometry(model, normal, height, &g);
+    for (int i = 0; i < 3; i++)
     {
-        double rates[6] = {0};
-        response r;
-
-        rates[n] = 1;
-        r = respond(&g, rates);
-        sum_up(&g, &r, matrix[n]);
+        for (int j = 0; j < 3; j++)
+        {
+            matrix[i][j] = k[i] * g.inverse[i][j] * k[j];
+            matrix[i][j + 3] = matrix[i + 3][j] = 0;
+            matrix[i + 3][j + 3] =
+                c[i] * g.rotlet * c[j] * (5 * (i == j) - 3 * g.m[i] * g.m[j])
+                / 16;
+        }
     }
+    add_near(&g, matrix);
     return g.regular;
 }
 
@@ -374,9 +445,11 @@ int ellipsoid_plane_resistance(const ellipsoid_model *model,
                                const double rates[6], double action[6],
                                double change[4][6])
 {
-    plane_geometry g = geometry(model, normal, height);
-    const response r = respond(&g, rates);
+    plane_geometry g;
+    response r;
 
+    set_geometry(model, normal, height, &g);
+    respond(&g, rates, &r);
     sum_up(&g, &r, action);
     for (int n = 0; change && n < 4; n++)
     {

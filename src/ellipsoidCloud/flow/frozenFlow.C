@@ -153,24 +153,29 @@ void Foam::frozenFlow::velocityOf
 {
     if (scheme_ == stDivergenceFree)
     {
-        // Beyond an open patch, what is not linear stays as it is there
-        scalar inside[4];
-        std::copy_n(c.weight, 4, inside);
-        if (*std::min_element(inside, inside + 4) < -1e-9)
-        {
-            toFace(inside);
-        }
+        const tetFlow& flow = flowIn(values, c);
 
         vector value;
         tensor derivatives;
+        tensor* wanted = jacobian ? &derivatives : nullptr;
 
-        flowIn(values, c).evaluate
-        (
-            c.gradient, inside, value, jacobian ? &derivatives : nullptr
-        );
-        for (int a = 0; a < 4; ++a)
+        if (*std::min_element(c.weight, c.weight + 4) < -1e-9)
         {
-            value += (c.weight[a] - inside[a])*values.vertex(c.vertices[a]).u;
+            // Beyond an open patch, what is not linear stays as it is there
+            scalar inside[4];
+            std::copy_n(c.weight, 4, inside);
+            toFace(inside);
+
+            flow.evaluate(c.gradient, inside, value, wanted);
+            for (int a = 0; a < 4; ++a)
+            {
+                value +=
+                    (c.weight[a] - inside[a])*values.vertex(c.vertices[a]).u;
+            }
+        }
+        else
+        {
+            flow.evaluate(c.gradient, c.weight, value, wanted);
         }
         copy(c.back(value), velocity);
         if (jacobian)
@@ -194,13 +199,30 @@ void Foam::frozenFlow::velocityOf
         return;
     }
 
+    if (scheme_ == stCellPoint)
+    {
+        const linearFlow& linear = linearIn(values, c);
+
+        vector value(Zero);
+        for (int a = 0; a < 4; ++a)
+        {
+            value += c.weight[a]*linear.u[a];
+        }
+        copy(c.back(value), velocity);
+        if (jacobian)
+        {
+            copy(c.back(linear.derivatives), jacobian);
+        }
+        return;
+    }
+
     const auto u =
         [&](const label i) -> const vector& { return values.vertices[i].u; };
 
     vector value(c.value<vector>(u));
     tensor derivatives(jacobian ? c.derivatives(u) : tensor::zero);
 
-    for (int a = 0; scheme_ == stCellPointQuadratic && a < 3; ++a)
+    for (int a = 0; a < 3; ++a)
     {
         for (int b = a + 1; b < 4; ++b)
         {

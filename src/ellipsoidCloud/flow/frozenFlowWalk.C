@@ -15,6 +15,17 @@ License
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+inline void Foam::frozenFlow::setWeights(const point& x, tetCoordinates& c)
+{
+    c.weight[0] = 1;
+    for (int a = 1; a < 4; ++a)
+    {
+        c.weight[a] = c.gradient[a] & (x - c.origin);
+        c.weight[0] -= c.weight[a];
+    }
+}
+
+
 void Foam::frozenFlow::setCoordinates
 (
     const label teti,
@@ -39,12 +50,32 @@ void Foam::frozenFlow::setCoordinates
         tetFlow::setCoordinateGradients(edges, c.gradient);
     }
 
-    c.weight[0] = 1;
-    for (int a = 1; a < 4; ++a)
+    setWeights(x, c);
+}
+
+
+// A coordinate this far below 0 is rounding, not another tetrahedron
+static const Foam::scalar coordinateRounding = 1e-10;
+
+
+inline bool Foam::frozenFlow::isStillIn
+(
+    const label teti,
+    const point& x,
+    tetCoordinates& c
+)
+{
+    if (c.tet != teti)
     {
-        c.weight[a] = c.gradient[a] & (x - c.origin);
-        c.weight[0] -= c.weight[a];
+        return false;
     }
+    setWeights(x, c);
+
+    return
+        c.weight[0] >= -coordinateRounding
+     && c.weight[1] >= -coordinateRounding
+     && c.weight[2] >= -coordinateRounding
+     && c.weight[3] >= -coordinateRounding;
 }
 
 
@@ -55,9 +86,6 @@ Foam::label Foam::frozenFlow::exitOf
     const label previous
 )
 {
-    // A coordinate this far below 0 is rounding, not another tetrahedron
-    const scalar tolerance = 1e-10;
-
     // Leave by the face most exceeded that leads on; a patch only where
     // no face does, since the way round a corner may graze it. Nor go
     // straight back where tetrahedra overlap.
@@ -70,7 +98,7 @@ Foam::label Foam::frozenFlow::exitOf
 
         if
         (
-            c.weight[i] < -tolerance
+            c.weight[i] < -coordinateRounding
          && (tet.neighbours[i] != previous || previous < 0)
          && (best < 0 || c.weight[i] < c.weight[best])
         )
@@ -232,6 +260,32 @@ const Foam::tetFlow& Foam::frozenFlow::flowIn
 }
 
 
+const Foam::frozenFlow::linearFlow& Foam::frozenFlow::linearIn
+(
+    const flowValues& values,
+    tetCoordinates& c
+) const
+{
+    if (c.flowOf != values.vertices.cdata())
+    {
+        const auto u =
+            [&](const label i) -> const vector&
+            {
+                return values.vertices[i].u;
+            };
+
+        c.flowOf = values.vertices.cdata();
+        for (int a = 0; a < 4; ++a)
+        {
+            c.linear.u[a] = u(c.vertices[a]);
+        }
+        c.linear.derivatives = c.derivatives(u);
+    }
+
+    return c.linear;
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 bool Foam::frozenFlow::find(const point& x, probe& at) const
@@ -275,6 +329,13 @@ bool Foam::frozenFlow::reach
     tetCoordinates& c
 ) const
 {
+    if (isStillIn(at.tet, pointOf(x), c))
+    {
+        at.patch = -1;
+        c.turned = false;
+        return true;
+    }
+
     const locationType location = walk(pointOf(x), at, c);
 
     return location == pInside || location == pBeyondOpen;
