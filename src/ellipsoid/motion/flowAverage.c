@@ -31,11 +31,11 @@ static const double part[2] = {0.4558481559887748, 0.8774851773445584};
 static const double weight[2] = {0.4850196082224638, 0.3020174288145726};
 
 /* The part of the tolerance that a defect may take up that is not corrected. */
-static const double slight = 0.05;
+static const double slight = 0.2;
 
 /* Where the gradient of the flow jumps, this part of the difference to the
    cubic, and of the defect, are the error estimate. */
-static const double jumping = 0.7, unseen = 0.125;
+static const double jumping = 0.35, unseen = 0.04;
 
 /* Where nothing jumps, the error estimate is that of the mean of a parabola,
    times this: errors over the tolerance are then those of averages at each

@@ -12,7 +12,9 @@
     where friction holds, towards sliding, its tangents fall short; where one
     goes too far the change is shortened. Where that does not converge, as where
     many beads slide at speeds far above the slip speed, the slip speed is
-    raised first and lowered to its value in steps.
+    raised first and lowered to its value in steps. Where Newton's method then
+    goes round in circles, as where damping lets go of some of many beads, the
+    body's velocities relax from rest as they do in time.
 */
 #include "motion/motion.h"
 
@@ -21,15 +23,14 @@
 enum
 {
     MOST_ITERATIONS = 60,
+    MOST_RELAXATIONS = 400,
     MOST_HALVINGS = 40, /* damping turns sharply where it lets go */
     CHANGE = ELLIPSOID_MAX_STAGES, /* beyond the stages of a step */
-    BEST,
-    LAST
+    BEST
 };
 
-/* The slip speeds begin at so much of their value, and fall by a factor, or its
-   root where Newton's method goes round in circles, up to this one. */
-static const double smoothest = 1e12, less_smooth = 0.1, gentlest = 0.8;
+/* The slip speeds begin at so much of their value, and fall by a factor. */
+static const double smoothest = 1e12, less_smooth = 0.1;
 
 /* Newton has converged when it changes velocities by so much of themselves; or
    by this little more, and goes no further: rounding, where speeds are very
@@ -40,6 +41,11 @@ static const double converged = 1e-12, nearly = 1e-8;
    speeds, rounding leaves more, in each iteration another part: it is taken if
    nothing better has come in half of the iterations, or in all of them. */
 static const double stalled = 1e-5;
+
+/* From relaxed velocities, by which this part of what was unbalanced at rest is
+   left, Newton's method is close enough; what is unbalanced may grow by so much
+   in a step on the way. */
+static const double relaxed = 1e-6, growth = 1.2;
 
 /* What is left of the power of the unbalanced forces along the change of
    velocities, if its sign has turned: then the step went too far. */
@@ -134,29 +140,28 @@ static int set_changes(ellipsoid_group *g, ellipsoid_evaluation *points)
     return regular;
 }
 
-/* Keeps the velocities: the BEST of one system or those of the LAST. */
-static void remember(const ellipsoid_group *g, int which,
+/* Keeps the velocities. */
+static void remember(const ellipsoid_group *g,
                      const ellipsoid_evaluation *points)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
-        double *kept = g->stages[cell].k[which];
+        double *best = g->stages[cell].k[BEST];
 
-        ellipsoid_copy(points[cell].state.u, kept + AT_U);
-        ellipsoid_copy(points[cell].state.omega, kept + AT_OMEGA);
+        ellipsoid_copy(points[cell].state.u, best + AT_U);
+        ellipsoid_copy(points[cell].state.omega, best + AT_OMEGA);
     }
 }
 
 /* Takes those kept. */
-static void recall(const ellipsoid_group *g, int which,
-                   ellipsoid_evaluation *points)
+static void recall(const ellipsoid_group *g, ellipsoid_evaluation *points)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
-        const double *kept = g->stages[cell].k[which];
+        const double *best = g->stages[cell].k[BEST];
 
-        ellipsoid_copy(kept + AT_U, points[cell].state.u);
-        ellipsoid_copy(kept + AT_OMEGA, points[cell].state.omega);
+        ellipsoid_copy(best + AT_U, points[cell].state.u);
+        ellipsoid_copy(best + AT_OMEGA, points[cell].state.omega);
     }
 }
 
@@ -186,7 +191,7 @@ static ellipsoid_status iterate(ellipsoid_group *g,
         if (rounded && fabs(before) < least && are_small(g, points, stalled))
         {
             least = fabs(before);
-            remember(g, BEST, points);
+            remember(g, points);
         }
         previous = before;
         status = ellipsoid_group_evaluate_once(g, points, 0, 1);
@@ -201,7 +206,7 @@ static ellipsoid_status iterate(ellipsoid_group *g,
     }
     if (status == ELLIPSOID_OK && least < HUGE_VAL)
     {
-        recall(g, BEST, points);
+        recall(g, points);
         return ELLIPSOID_OK;
     }
     return status == ELLIPSOID_OK ? ELLIPSOID_NON_FINITE : status;
@@ -222,29 +227,101 @@ static ellipsoid_status lower_slip_speeds(ellipsoid_group *g,
                                           ellipsoid_smoothed_model *smoothed)
 {
     ellipsoid_status status = ELLIPSOID_OK;
-    double smooth = smoothest, factor = less_smooth;
 
     be_at_rest(g, points);
-    while (status == ELLIPSOID_OK && smooth > 0.5)
+    for (double smooth = smoothest; status == ELLIPSOID_OK && smooth > 0.5;
+         smooth *= less_smooth)
     {
         for (int cell = 0; cell < g->count; cell++)
         {
             smoothed[cell].model.options.slip_speed =
                 smooth * smoothed[cell].own->options.slip_speed;
         }
-        remember(g, LAST, points);
         status = iterate(g, points, 1);
-        if (status == ELLIPSOID_NON_FINITE && smooth < smoothest
-            && factor < gentlest)
-        {
-            recall(g, LAST, points);
-            smooth /= factor;
-            factor = sqrt(factor);
-            status = ELLIPSOID_OK;
-        }
-        smooth *= factor;
     }
     return status;
+}
+
+/* Root mean square of the accelerations, by the energy they stand for. */
+static double unbalanced(const ellipsoid_group *g,
+                         const ellipsoid_evaluation *points)
+{
+    double sum = 0;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_model *m = g->cell[cell].model;
+        const ellipsoid_state *slope = &points[cell].derivative;
+
+        for (int i = 0; i < 3; i++)
+        {
+            sum += m->mass * slope->u[i] * slope->u[i]
+                 + m->inertia[i] * slope->omega[i] * slope->omega[i];
+        }
+    }
+    return sqrt(sum);
+}
+
+/* One implicit step of 1/rate. */
+static ellipsoid_status relax_once(ellipsoid_group *g, double rate,
+                                   ellipsoid_evaluation *points)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        ellipsoid_jacobian_blocks *b = &points[cell].blocks;
+
+        for (int i = 0; i < 3; i++)
+        {
+            b->uu[i][i] -= rate;
+            b->ww[i][i] -= rate;
+        }
+    }
+    if (!set_changes(g, points))
+    {
+        return ELLIPSOID_NON_FINITE;
+    }
+    move(g, 1, points);
+    return ellipsoid_group_evaluate_once(g, points, 0, 1);
+}
+
+/* Pseudo-transient continuation (Kelley & Keyes, SIAM J. Numer. Anal. 35, 508,
+   1998): steps grow while what is unbalanced falls. */
+static ellipsoid_status relax(ellipsoid_group *g, ellipsoid_evaluation *points,
+                              ellipsoid_smoothed_model *smoothed)
+{
+    ellipsoid_status status;
+    double rate = 0, left, target;
+
+    be_at_rest(g, points);
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        smoothed[cell].model.options.slip_speed =
+            smoothed[cell].own->options.slip_speed;
+        rate = fmax(rate, g->cell[cell].rate);
+    }
+    status = ellipsoid_group_evaluate_once(g, points, 0, 1);
+    left = unbalanced(g, points);
+    target = relaxed * left;
+    for (int n = 0; status == ELLIPSOID_OK && left > target; n++)
+    {
+        double next;
+
+        status = n < MOST_RELAXATIONS ? relax_once(g, rate, points)
+                                      : ELLIPSOID_NON_FINITE;
+        next = unbalanced(g, points);
+        if (next <= growth * left)
+        {
+            rate *= next < left ? 0.5 : 1;
+            left = next;
+        }
+        else if (status == ELLIPSOID_OK)
+        {
+            move(g, -1, points);
+            status = ellipsoid_group_evaluate_once(g, points, 0, 1);
+            rate *= 4;
+        }
+    }
+    return status == ELLIPSOID_OK ? iterate(g, points, 1) : status;
 }
 
 /* First as it is; then so; in both without the gyroscopic torque. */
@@ -266,6 +343,10 @@ static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
     if (status == ELLIPSOID_NON_FINITE)
     {
         status = lower_slip_speeds(g, points, smoothed);
+    }
+    if (status == ELLIPSOID_NON_FINITE)
+    {
+        status = relax(g, points, smoothed);
     }
     for (int cell = 0; cell < g->count; cell++)
     {

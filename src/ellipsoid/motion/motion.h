@@ -175,8 +175,8 @@ int ellipsoid_has_average(const ellipsoid_cell *cell);
 /* The stages of one step. */
 typedef struct ellipsoid_stages
 {
-    /* three more, for forceBalance.c: a change, and velocities to come back to */
-    double k[ELLIPSOID_MAX_STAGES + 3][UNKNOWNS];
+    /* two more, for forceBalance.c: a change, and the best velocities so far */
+    double k[ELLIPSOID_MAX_STAGES + 2][UNKNOWNS];
     double time_derivative[UNKNOWNS]; /* df/dt at the start, if unsteady */
     double y[UNKNOWNS]; /* result */
     double error[UNKNOWNS];

@@ -305,9 +305,11 @@ static double distance(const ellipsoid_group *g)
 
 /* As in noiseLayer.c: next goes from the start's pose to where the start's
    velocities take it as they decay. The velocities on the manifold at the
-   start's pose are kept in stages.y. */
-static void displace(ellipsoid_group *g)
+   start's pose are kept in stages.y. 0: that is no pose. */
+static int displace(ellipsoid_group *g)
 {
+    int is_pose = 1;
+
     for (int cell = 0; cell < g->count; cell++)
     {
         ellipsoid_state *to = &g->next[cell].state;
@@ -316,7 +318,9 @@ static void displace(ellipsoid_group *g)
         set_distance(g, cell, u, omega);
         memcpy(g->stages[cell].y, g->next[cell].y, sizeof(g->next[cell].y));
         ellipsoid_displace(g->cell[cell].model, u, omega, to);
+        is_pose = is_pose && ellipsoid_is_pose(to->x, to->q);
     }
+    return is_pose;
 }
 
 /* What the decay leaves out: the changes on its way of the velocities towards
@@ -379,7 +383,10 @@ ellipsoid_status ellipsoid_manifold_enter(ellipsoid_group *g, double t,
         {
             return ELLIPSOID_OK;
         }
-        displace(g);
+        if (!displace(g))
+        {
+            return ELLIPSOID_OK;
+        }
         status = ellipsoid_manifold_evaluate(g, t, g->next);
         far = displacement_error(g);
     }
