@@ -143,6 +143,35 @@ void Foam::frozenFlow::sampleOf
 }
 
 
+void Foam::frozenFlow::divergenceFreeAt
+(
+    const flowValues& values,
+    tetCoordinates& c,
+    vector& value,
+    tensor* derivatives
+) const
+{
+    const tetFlow& flow = flowIn(values, c);
+
+    if (*std::min_element(c.weight, c.weight + 4) >= -1e-9)
+    {
+        flow.evaluate(c.gradient, c.weight, value, derivatives);
+        return;
+    }
+
+    // Beyond an open patch, what is not linear stays as it is there
+    scalar inside[4];
+    std::copy_n(c.weight, 4, inside);
+    toFace(inside);
+
+    flow.evaluate(c.gradient, inside, value, derivatives);
+    for (int a = 0; a < 4; ++a)
+    {
+        value += (c.weight[a] - inside[a])*values.vertex(c.vertices[a]).u;
+    }
+}
+
+
 void Foam::frozenFlow::velocityOf
 (
     const flowValues& values,
@@ -153,30 +182,10 @@ void Foam::frozenFlow::velocityOf
 {
     if (scheme_ == stDivergenceFree)
     {
-        const tetFlow& flow = flowIn(values, c);
-
         vector value;
         tensor derivatives;
-        tensor* wanted = jacobian ? &derivatives : nullptr;
 
-        if (*std::min_element(c.weight, c.weight + 4) < -1e-9)
-        {
-            // Beyond an open patch, what is not linear stays as it is there
-            scalar inside[4];
-            std::copy_n(c.weight, 4, inside);
-            toFace(inside);
-
-            flow.evaluate(c.gradient, inside, value, wanted);
-            for (int a = 0; a < 4; ++a)
-            {
-                value +=
-                    (c.weight[a] - inside[a])*values.vertex(c.vertices[a]).u;
-            }
-        }
-        else
-        {
-            flow.evaluate(c.gradient, c.weight, value, wanted);
-        }
+        divergenceFreeAt(values, c, value, jacobian ? &derivatives : nullptr);
         copy(c.back(value), velocity);
         if (jacobian)
         {
