@@ -11,7 +11,8 @@
     quaternion) advanced by a fourth-order adaptive Rosenbrock method; or,
     without inertia, the seven of position and quaternion, advanced by an
     explicit Runge-Kutta method of fifth order, of fourth where the velocity is
-    `piecewise`, except where the body touches.
+    `piecewise`, except where the body touches: there by a Rosenbrock method, of
+    third order where the velocity is `piecewise`.
 
     SI units throughout. Frames:
       lab    x  = (x1, x2, x3)
@@ -503,7 +504,8 @@ typedef struct ellipsoid_step
 
 /* The state at time start <= t <= end: of third order, or fourth in x and q
    where the step was explicit and no velocity is `piecewise`; u and omega of
-   INERTIALESS motion and of the slow manifold one less. */
+   INERTIALESS motion and of the slow manifold one less, linear in time where
+   such a step was not explicit and the velocity is `piecewise`. */
 void ellipsoid_step_state(const ellipsoid_step *step, double t,
                           ellipsoid_state *state);
 

@@ -223,7 +223,7 @@ static void test_l_stable(void **unused)
 {
     (void)unused;
     check_l_stable(&ellipsoid_rosenbrock_set, 1e-3);
-    check_l_stable(&ellipsoid_rosenbrock_third, 0.04);
+    check_l_stable(&ellipsoid_rosenbrock_third, 6e-3);
 }
 
 /* The continuous extension is of order 3 at every point of the step. */

@@ -420,6 +420,8 @@ static void check_order(const step_kind *kind, double order)
                   log2(a.q / b.q));
     assert_true(log2(a.x / b.x) >= order + 0.7);
     assert_true(log2(a.q / b.q) >= order + 0.7);
+    /* and by no method of a higher order */
+    assert_true(log2(a.q / b.q) < order + 1.3);
 }
 
 /* Where the gradient of the flow may jump, Rosenbrock steps without inertia are

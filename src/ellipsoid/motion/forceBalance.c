@@ -13,7 +13,7 @@
     goes too far the change is shortened. Where that does not converge, as where
     many beads slide at speeds far above the slip speed, the slip speed is
     raised first and lowered to its value in steps. Where Newton's method then
-    goes round in circles, as where damping lets go of some of many beads, the
+    repeats the same iterates, as where damping ends at some of many beads, the
     body's velocities relax from rest as they do in time.
 */
 #include "motion/motion.h"
@@ -42,10 +42,14 @@ static const double converged = 1e-12, nearly = 1e-8;
    nothing better has come in half of the iterations, or in all of them. */
 static const double stalled = 1e-5;
 
-/* From relaxed velocities, by which this part of what was unbalanced at rest is
-   left, Newton's method is close enough; what is unbalanced may grow by so much
-   in a step on the way. */
+/* Velocities are relaxed where this part of the unbalanced forces at rest is
+   left: from there Newton's method converges. On the way they may grow by so
+   much in a step. */
 static const double relaxed = 1e-6, growth = 1.2;
+
+/* The length of the step whose matrix Newton's method takes, by the relaxation
+   time: so short that poses do not change. */
+static const double vanishing = 2.5e-21;
 
 /* What is left of the power of the unbalanced forces along the change of
    velocities, if its sign has turned: then the step went too far. */
@@ -130,7 +134,7 @@ static int set_changes(ellipsoid_group *g, ellipsoid_evaluation *points)
     }
     g->start = points;
     g->inertial = 0;
-    regular = ellipsoid_group_prepare(g, 2.5e-21 * shortest);
+    regular = ellipsoid_group_prepare(g, vanishing * shortest);
     if (regular)
     {
         ellipsoid_group_solve(g, CHANGE);
@@ -242,7 +246,7 @@ static ellipsoid_status lower_slip_speeds(ellipsoid_group *g,
     return status;
 }
 
-/* Root mean square of the accelerations, by the energy they stand for. */
+/* Root of the sum of m a^2 and I alpha^2, of all accelerations. */
 static double unbalanced(const ellipsoid_group *g,
                          const ellipsoid_evaluation *points)
 {
@@ -262,7 +266,7 @@ static double unbalanced(const ellipsoid_group *g,
     return sqrt(sum);
 }
 
-/* One implicit step of 1/rate. */
+/* One implicit step of 1/rate, from points that have their blocks. */
 static ellipsoid_status relax_once(ellipsoid_group *g, double rate,
                                    ellipsoid_evaluation *points)
 {
@@ -297,17 +301,20 @@ static ellipsoid_status relax(ellipsoid_group *g, ellipsoid_evaluation *points,
     {
         smoothed[cell].model.options.slip_speed =
             smoothed[cell].own->options.slip_speed;
-        rate = fmax(rate, g->cell[cell].rate);
+        rate = fmax(rate, fmax(g->cell[cell].rate,
+                               g->cell[cell].rotation_rate));
     }
     status = ellipsoid_group_evaluate_once(g, points, 0, 1);
     left = unbalanced(g, points);
     target = relaxed * left;
-    for (int n = 0; status == ELLIPSOID_OK && left > target; n++)
+    for (int n = 0; status == ELLIPSOID_OK && left > target
+                    && n < MOST_RELAXATIONS;
+         n++)
     {
         double next;
 
-        status = n < MOST_RELAXATIONS ? relax_once(g, rate, points)
-                                      : ELLIPSOID_NON_FINITE;
+        remember(g, points);
+        status = relax_once(g, rate, points);
         next = unbalanced(g, points);
         if (next <= growth * left)
         {
@@ -316,7 +323,7 @@ static ellipsoid_status relax(ellipsoid_group *g, ellipsoid_evaluation *points,
         }
         else if (status == ELLIPSOID_OK)
         {
-            move(g, -1, points);
+            recall(g, points);
             status = ellipsoid_group_evaluate_once(g, points, 0, 1);
             rate *= 4;
         }
@@ -324,7 +331,8 @@ static ellipsoid_status relax(ellipsoid_group *g, ellipsoid_evaluation *points,
     return status == ELLIPSOID_OK ? iterate(g, points, 1) : status;
 }
 
-/* First as it is; then so; in both without the gyroscopic torque. */
+/* By Newton's method from rest; with slip speeds that fall, if that fails; from
+   relaxed velocities, if that does, too. Always without the gyroscopic torque. */
 static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
                                          ellipsoid_evaluation *points,
                                          ellipsoid_smoothed_model *smoothed)

@@ -304,6 +304,8 @@ void Foam::groupAdvance::enter
         cellSweep& cell = cells[group[i]];
         const label id = cell.state.id;
 
+        // Also one that entered in an earlier part of the interval
+        const bool entering = !(cell.state.nextRow > 0);
         if (cell.state.fate == cellState::waiting)
         {
             cell.state.fate = cellState::inFlight;
@@ -315,10 +317,9 @@ void Foam::groupAdvance::enter
             ellipsoid_facet_cache_clear(caches_[id]);
         }
 
-        // What unfolds the way follows from all steps. That of a cell that
-        // enters is 0
-        const scalar nextRow =
-            domain_.flow.images().empty() ? cell.state.nextRow : -GREAT;
+        // What unfolds the way follows from all steps
+        const bool all = entering || !domain_.flow.images().empty();
+        const scalar nextRow = all ? -GREAT : cell.state.nextRow;
 
         own.set
         (
