@@ -282,17 +282,16 @@ static void hermite(const ellipsoid_step *step, const double before[UNKNOWNS],
 void ellipsoid_rosenbrock_dense(const ellipsoid_group *g, int cell,
                                 double dense[3][UNKNOWNS])
 {
-    const ellipsoid_rosenbrock_table *set = ellipsoid_rosenbrock_set_of(g);
-
+    memset(dense[2], 0, sizeof(dense[2]));
     if (g->third_order)
     {
         hermite(&g->step[cell], g->start[cell].slope, g->next[cell].slope,
                 dense);
+        return;
     }
-    for (int i = 0; i < 2 && !g->third_order; i++)
+    for (int i = 0; i < 2; i++)
     {
-        weighted_sum(g->stages[cell].k, set->dense[i],
+        weighted_sum(g->stages[cell].k, ellipsoid_rosenbrock_set.dense[i],
                      ELLIPSOID_ROSENBROCK_STAGES - 1, dense[i]);
     }
-    memset(dense[2], 0, sizeof(dense[2]));
 }
