@@ -55,6 +55,17 @@ static const double vanishing = 2.5e-21;
    velocities, if its sign has turned: then the step went too far. */
 static const double too_far = 0.5;
 
+/* Adds the product of the unbalanced forces and torques with u and omega. */
+static void add_product(const ellipsoid_model *m, const ellipsoid_state *slope,
+                        const double u[3], const double omega[3], double *sum)
+{
+    for (int i = 0; i < 3; i++)
+    {
+        *sum += m->mass * slope->u[i] * u[i]
+              + m->inertia[i] * slope->omega[i] * omega[i];
+    }
+}
+
 /* Power of the unbalanced forces, [W]. */
 static double power_along(const ellipsoid_group *g,
                           const ellipsoid_evaluation *points)
@@ -63,15 +74,10 @@ static double power_along(const ellipsoid_group *g,
 
     for (int cell = 0; cell < g->count; cell++)
     {
-        const ellipsoid_model *m = g->cell[cell].model;
-        const ellipsoid_state *slope = &points[cell].derivative;
         const double *change = g->stages[cell].k[CHANGE];
 
-        for (int i = 0; i < 3; i++)
-        {
-            power += m->mass * slope->u[i] * change[AT_U + i]
-                   + m->inertia[i] * slope->omega[i] * change[AT_OMEGA + i];
-        }
+        add_product(g->cell[cell].model, &points[cell].derivative,
+                    change + AT_U, change + AT_OMEGA, &power);
     }
     return power;
 }
@@ -254,14 +260,9 @@ static double unbalanced(const ellipsoid_group *g,
 
     for (int cell = 0; cell < g->count; cell++)
     {
-        const ellipsoid_model *m = g->cell[cell].model;
         const ellipsoid_state *slope = &points[cell].derivative;
 
-        for (int i = 0; i < 3; i++)
-        {
-            sum += m->mass * slope->u[i] * slope->u[i]
-                 + m->inertia[i] * slope->omega[i] * slope->omega[i];
-        }
+        add_product(g->cell[cell].model, slope, slope->u, slope->omega, &sum);
     }
     return sqrt(sum);
 }
