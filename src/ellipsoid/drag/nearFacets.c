@@ -30,7 +30,8 @@ static const double live_levels[ELLIPSOID_LIVE_LEVELS] = {0.1, 0.25, 0.5, 1};
     the body.
 */
 static int may_matter(const ellipsoid_facet *facet, const double x[3],
-                      double reach, double margin, double slimness)
+                      double range, double reach, double margin,
+                      double slimness)
 {
     const double cosine = 2 * slimness / (1 + slimness * slimness);
     double d[3], height, nearest, beside;
@@ -41,12 +42,17 @@ static int may_matter(const ellipsoid_facet *facet, const double x[3],
                ? ellipsoid_fading * slimness * (height + margin)
                : ellipsoid_lap * (height + margin);
     nearest = ellipsoid_length(d) - facet->radius;
-    if (!(height > -margin && height < reach && nearest < reach))
+    if (!(height > -margin && height < range + margin && nearest < reach))
     {
         return 0;
     }
+    if (cosine * (nearest - margin - beside) <= height + margin)
+    {
+        return 1;
+    }
     return ellipsoid_facet_has_convex_edge(facet)
-        || cosine * (nearest - margin - beside) <= height + margin;
+        && ellipsoid_squared_rim_distance(facet, x)
+               < (range + margin) * (range + margin) * (1 + 1e-6);
 }
 
 /* Lists facets within a margin of what is in range. */
@@ -76,7 +82,7 @@ static ellipsoid_status list_near(const ellipsoid_surroundings *surroundings,
         const ellipsoid_facet *facet = &list.facets[list.index[k]];
 
         if (facet->mirror
-            || !may_matter(facet, x, wide + margin, margin, slimness))
+            || !may_matter(facet, x, range, wide + margin, margin, slimness))
         {
             continue;
         }
@@ -127,7 +133,7 @@ ellipsoid_collect_near(const ellipsoid_surroundings *surroundings,
    the normal of the last facet. */
 typedef struct idle_limits
 {
-    double shift, per_shift, turn, rim;
+    double shift, per_shift, turn, range;
     ellipsoid_wall_view view;
     double extended; /* beside an extended facet, by the height */
     double turned;   /* how far the foot goes by the turn, by the height */
@@ -137,6 +143,11 @@ typedef struct idle_limits
 static inline double larger(double a, double b)
 {
     return a > b ? a : b;
+}
+
+static inline double smaller(double a, double b)
+{
+    return a < b ? a : b;
 }
 
 static void look_along(const ellipsoid_wall_search *s, const double normal[3],
@@ -151,10 +162,38 @@ static void look_along(const ellipsoid_wall_search *s, const double normal[3],
     limits->turned = limits->turn * (slimness * slimness + limits->view.far);
 }
 
+/* The same as idle_part() for the facet's rim: the foot, which goes by up to
+   `slip`, has to lie beyond a convex edge, and the rim in range. */
+static double rim_part(const ellipsoid_wall_search *s,
+                       const ellipsoid_facet *facet, const double foot[3],
+                       double slip, const idle_limits *limits)
+{
+    double least = HUGE_VAL, part;
+
+    for (int k = 0; k < 3; k++)
+    {
+        if (facet->edge[k] == ELLIPSOID_EDGE_CONVEX)
+        {
+            double along[3];
+            const double out = ellipsoid_beyond(facet, foot, k, along);
+
+            least = smaller(least, -out / ellipsoid_length(along));
+        }
+    }
+    part = least / slip;
+    if (part >= 1)
+    {
+        return part;
+    }
+    return larger(part, (sqrt(ellipsoid_squared_rim_distance(facet, s->x))
+                         - limits->range)
+                            * limits->per_shift);
+}
+
 /*
     Within which part of a move of the centre by `shift` and a turn of the axes
-    by `turn` can ellipsoid_find_feature() find no plane on this facet? Without
-    a convex edge the foot x - r h has to lie near the facet, r = D n/(n.D n)
+    by `turn` can ellipsoid_find_feature() find no plane on this facet? But for
+    its rim the foot x - r h has to lie near the facet, r = D n/(n.D n)
     and h the height. By n in the body frame r changes by D^(1/2) (I - 2 m m)
     D^(1/2) / (n.D n), m = D^(1/2) n/p a unit vector: by no more than a^2/p^2
     with the largest semi-axis a, and the support p by no more than a. What the
@@ -165,7 +204,7 @@ static double idle_part(const ellipsoid_wall_search *s,
 {
     const ellipsoid_wall_view *view = &limits->view;
     const double *n = facet->normal, shift = limits->shift;
-    double d[3], aside[3], height, part, before, change, beside;
+    double d[3], aside[3], foot[3], height, part, off, slip, beside;
 
     ellipsoid_difference(s->x, facet->middle, d);
     height = ellipsoid_dot(d, n);
@@ -173,12 +212,6 @@ static double idle_part(const ellipsoid_wall_search *s,
     if (part >= 1)
     {
         return part;
-    }
-    if (ellipsoid_facet_has_convex_edge(facet))
-    {
-        return larger(part,
-                      (ellipsoid_length(d) - facet->radius - limits->rim)
-                          * limits->per_shift);
     }
     if (view->along[0] != n[0] || view->along[1] != n[1]
         || view->along[2] != n[2])
@@ -190,11 +223,17 @@ static double idle_part(const ellipsoid_wall_search *s,
     for (int i = 0; i < 3; i++)
     {
         aside[i] = d[i] - view->way[i] * height;
+        foot[i] = s->x[i] - view->way[i] * height;
     }
     height = fabs(height);
-    before = facet->radius + beside * height;
-    change = shift * (beside + 1 + view->far) + (height + shift) * limits->turned;
-    return larger(part, (ellipsoid_length(aside) - before) / change);
+    slip = shift * (1 + view->far) + (height + shift) * limits->turned;
+    off = (ellipsoid_length(aside) - facet->radius - beside * height)
+        / (slip + shift * beside);
+    if (off > 0 && ellipsoid_facet_has_convex_edge(facet))
+    {
+        off = smaller(off, rim_part(s, facet, foot, slip, limits));
+    }
+    return larger(part, off);
 }
 
 int ellipsoid_look_closer(const ellipsoid_wall_search *s,
@@ -206,7 +245,7 @@ int ellipsoid_look_closer(const ellipsoid_wall_search *s,
         .shift = wide * shift,
         .per_shift = 1 / (wide * shift),
         .turn = wide * live_turn * 0.70710678118654752,
-        .rim = s->range * (1 + ellipsoid_fading * s->longest / s->shortest)};
+        .range = wide * s->range};
     double moved = 0, turned = 0, change;
 
     for (int i = 0; i < 3; i++)

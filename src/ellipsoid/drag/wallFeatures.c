@@ -150,49 +150,29 @@ static int feature_on_rim(const ellipsoid_wall_search *s,
     return feature_on_edge(s, &c, edge, foot, normal, p);
 }
 
-/* Are all points over these edges, and the vertices, so far from the centre
-   that their planes do not count? */
-static int is_out_of_range(const ellipsoid_wall_search *s,
-                           const ellipsoid_facet *facet, const int outside[3])
+double ellipsoid_squared_rim_distance(const ellipsoid_facet *facet,
+                                      const double x[3])
 {
-    /* far more than rounding */
-    const double squared = s->range * s->range * (1 + 1e-6);
+    double least = HUGE_VAL;
 
     for (int k = 0; k < 3; k++)
     {
-        double line[3], from_line;
+        double line[3], squared;
 
-        ellipsoid_difference(s->x, facet->vertex[k], line);
-        from_line = ellipsoid_dot(line, line);
-        if (from_line >= squared && outside[k]
-            && facet->edge[k] == ELLIPSOID_EDGE_CONVEX)
+        ellipsoid_difference(x, facet->vertex[k], line);
+        squared = ellipsoid_dot(line, line);
+        if (facet->edge[k] == ELLIPSOID_EDGE_CONVEX)
         {
-            double along[3];
+            double along[3], of;
 
             ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
                                  along);
-            from_line -= ellipsoid_dot(line, along) * ellipsoid_dot(line, along)
-                       / ellipsoid_dot(along, along);
+            of = ellipsoid_dot(line, along);
+            squared -= of * of / ellipsoid_dot(along, along);
         }
-        if (from_line < squared)
-        {
-            return 0;
-        }
+        least = squared < least ? squared : least;
     }
-    return 1;
-}
-
-/* How far a point in the facet's plane lies beyond edge k, times that edge's
-   length, which `along` has. */
-static inline double beyond(const ellipsoid_facet *facet, const double foot[3],
-                            int k, double along[3])
-{
-    double inward[3], from[3];
-
-    ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k], along);
-    ellipsoid_cross(facet->normal, along, inward);
-    ellipsoid_difference(facet->vertex[k], foot, from);
-    return ellipsoid_dot(inward, from);
+    return least;
 }
 
 /* Finds the plane that this facet gives; 0 if there is none. */
@@ -201,8 +181,10 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
                            ellipsoid_wall_view *view,
                            ellipsoid_wall_feature *p)
 {
+    /* far more than rounding */
+    const double far = s->range * s->range * (1 + 1e-6);
     double from[3], foot[3], aside[3], along[3], height;
-    int outside[3], on_rim = 0, on_flat = 0;
+    int outside[3], on_rim = 0;
 
     ellipsoid_difference(s->x, facet->middle, from);
     height = ellipsoid_dot(from, facet->normal);
@@ -219,47 +201,50 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
     for (int k = 0; k < 3; k++)
     {
         outside[k] = facet->edge[k] == ELLIPSOID_EDGE_CONVEX
-                  && beyond(facet, foot, k, along) > 0;
+                  && ellipsoid_beyond(facet, foot, k, along) > 0;
         on_rim = on_rim || outside[k];
     }
+    if (on_rim)
+    {
+        const double bare = height / view->support;
 
-    const double beside = ellipsoid_facet_is_extended(facet)
-                            ? ellipsoid_fading * s->longest / view->support
-                            : ellipsoid_lap;
+        if (ellipsoid_squared_rim_distance(facet, s->x) >= far)
+        {
+            return 0;
+        }
+        memset(p, 0, sizeof(*p));
+        p->facet = facet;
+        return feature_on_rim(s, view->normal, bare * bare, outside, p);
+    }
+
+    const double beside =
+        ellipsoid_facet_is_extended(facet) ? view->beside : ellipsoid_lap;
     const double wide = facet->radius + beside * height;
 
-    if (!on_rim
-        && (height * view->far >= s->range
-            || ellipsoid_dot(aside, aside) > wide * wide))
+    if (height * view->far >= s->range
+        || ellipsoid_dot(aside, aside) > wide * wide)
     {
         return 0; /* its plane is too far to count (wallPlanes.c), it has faded,
                      or is another facet's */
     }
     for (int k = 0; k < 3; k++)
     {
-        if (facet->edge[k] != ELLIPSOID_EDGE_CONVEX)
-        {
-            const double out = beyond(facet, foot, k, along);
+        double out;
 
-            outside[k] = out > 0 && facet->edge[k] != ELLIPSOID_EDGE_FLAT;
-            on_flat = on_flat
-                   || (out > 0 && !outside[k]
-                       && out > ellipsoid_lap * height
-                                    * ellipsoid_length(along));
+        if (facet->edge[k] == ELLIPSOID_EDGE_CONVEX)
+        {
+            continue;
         }
-    }
-    if (on_rim ? is_out_of_range(s, facet, outside) : on_flat)
-    {
-        return 0; /* on_flat: the same plane is that of the facet across */
+        out = ellipsoid_beyond(facet, foot, k, along);
+        outside[k] = out > 0 && facet->edge[k] != ELLIPSOID_EDGE_FLAT;
+        if (out > 0 && !outside[k]
+            && out > ellipsoid_lap * height * ellipsoid_length(along))
+        {
+            return 0; /* the same plane is that of the facet across */
+        }
     }
     memset(p, 0, sizeof(*p));
     p->facet = facet;
-    if (on_rim)
-    {
-        const double bare = height / view->support;
-
-        return feature_on_rim(s, view->normal, bare * bare, outside, p);
-    }
     p->feature = ELLIPSOID_ON_FACE;
     memcpy(p->over, outside, sizeof(p->over));
     ellipsoid_copy(view->normal, p->normal);

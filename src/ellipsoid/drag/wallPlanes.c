@@ -293,44 +293,52 @@ static int is_one_feature(const ellipsoid_wall_search *s,
     }
 }
 
-/* Takes the plane behind all, unless it is seen already: of features seen twice
-   the one that fades less is kept. Whether planes of others are nearly the same
-   must not matter: they fade in gradually. */
-static void keep(const ellipsoid_wall_search *s, ellipsoid_planes *all)
+/* Which of all has the feature of the plane behind them; -1: none. */
+static int seen(const ellipsoid_wall_search *s, const ellipsoid_planes *all)
+{
+    for (int i = 0; i < all->count; i++)
+    {
+        if (is_one_feature(s, &all->at[i], &all->at[all->count]))
+        {
+            return i;
+        }
+    }
+    return -1;
+}
+
+/* Takes the plane behind all; where there are too many the farthest goes.
+   Whether planes of others are nearly the same must not matter: they fade in
+   gradually. */
+static void keep(ellipsoid_planes *all)
 {
     const ellipsoid_plane *plane = &all->at[all->count];
     int farthest = 0;
 
-    for (int i = 0; i < all->count; i++)
+    if (all->count < ELLIPSOID_MAX_PLANES)
     {
-        if (is_one_feature(s, &all->at[i], plane))
-        {
-            if (plane->extent.value > all->at[i].extent.value)
-            {
-                all->at[i] = *plane;
-            }
-            return;
-        }
+        all->count++;
+        return;
+    }
+    for (int i = 1; i < all->count; i++)
+    {
         if (all->at[i].height.value > all->at[farthest].height.value)
         {
             farthest = i;
         }
     }
-    if (all->count < ELLIPSOID_MAX_PLANES)
-    {
-        all->count++;
-    }
-    else if (plane->height.value < all->at[farthest].height.value)
+    if (plane->height.value < all->at[farthest].height.value)
     {
         all->at[farthest] = *plane;
     }
 }
 
+/* Of features seen twice the one that fades less is kept. */
 static void add_plane(const ellipsoid_wall_search *s,
                       const ellipsoid_wall_feature *p, ellipsoid_planes *all)
 {
     ellipsoid_plane *plane = &all->at[all->count];
     window_way way;
+    int before;
 
     set_way(s, p->normal, p->height, &way);
     if (way.t >= 1)
@@ -344,6 +352,11 @@ static void add_plane(const ellipsoid_wall_search *s,
     plane->feature = p->feature;
     plane->vertex[0] = p->facet->vertex[p->k];
     plane->vertex[1] = p->facet->vertex[(p->k + 1) % 3];
+    before = seen(s, all);
+    if (before >= 0 && all->at[before].extent.value == 1)
+    {
+        return;
+    }
     if (s->turned)
     {
         if (p->feature == ELLIPSOID_ON_FACE)
@@ -363,9 +376,17 @@ static void add_plane(const ellipsoid_wall_search *s,
             fade(s, p, k, plane);
         }
     }
-    if (plane->window.value * plane->extent.value > 0)
+    if (!(plane->window.value * plane->extent.value > 0))
     {
-        keep(s, all);
+        return;
+    }
+    if (before < 0)
+    {
+        keep(all);
+    }
+    else if (plane->extent.value > all->at[before].extent.value)
+    {
+        all->at[before] = *plane;
     }
 }
 

@@ -38,6 +38,8 @@ typedef struct ellipsoid_wall_view
     double way[3];         /* lab; the centre less this times its height is the
                               point that the grown body meets first */
     double support, far;   /* [m]; [-] length of the way */
+    double beside;         /* [-] how far beside an extended facet a plane has
+                              faded, by the height */
 } ellipsoid_wall_view;
 
 static inline void ellipsoid_look_along(const ellipsoid_wall_search *s,
@@ -60,6 +62,7 @@ static inline void ellipsoid_look_along(const ellipsoid_wall_search *s,
     support2 = ellipsoid_dot(view->normal, b);
     view->support = sqrt(support2);
     view->far = ellipsoid_length(b) / support2;
+    view->beside = ellipsoid_fading * s->longest / view->support;
     ellipsoid_combination(s->axis, b[0] / support2, b[1] / support2,
                           b[2] / support2, view->way);
 }
@@ -70,6 +73,20 @@ static inline int ellipsoid_facet_is_extended(const ellipsoid_facet *facet)
     return facet->edge[0] == ELLIPSOID_EDGE_CONCAVE
         || facet->edge[1] == ELLIPSOID_EDGE_CONCAVE
         || facet->edge[2] == ELLIPSOID_EDGE_CONCAVE;
+}
+
+/* How far a point in the facet's plane lies beyond edge k, times that edge's
+   length, which `along` has. */
+static inline double ellipsoid_beyond(const ellipsoid_facet *facet,
+                                      const double foot[3],
+                                      int k, double along[3])
+{
+    double inward[3], from[3];
+
+    ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k], along);
+    ellipsoid_cross(facet->normal, along, inward);
+    ellipsoid_difference(facet->vertex[k], foot, from);
+    return ellipsoid_dot(inward, from);
 }
 
 /* Where a plane was found: on a facet, on edge k or at vertex k of it. */
@@ -110,6 +127,11 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
                            const ellipsoid_facet *facet,
                            ellipsoid_wall_view *view,
                            ellipsoid_wall_feature *p);
+
+/* How far all points over convex edges, and the vertices, are from the centre at
+   least, squared. */
+double ellipsoid_squared_rim_distance(const ellipsoid_facet *facet,
+                                      const double x[3]);
 
 /* Sets the weights, and their slopes if asked for, from all the rest
    (planeWeights.c). */
