@@ -24,6 +24,10 @@ License
 
 namespace Foam
 {
+    //- Longest edge of merged triangles, by a cell's longest semi-axis: most of
+    //  a flat wall near a cell is then few triangles. Longer ones save nothing.
+    static const scalar mergedEdge = 6;
+
     //- The point of a face from which it can be cut into triangles: the
     //  preferred one, as the flow's tetrahedra are cut, if all have an area;
     //  else the best; -1 if there is none
@@ -173,7 +177,7 @@ Foam::triSurface Foam::wallFacets::made
             return flatMerged
             (
                 images.empty() ? of : withImages(of, images, box, far),
-                2*regionSize_
+                mergedEdge*regionSize_
             );
         };
 
