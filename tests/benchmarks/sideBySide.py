@@ -102,6 +102,8 @@ def tracks(bench):
         else:
             case = OursCase(bench.folder, name, "trap")
             case.choose(*row["way"][1:4], setting)
+            # As the stock tool does, ours takes the flow as it is read
+            case.options = ["-frozenFlow"]
         case.inject_listed(listed, bursts)
         case.span(end)
         if end == FLIGHT:

@@ -46,6 +46,12 @@ class flatMerging
         //- Triangles at each point
         List<DynamicList<label>> pointTriangles_;
 
+        //- Collapses so far; how many there had been when the triangles at a
+        //  point changed last, and when it was looked at
+        label nCollapses_;
+        labelList changed_;
+        labelList looked_;
+
         //- The points around one that may be moved and its targets; and those
         //  around a target
         DynamicList<label> around_;
@@ -62,6 +68,23 @@ class flatMerging
                 triangles_[a].region() == triangles_[b].region()
              && (normals_[a] & normals_[b]) > 0
              && mag(normals_[a] ^ normals_[b]) < flatAngle;
+        }
+
+        //- Have no triangles of a point or of those around it changed since it
+        //  was looked at?
+        bool unchanged(const label pointi) const
+        {
+            for (const label trii : pointTriangles_[pointi])
+            {
+                for (const label other : triangles_[trii])
+                {
+                    if (changed_[other] > looked_[pointi])
+                    {
+                        return false;
+                    }
+                }
+            }
+            return looked_[pointi] >= 0;
         }
 
         //- Set the points that share a triangle with a point
@@ -217,6 +240,8 @@ class flatMerging
             DynamicList<label>& queue
         )
         {
+            ++nCollapses_;
+            changed_[target] = nCollapses_;
             for (const label trii : pointTriangles_[pointi])
             {
                 labelledTri& t = triangles_[trii];
@@ -231,6 +256,7 @@ class flatMerging
                     }
 
                     queue.append(other);
+                    changed_[other] = nCollapses_;
 
                     if (shared)
                     {
@@ -264,7 +290,10 @@ public:
             maxEdge_(maxEdge),
             triangles_(surface.localFaces()),
             normals_(surface.size()),
-            pointTriangles_(surface.nPoints())
+            pointTriangles_(surface.nPoints()),
+            nCollapses_(0),
+            changed_(surface.nPoints(), Zero),
+            looked_(surface.nPoints(), -1)
         {
             forAll(triangles_, trii)
             {
@@ -292,6 +321,11 @@ public:
                 scalar best = GREAT;
                 label bestTarget = -1;
 
+                if (unchanged(pointi))
+                {
+                    continue;
+                }
+                looked_[pointi] = nCollapses_;
                 setTargets(pointi);
                 for (const label target : targets_)
                 {
