@@ -35,7 +35,7 @@ static const double slight = 0.2;
 
 /* Where the gradient of the flow jumps, this part of the difference to the
    cubic, and of the defect, are the error estimate. */
-static const double jumping = 0.2, unseen = 0.02;
+static const double jumping = 0.25, unseen = 0.03;
 
 /* Where nothing jumps, the error estimate is that of the mean of a parabola,
    times this: errors over the tolerance are then those of averages at each
