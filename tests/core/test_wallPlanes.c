@@ -6,6 +6,8 @@
     test_wallPlanes.c - the drag near walls made of facets: in the equations,
     over seams and edges, in slits and corners.
 */
+#include <fenv.h>
+
 #include "nearWallTest.h"
 #include "drag/wallResistance.h"
 
@@ -476,6 +478,111 @@ static void test_cache_far_beside(void **unused)
     wall_mesh_free(&mesh);
 }
 
+/* All facets, whatever the reach. */
+static int list_all(void *context, double t, const double centre[3],
+                    double reach, ellipsoid_facet_list *list)
+{
+    (void)t;
+    (void)centre;
+    *list = wall_mesh_all(context);
+    list->reach = reach;
+    return 0;
+}
+
+/*
+    So too where a crest meets the foot of a rise at an acute angle of a facet
+    beside it: the plane of the crest goes on into the rise, and where it has
+    faded its facet may be dropped. A list of all facets gives the same.
+*/
+static void test_cache_at_acute_angles(void **unused)
+{
+    const double w = 0.3e-6, crest[3][3] = {{0, -6e-6, 0}, {0}, {0, 6e-6, 1.2e-6}};
+    ellipsoid_options o = near_walls();
+    ellipsoid_model model;
+    test_quadratic flow = test_shear(1000);
+    ellipsoid_state state = {.x = {-1e-6, -2e-6, 1e-6}, .q = {0, 0, 0, 1}};
+    uint64_t seed = 27;
+    wall_mesh mesh;
+
+    (void)unused;
+    ellipsoid_set(o.semi_axes, 1e-6, 1e-6, 1e-6);
+    o.wall_range = 2.5e-6;
+    model = test_model(&o);
+    wall_mesh_init(&mesh);
+    for (int part = 0; part < 2; part++)
+    {
+        double top[2][3], side[2][3];
+
+        for (int end = 0; end < 2; end++)
+        {
+            const double *at = crest[part + end];
+
+            ellipsoid_set(top[end], at[0] + w, at[1], at[2]);
+            ellipsoid_set(side[end], at[0], at[1], -w);
+        }
+        wall_mesh_quad(&mesh, crest[part], top[0], top[1], crest[part + 1], 1, 0);
+        wall_mesh_quad(&mesh, crest[part], crest[part + 1], side[1], side[0], 1, 0);
+    }
+    wall_mesh_finish(&mesh);
+    ellipsoid_facet_cache_clear(&cache);
+    for (long n = test_count(20000, 200000, 200000); n > 0; n--)
+    {
+        static const double limit[3] = {4e-6, 9e-6, 4e-6};
+        const ellipsoid_surroundings s = around(&mesh, &flow);
+        ellipsoid_surroundings all = s;
+        ellipsoid_state a, b;
+
+        all.walls = list_all;
+        for (int i = 0; i < 3; i++)
+        {
+            state.x[i] += 0.3e-6 * test_signed(&seed);
+            state.x[i] = fabs(state.x[i]) < limit[i] ? state.x[i] : -1e-6;
+        }
+        state.q[n % 4] += 0.02 * test_signed(&seed);
+        assert_ok(ellipsoid_rhs(&model, &s, &state, &cache, &a));
+        ellipsoid_facet_cache_clear(&fresh);
+        assert_ok(ellipsoid_rhs(&model, &s, &state, &fresh, &b));
+        assert_memory_equal(&a, &b, sizeof(a));
+        ellipsoid_facet_cache_clear(&fresh);
+        assert_ok(ellipsoid_rhs(&model, &all, &state, &fresh, &b));
+        assert_memory_equal(&a, &b, sizeof(a));
+    }
+    wall_mesh_free(&mesh);
+}
+
+/* Nothing is invalid in line with an edge, where programs may trap that: there
+   the distance from it is what rounding leaves. */
+static void test_in_line_with_an_edge(void **unused)
+{
+    const ellipsoid_options o = near_walls();
+    const ellipsoid_model model = test_model(&o);
+    test_quadratic flow = test_shear(1000);
+
+    (void)unused;
+    for (int size = 1; size <= 7; size++)
+    {
+        const double low[3] = {0}, high[3] = {size * 1e-6, size * 1e-6, size * 1e-6};
+        wall_mesh mesh;
+
+        wall_mesh_init(&mesh);
+        wall_mesh_box(&mesh, low, high, 0, 0, 0);
+        wall_mesh_finish(&mesh);
+        for (int n = 0; n < 200; n++)
+        {
+            const ellipsoid_surroundings s = around(&mesh, &flow);
+            const ellipsoid_state state = {
+                .x = {0, 0, high[2] + (4 + 0.02 * n) * 1e-6}, .q = {0, 0, 0, 1}};
+            ellipsoid_state derivative;
+
+            ellipsoid_facet_cache_clear(&cache);
+            feclearexcept(FE_INVALID);
+            assert_ok(ellipsoid_rhs(&model, &s, &state, &cache, &derivative));
+            assert_false(fetestexcept(FE_INVALID));
+        }
+        wall_mesh_free(&mesh);
+    }
+}
+
 /* A slit: two walls add up (Oseen's superposition); a wall out of range, or
    none at all, is no wall. */
 static void test_slit(void **unused)
@@ -535,6 +642,8 @@ int main(void)
         cmocka_unit_test(test_continuous_over_edges),
         cmocka_unit_test(test_cache),
         cmocka_unit_test(test_cache_far_beside),
+        cmocka_unit_test(test_cache_at_acute_angles),
+        cmocka_unit_test(test_in_line_with_an_edge),
         cmocka_unit_test(test_slit),
     };
 

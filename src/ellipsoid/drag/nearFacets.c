@@ -16,8 +16,8 @@ static const double margin_parts[] = {0.4, 0.1};
 
 /* The same of those that count near a pose, and how far the body may turn: the
    Frobenius norm of the difference of its axes, which moves a unit vector by no
-   more than that over the root of two. Facets are listed apart that count within
-   parts of both. */
+   more than that over the root of two. Facets are listed apart that count
+   within parts of both. */
 static const double live_part = 0.04, live_turn = 0.08;
 static const double live_levels[ELLIPSOID_LIVE_LEVELS] = {0.1, 0.25, 0.5, 1};
 
@@ -27,7 +27,8 @@ static const double live_levels[ELLIPSOID_LIVE_LEVELS] = {0.1, 0.25, 0.5, 1};
     with the normal than tangents of the body allow: cos >= 2 a b/(a^2 + b^2)
     with the largest and the smallest semi-axis. Beside the face, over a concave
     edge, it has faded over `fading` times the height, b/a times as long along
-    the body.
+    the body. Over a convex edge it is on the facet's rim, which has to be in
+    range.
 */
 static int may_matter(const ellipsoid_facet *facet, const double x[3],
                       double range, double reach, double margin,
@@ -129,8 +130,9 @@ ellipsoid_collect_near(const ellipsoid_surroundings *surroundings,
     return status;
 }
 
-/* For what idle_part() asks: a move and a turn, what follows from these, and of
-   the normal of the last facet. */
+/* For what idle_part() asks: a move and a turn, a range a little wider than
+   that of walls, what follows from these, and of the normal of the last
+   facet. */
 typedef struct idle_limits
 {
     double shift, per_shift, turn, range;

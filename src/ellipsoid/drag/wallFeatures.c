@@ -172,7 +172,7 @@ double ellipsoid_squared_rim_distance(const ellipsoid_facet *facet,
         }
         least = squared < least ? squared : least;
     }
-    return least;
+    return least > 0 ? least : 0; /* in line with an edge: rounding */
 }
 
 /* Finds the plane that this facet gives; 0 if there is none. */
@@ -182,7 +182,7 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
                            ellipsoid_wall_feature *p)
 {
     /* far more than rounding */
-    const double far = s->range * s->range * (1 + 1e-6);
+    const double squared_range = s->range * s->range * (1 + 1e-6);
     double from[3], foot[3], aside[3], along[3], height;
     int outside[3], on_rim = 0;
 
@@ -208,7 +208,7 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
     {
         const double bare = height / view->support;
 
-        if (ellipsoid_squared_rim_distance(facet, s->x) >= far)
+        if (ellipsoid_squared_rim_distance(facet, s->x) >= squared_range)
         {
             return 0;
         }

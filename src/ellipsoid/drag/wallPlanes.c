@@ -190,14 +190,18 @@ static void point_slope(const ellipsoid_wall_search *s,
 
 /*
     Takes from the extent by how far the point lies beside the facet, over edge
-    k. With y = h/p the scaled height and d the scaled distance, u = d/(y f),
-    the rest is 1 - u^2 (3 - 2 u).
+    k, or, of a point on an edge, beyond its end at edge k. With y = h/p the
+    scaled height and d the scaled distance from the edge, or the end, and
+    u = d/(y f), the rest is 1 - u^2 (3 - 2 u).
 */
 static void fade(const ellipsoid_wall_search *s,
                  const ellipsoid_wall_feature *p, int k, ellipsoid_plane *plane)
 {
-    const double *m = plane->normal, *vertex = p->facet->vertex[k];
-    double line[3], along[3], lab[3], zeta[3], epsilon[3], out[3];
+    const int from_end = p->feature == ELLIPSOID_ON_EDGE;
+    const double *m = plane->normal;
+    const double *vertex =
+        p->facet->vertex[from_end && k == (p->k + 2) % 3 ? p->k : k];
+    double line[3], along[3], zeta[3], epsilon[3], out[3];
     double support2 = 0, d, u, rest, ratio;
 
     for (int i = 0; i < 3; i++)
@@ -217,7 +221,9 @@ static void fade(const ellipsoid_wall_search *s,
                 / a;
         epsilon[i] /= a;
     }
-    ratio = ellipsoid_dot(zeta, epsilon) / ellipsoid_dot(epsilon, epsilon);
+    ratio = from_end ? 0
+                     : ellipsoid_dot(zeta, epsilon)
+                           / ellipsoid_dot(epsilon, epsilon);
     for (int i = 0; i < 3; i++)
     {
         out[i] = zeta[i] - ratio * epsilon[i];
@@ -230,13 +236,12 @@ static void fade(const ellipsoid_wall_search *s,
         return;
     }
     rest = 1 - u * u * (3 - 2 * u);
-    ellipsoid_copy(along, lab);
     for (int n = 0; s->turned && n < POSE; n++)
     {
         double moved[3], turned[3], slid[3], of_d = 0, of_support2 = 0;
 
         changed(s, n, 1, line, moved);
-        changed(s, n, 0, lab, turned);
+        changed(s, n, 0, along, turned);
         point_slope(s, plane, support2, n, slid);
         for (int i = 0; i < 3; i++)
         {
@@ -293,7 +298,9 @@ static int is_one_feature(const ellipsoid_wall_search *s,
     }
 }
 
-/* Which of all has the feature of the plane behind them; -1: none. */
+/* Which of all has the feature of the plane behind them; -1: none. Whether
+   planes of others are nearly the same must not matter: they fade in
+   gradually. */
 static int seen(const ellipsoid_wall_search *s, const ellipsoid_planes *all)
 {
     for (int i = 0; i < all->count; i++)
@@ -306,9 +313,7 @@ static int seen(const ellipsoid_wall_search *s, const ellipsoid_planes *all)
     return -1;
 }
 
-/* Takes the plane behind all; where there are too many the farthest goes.
-   Whether planes of others are nearly the same must not matter: they fade in
-   gradually. */
+/* Takes the plane behind all; where there are too many the farthest goes. */
 static void keep(ellipsoid_planes *all)
 {
     const ellipsoid_plane *plane = &all->at[all->count];

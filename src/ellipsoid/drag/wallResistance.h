@@ -128,8 +128,8 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
                            ellipsoid_wall_view *view,
                            ellipsoid_wall_feature *p);
 
-/* How far all points over convex edges, and the vertices, are from the centre at
-   least, squared. */
+/* How far all points over convex edges, and the vertices, are from the centre
+   at least, squared. */
 double ellipsoid_squared_rim_distance(const ellipsoid_facet *facet,
                                       const double x[3]);
 
