@@ -45,14 +45,19 @@ class Bench:
         # Those whose growth is measured
         self.growing = (WAYS[3],) if self.few else (WAYS[0], WAYS[2], WAYS[3])
 
-    def measure(self, cases, repeats=None):
-        """Run each case so often, in turns; medians of their processor times [s]."""
-        times = [[] for _ in cases]
+    def measure(self, cases, figures, repeats=None):
+        """Run each case so often, in turns; medians of each of the figures that a function gives of it."""
+        rows = [[] for _ in cases]
         for _ in range(repeats or self.repeats):
-            for case, of_case in zip(cases, times):
-                of_case.append(case.run())
-                print(f"  {case.name}: {of_case[-1]:.2f} s", flush=True)
-        return [statistics.median(of_case) for of_case in times]
+            for case, of_case in zip(cases, rows):
+                case.run()
+                of_case.append(figures(case))
+                print(f"  {case.name}: " + ", ".join(f"{value:.2f}" for value in of_case[-1]), flush=True)
+        return [[statistics.median(values) for values in zip(*of_case)] for of_case in rows]
+
+    def times(self, cases, repeats=None):
+        """Medians of their processor times [s]."""
+        return [row[0] for row in self.measure(cases, lambda case: (case.time(),), repeats)]
 
     def trap(self, name, way, tolerance, number, duration=1.0, end=1.2):
         """Cells through the whole inlet of the circular trap."""
@@ -123,7 +128,7 @@ def tracks(bench):
         print(f"  {row['name']} {row['setting']}: {row['median']:.3g} nm", flush=True)
 
     cases = [made(row, row["setting"], f"whole{i}", cells, 10, 1.2) for i, row in enumerate(sets)]
-    for row, time in zip(sets, bench.measure(cases)):
+    for row, time in zip(sets, bench.times(cases)):
         row["time"] = time
 
     stock = [row for row in sets if row["tool"] == "stock"]
@@ -192,11 +197,12 @@ def plot(sets, file):
     plt.close(figure)
 
 
-def medians(bench):
-    """Of how many runs a table tells."""
+def medians(bench, many=True):
+    """Of how many runs a table tells, which may have many cells."""
     if bench.repeats == 1:
         return "One run each."
-    return f"Medians of {bench.repeats}" + ("; one run of more than 10000 cells." if bench.largest > 10000 else ".")
+    once = many and bench.largest > 10000
+    return f"Medians of {bench.repeats}" + ("; one run of more than 10000 cells." if once else ".")
 
 
 def growth(sizes, times):
@@ -217,8 +223,8 @@ def numbers_of_cells(bench):
         few = [bench.trap(f"cells{n}", way, way[4], n) for n in numbers if n <= 10000]
         many = [bench.trap(f"cells{n}", way, way[4], n) for n in numbers if n > 10000]
         start = bench.trap("cells0", way, way[4], 1, 0.001, 0.005)
-        set_up, *times = bench.measure([start, *few])
-        times += bench.measure(many, 1)
+        set_up, *times = bench.times([start, *few])
+        times += bench.times(many, 1)
         moving = [time - set_up for time in times]
         for n, time, less, power in zip(numbers, times, moving, growth(numbers, moving)):
             lines.append(f"| {n} | {way[0]} | {way[4]} | {time:.2f} | {less:.2f} | {1000 * less / n:.2f} | {power} |")
@@ -238,28 +244,22 @@ def ranks(bench):
             case = bench.trap(f"{count}on{n}", way, way[4], count)
             case.ranks, case.count = n, count
             cases.append(case)
-        loads = [[] for _ in cases]
-        for repeat in range(bench.repeats):
-            for case, of_case in zip(cases, loads):
-                if case.count <= 10000 or repeat == 0:
-                    case.run()
-                    of_case.append(case.load())
-                    print(f"  {case.name}: {of_case[-1]}", flush=True)
-        for case, of_case in zip(cases, loads):
-            clock, even, moving = (statistics.median(values) for values in zip(*of_case))
+        few, many = [[case for case in cases if (case.count > 10000) == is_many] for is_many in (False, True)]
+        loads = bench.measure(few, OursCase.load) + bench.measure(many, OursCase.load, 1)
+        for case, (clock, even, moving) in zip(few + many, loads):
             shares = f"{even:.1f} % | {moving:.0f} %" if case.ranks > 1 else "| "
             lines.append(f"| {case.count} | {way[0]} | {case.ranks} | {clock:.2f} | {shares} |")
     return lines
 
 
 def meshes(bench):
-    """Processor time by the number of mesh cells, before the first cell and in all."""
+    """Processor time by the number of mesh cells before the first cell, and time of tracking."""
     number = min(1000, bench.largest)
     names = sorted((path.name for path in bench.folder.glob("sieve[0-9]*")), key=lambda name: int(name[5:]))
-    lines = [medians(bench), "",
-             f"| mesh cells | way | before the first cell [s] | grows as the power | {number} cells [s] "
-             "| grows as the power |",
-             "|---|---|---|---|---|---|"]
+    lines = [medians(bench, many=False), "",
+             "| mesh cells | way | before the first cell [s] | in the kernel, besides [s] | grows as the power "
+             f"| tracking of {number} cells [s] | grows as the power |",
+             "|---|---|---|---|---|---|---|"]
     for way in bench.growing:
         cases = []
         for name in names:
@@ -270,11 +270,12 @@ def meshes(bench):
                 case.span(end)
                 case.options = ["-frozenFlow"]
                 cases.append(case)
-        times = bench.measure(cases)
+        rows = bench.measure(cases, lambda case: (case.user, case.kernel, case.load()[0]))
         sizes = [case.mesh_cells() for case in cases[::2]]
-        before, moving = times[::2], [b - a for a, b in zip(times[::2], times[1::2])]
-        for size, first, power, less, other in zip(sizes, before, growth(sizes, before), moving, growth(sizes, moving)):
-            lines.append(f"| {size} | {way[0]} | {first:.2f} | {power} | {less:.2f} | {other} |")
+        users, kernels, _ = zip(*rows[::2])
+        clocks = [row[2] for row in rows[1::2]]
+        for row in zip(sizes, users, kernels, growth(sizes, users), clocks, growth(sizes, clocks)):
+            lines.append("| {} | {} | {:.2f} | {:.2f} | {} | {:.2f} | {} |".format(row[0], way[0], *row[1:]))
     return lines
 
 

@@ -31,6 +31,8 @@ class Case:
     def __init__(self, folder, name, source):
         self.name, self.path, self.source = name, folder / "runs" / name, folder / source
         self.ranks, self.count, self.options = 1, 0, []
+        # Of the last run, all ranks together [s]
+        self.user = self.kernel = 0
         shutil.rmtree(self.path, ignore_errors=True)
         shutil.copytree(self.source / "system", self.path / "system")
         (self.path / "constant").mkdir()
@@ -61,7 +63,7 @@ class Case:
                 shutil.rmtree(path)
 
     def run(self):
-        """Run the program; its processor time [s], that of all ranks together."""
+        """Run the program."""
         self.clean()
         command = [self.program, *self.options]
         if self.ranks > 1:
@@ -69,10 +71,14 @@ class Case:
                        f"simpleCoeffs {{ n (1 {self.ranks} 1); delta 0.001; }}\n")
             self.call(["decomposePar", "-force"], "log.decomposePar")
             command = ["mpirun", "--oversubscribe", "-np", str(self.ranks), *command, "-parallel"]
-        return self.call(command, "log")
+        self.call(command, "log")
+
+    def time(self):
+        """Processor time of the last run [s]."""
+        return self.user + self.kernel
 
     def call(self, command, log):
-        """Processor time of a command and of what it starts [s]."""
+        """A command, and its processor time and that of what it starts."""
         before = os.times()
         with open(self.path / log, "w", encoding="ascii") as to:
             status = subprocess.run(command, cwd=self.path, stdout=to, stderr=to, check=False).returncode
@@ -80,7 +86,8 @@ class Case:
             tail = (self.path / log).read_text(encoding="ascii").splitlines()[-30:]
             sys.exit("\n".join([*tail, f"sideBySide: {command[0]} failed in {self.path}"]))
         after = os.times()
-        return after.children_user + after.children_system - before.children_user - before.children_system
+        self.user = after.children_user - before.children_user
+        self.kernel = after.children_system - before.children_system
 
 
 class OursCase(Case):
