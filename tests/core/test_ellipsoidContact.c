@@ -407,6 +407,78 @@ static void test_gap_agrees_with_overlap(void **unused)
     wall_mesh_free(&mesh);
 }
 
+/* What is nearest of all facets; is it off a face? */
+static int nearest_rim(const wall_mesh *mesh, const ellipsoid_surface *body,
+                       ellipsoid_surface_contact *nearest)
+{
+    *nearest = (ellipsoid_surface_contact){.height = um};
+    for (int f = 0; f < mesh->count; f++)
+    {
+        ellipsoid_surface_contact c;
+
+        if (ellipsoid_surface_nearest(&mesh->facets[f], body, um, &c))
+        {
+            if (c.feature == ELLIPSOID_ON_FACE)
+            {
+                return 0;
+            }
+            if (c.height < nearest->height)
+            {
+                *nearest = c;
+            }
+        }
+    }
+    return nearest->height < um;
+}
+
+/* The rim of a wall that ends is met from front and back alike: as that of a
+   baffle, which has two sides. */
+static void test_free_rim_is_a_baffles(void **unused)
+{
+    const double corner[3] = {0}, x[3] = {4 * um, 0, 0}, y[3] = {0, 4 * um, 0};
+    const ellipsoid_options o = exact_options(0.5 * um, 2 * um, 0.8 * um);
+    wall_mesh sheet, baffle;
+    uint64_t seed = 8;
+    int edges = 0, vertices = 0, from_behind = 0;
+
+    (void)unused;
+    wall_mesh_init(&sheet);
+    wall_mesh_init(&baffle);
+    wall_mesh_plane(&sheet, corner, x, y, 2, 2, 2, 0);
+    wall_mesh_plane(&baffle, corner, x, y, 2, 2, 2, 0);
+    wall_mesh_plane(&baffle, corner, y, x, 2, 2, 2, 0);
+    wall_mesh_finish(&sheet);
+    wall_mesh_finish(&baffle);
+    for (int n = 0; n < 20000; n++)
+    {
+        const double centre[3] = {(2 + 4 * test_signed(&seed)) * um,
+                                  (2 + 4 * test_signed(&seed)) * um,
+                                  2 * um * test_signed(&seed)};
+        ellipsoid_surface body;
+        ellipsoid_surface_contact expected, found;
+        double q[4];
+
+        test_orientation(&seed, q);
+        ellipsoid_surface_set(o.semi_axes, centre, q, &body);
+        if (!nearest_rim(&baffle, &body, &expected))
+        {
+            continue;
+        }
+        assert_true(nearest_rim(&sheet, &body, &found));
+        assert_near(found.height, expected.height, 1e-12 * um);
+        for (int i = 0; i < 3; i++)
+        {
+            assert_near(found.normal[i], expected.normal[i], 1e-9);
+        }
+        edges += found.feature == ELLIPSOID_ON_EDGE;
+        vertices += found.feature == ELLIPSOID_ON_VERTEX;
+        from_behind += found.normal[2] < 0;
+    }
+    assert_true(edges > 1000 && vertices > 500 && from_behind > 1000);
+    wall_mesh_free(&sheet);
+    wall_mesh_free(&baffle);
+}
+
 /* A disc tilted about x against the edge of a wedge, upright over its middle and
    clear of it: the normal of the edge's line that is least deep would be at a
    point of that line beyond the disc. */
@@ -481,6 +553,7 @@ int main(void)
         cmocka_unit_test(test_lying_standing_tilted),
         cmocka_unit_test(test_edge_and_corner_by_trial),
         cmocka_unit_test(test_gap_agrees_with_overlap),
+        cmocka_unit_test(test_free_rim_is_a_baffles),
         cmocka_unit_test(test_no_contact_beyond_the_body),
         cmocka_unit_test(test_exact_jacobian),
     };

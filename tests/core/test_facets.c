@@ -104,6 +104,43 @@ static void test_sheets_about_an_edge(void **unused)
     assert_true(touched > 5000);
 }
 
+/* Where a wall ends it pushes all round, from its front to its back, off its
+   edge and off its corner. */
+static void test_free_rim(void **unused)
+{
+    uint64_t seed = 24;
+
+    (void)unused;
+    for (int kind = 0; kind < 6; kind++)
+    {
+        wall_mesh wall = floor_of(3, kind < 3 ? 1 : 12, kind % 3);
+
+        for (int n = 0; n < 4000; n++)
+        {
+            const double out = test_uniform(&seed), up = test_signed(&seed);
+            double way[3] = {out, n % 2 ? 0 : test_uniform(&seed), up};
+            const double length = ellipsoid_length(way);
+            const double far = 1 - deep * test_signed(&seed);
+            const double f = pow(fmax(0, 1 - far), 1.5);
+            double x[3], expected[3];
+
+            for (int i = 0; i < 3; i++)
+            {
+                way[i] /= length;
+                x[i] = (i < 2 ? 3 : 0) + far * way[i];
+                expected[i] = f * way[i];
+            }
+            if (n % 2) /* along the edge, some over seams of the finer one */
+            {
+                x[1] = 2 * test_signed(&seed);
+                x[1] = n % 5 == 0 ? 0.5 * round(2 * x[1]) : x[1];
+            }
+            assert_force(&wall, x, expected, EXACT);
+        }
+        wall_mesh_free(&wall);
+    }
+}
+
 /* A baffle without thickness that stands on the floor x3 = 0 in the plane
    x1 = 0, up to a height of 3 */
 static wall_mesh baffle_on_floor(int cells, int diagonal)
@@ -384,6 +421,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sheets_about_an_edge),
+        cmocka_unit_test(test_free_rim),
         cmocka_unit_test(test_baffle_on_floor),
         cmocka_unit_test(test_however_cut),
     };

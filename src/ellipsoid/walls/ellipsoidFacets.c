@@ -192,18 +192,27 @@ static void contact_line(const ellipsoid_surface *body, const double d[3],
     complete(body, d, c);
 }
 
-static int at_vertex(const ellipsoid_facet *facet, int k, double reach,
-                     const ellipsoid_surface_contact *c)
+/* From which side a facet is looked at: that of its normal, or from behind,
+   where it has only what is at free rims. */
+typedef struct side
 {
-    const double upright = ellipsoid_dot(c->normal, facet->normal);
+    double normal[3];
+    int behind;
+} side;
+
+static int at_vertex(const ellipsoid_facet *facet, const side *from_side, int k,
+                     double reach, const ellipsoid_surface_contact *c)
+{
+    const double upright = ellipsoid_dot(c->normal, from_side->normal);
 
     return c->height < reach && upright >= -rounding
+        && (!from_side->behind || ellipsoid_facet_ends_at_vertex(facet, k))
         && (ellipsoid_facet_owns_vertex(facet, k) || upright >= 1 - rounding)
         && ellipsoid_facet_is_apex(facet, k, c->normal, rounding);
 }
 
 /* The lowest of the vertices in the set, bit by bit. */
-static int nearest_vertex(const ellipsoid_facet *facet,
+static int nearest_vertex(const ellipsoid_facet *facet, const side *from_side,
                           const ellipsoid_surface *body, double from[3][3],
                           int set, double reach,
                           ellipsoid_surface_contact *contact)
@@ -224,7 +233,8 @@ static int nearest_vertex(const ellipsoid_facet *facet,
             }
         }
     }
-    return closest >= 0 && at_vertex(facet, closest, reach, contact);
+    return closest >= 0
+        && at_vertex(facet, from_side, closest, reach, contact);
 }
 
 /* 1 in the first half of the chord that goes into the body at the contact point
@@ -246,11 +256,11 @@ static int half_of_chord(const ellipsoid_surface *body,
     return -c->height <= half ? 1 : -c->height < 2 * half ? 2 : 0;
 }
 
-int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
-                            const ellipsoid_surface *body, double reach,
-                            ellipsoid_surface_contact *contact)
+static int nearest_from(const ellipsoid_facet *facet, const side *from_side,
+                        const ellipsoid_surface *body, double reach,
+                        ellipsoid_surface_contact *contact)
 {
-    const double *n = facet->normal;
+    const double *n = from_side->normal;
     double from[3][3], p[3];
     int outside = 0, candidates = 0;
 
@@ -273,7 +283,7 @@ int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
 
         ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
                              along);
-        ellipsoid_cross(n, along, inward);
+        ellipsoid_cross(facet->normal, along, inward);
         ellipsoid_difference(from[k], p, foot);
         if (!(ellipsoid_dot(inward, foot) < 0))
         {
@@ -305,6 +315,8 @@ int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
         if (part >= 0 && part <= 1)
         {
             return facet->edge[k] != ELLIPSOID_EDGE_CONCAVE
+                && (!from_side->behind
+                    || ellipsoid_facet_ends_at_edge(facet, k))
                 && ellipsoid_dot(contact->normal, facet->edge_inward[k])
                        <= rounding
                 && ellipsoid_dot(contact->normal, n) >= -rounding
@@ -314,11 +326,32 @@ int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
     }
     if (outside)
     {
-        return nearest_vertex(facet, body, from, candidates, reach, contact);
+        return nearest_vertex(facet, from_side, body, from, candidates, reach,
+                              contact);
     }
-
+    if (from_side->behind)
+    {
+        return 0;
+    }
     contact_plane(body, n, from[0], contact);
     return half_of_chord(body, contact);
+}
+
+int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
+                            const ellipsoid_surface *body, double reach,
+                            ellipsoid_surface_contact *contact)
+{
+    const double *n = facet->normal;
+    const side front = {{n[0], n[1], n[2]}, 0};
+    const side back = {{-n[0], -n[1], -n[2]}, 1};
+
+    if (nearest_from(facet, &front, body, reach, contact))
+    {
+        return 1;
+    }
+    return (ellipsoid_facet_ends_at_edge(facet, 0)
+            || ellipsoid_facet_ends_at_vertex(facet, 2))
+        && nearest_from(facet, &back, body, reach, contact);
 }
 
 int ellipsoid_surface_cut_plane(const ellipsoid_facet *facet,

@@ -30,6 +30,17 @@ int ellipsoid_facet_owns_vertex(const ellipsoid_facet *facet, int k)
         || facet->edge[(k + 2) % 3] == ELLIPSOID_EDGE_CONVEX;
 }
 
+int ellipsoid_facet_ends_at_edge(const ellipsoid_facet *facet, int k)
+{
+    return !(ellipsoid_dot(facet->edge_inward[k], facet->edge_inward[k]) > 0);
+}
+
+int ellipsoid_facet_ends_at_vertex(const ellipsoid_facet *facet, int k)
+{
+    return ellipsoid_facet_ends_at_edge(facet, k)
+        || ellipsoid_facet_ends_at_edge(facet, (k + 2) % 3);
+}
+
 int ellipsoid_facet_is_apex(const ellipsoid_facet *facet, int k,
                             const double r[3], double tolerance)
 {
@@ -43,11 +54,13 @@ int ellipsoid_facet_is_apex(const ellipsoid_facet *facet, int k,
     return 1;
 }
 
-/* Fills *nearest from r, the vector from an edge or a vertex to the point. */
+/* Fills *nearest from r, the vector from an edge or a vertex to the point; ends:
+   does the wall end there? */
 static int set_boundary_nearest(const ellipsoid_facet *facet, const double r[3],
-                    double length, ellipsoid_nearest *nearest)
+                                double length, int ends,
+                                ellipsoid_nearest *nearest)
 {
-    if (ellipsoid_dot(r, facet->normal) < -rounding * length)
+    if (!ends && ellipsoid_dot(r, facet->normal) < -rounding * length)
     {
         return 0; /* from behind */
     }
@@ -104,7 +117,9 @@ static int nearest_on_edge(const ellipsoid_facet *facet, int k, double foot,
     nearest->feature = length > 0 ? ELLIPSOID_ON_EDGE : ELLIPSOID_ON_FACE;
     return length < reach
         && ellipsoid_dot(r, facet->edge_inward[k]) <= rounding * length
-        && set_boundary_nearest(facet, r, length, nearest);
+        && set_boundary_nearest(facet, r, length,
+                                ellipsoid_facet_ends_at_edge(facet, k),
+                                nearest);
 }
 
 int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
@@ -172,7 +187,9 @@ int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
             || fabs(height) >= (1 - rounding) * length)
         && ellipsoid_facet_is_apex(facet, closest, from[closest],
                                    rounding * length)
-        && set_boundary_nearest(facet, from[closest], length, nearest);
+        && set_boundary_nearest(facet, from[closest], length,
+                                ellipsoid_facet_ends_at_vertex(facet, closest),
+                                nearest);
 }
 
 void ellipsoid_facet_sides_set(const ellipsoid_facet *facet,
@@ -352,9 +369,8 @@ int ellipsoid_facet_join(ellipsoid_facet *facet, int k,
     }
 
     const double turn = turn_to(facet, t, other->normal);
-    const double *inward = facet->edge_inward[k];
 
-    if (ellipsoid_dot(inward, inward) > 0
+    if (!ellipsoid_facet_ends_at_edge(facet, k)
         && turn <= turn_to(facet, t, facet->neighbour_normal[k]))
     {
         return 0;

@@ -71,6 +71,11 @@ ellipsoid_facet_has_convex_edge(const ellipsoid_facet *facet)
    and, because of rounding, by those that the point is right above. */
 int ellipsoid_facet_owns_vertex(const ellipsoid_facet *facet, int k);
 
+/* Is there no facet across edge k, or one of the edges at vertex k? Such a free
+   rim is met from behind the facet, too. */
+int ellipsoid_facet_ends_at_edge(const ellipsoid_facet *facet, int k);
+int ellipsoid_facet_ends_at_vertex(const ellipsoid_facet *facet, int k);
+
 /* Is the wall at this vertex nowhere nearer to the point? r: vertex to point */
 int ellipsoid_facet_is_apex(const ellipsoid_facet *facet, int k,
                             const double r[3], double tolerance);
