@@ -103,8 +103,8 @@ typedef int (*ellipsoid_field_function)(void *context, double t,
 typedef enum ellipsoid_edge
 {
     ELLIPSOID_EDGE_FLAT,   /* the neighbour lies in the same plane */
-    ELLIPSOID_EDGE_CONVEX, /* the solid protrudes; also a free rim, which is met
-                              from behind the facet, too */
+    ELLIPSOID_EDGE_CONVEX, /* the solid protrudes; also a free rim, which is
+                              touched from behind the facet, too */
     ELLIPSOID_EDGE_CONCAVE
 } ellipsoid_edge;
 

@@ -407,7 +407,7 @@ static void test_gap_agrees_with_overlap(void **unused)
     wall_mesh_free(&mesh);
 }
 
-/* What is nearest of all facets; is it off a face? */
+/* What is nearest at edges and vertices of all facets, if anything is. */
 static int nearest_rim(const wall_mesh *mesh, const ellipsoid_surface *body,
                        ellipsoid_surface_contact *nearest)
 {
@@ -416,23 +416,17 @@ static int nearest_rim(const wall_mesh *mesh, const ellipsoid_surface *body,
     {
         ellipsoid_surface_contact c;
 
-        if (ellipsoid_surface_nearest(&mesh->facets[f], body, um, &c))
+        if (ellipsoid_surface_nearest(&mesh->facets[f], body, um, &c)
+            && c.feature != ELLIPSOID_ON_FACE && c.height < nearest->height)
         {
-            if (c.feature == ELLIPSOID_ON_FACE)
-            {
-                return 0;
-            }
-            if (c.height < nearest->height)
-            {
-                *nearest = c;
-            }
+            *nearest = c;
         }
     }
     return nearest->height < um;
 }
 
 /* The rim of a wall that ends is met from front and back alike: as that of a
-   baffle, which has two sides. */
+   baffle, which has two sides. No deeper than half of the width. */
 static void test_free_rim_is_a_baffles(void **unused)
 {
     const double corner[3] = {0}, x[3] = {4 * um, 0, 0}, y[3] = {0, 4 * um, 0};
@@ -457,14 +451,21 @@ static void test_free_rim_is_a_baffles(void **unused)
         ellipsoid_surface body;
         ellipsoid_surface_contact expected, found;
         double q[4];
+        int is_found;
 
         test_orientation(&seed, q);
         ellipsoid_surface_set(o.semi_axes, centre, q, &body);
+        is_found = nearest_rim(&sheet, &body, &found);
         if (!nearest_rim(&baffle, &body, &expected))
+        {
+            assert_false(is_found);
+            continue;
+        }
+        if (expected.height < -0.25 * um)
         {
             continue;
         }
-        assert_true(nearest_rim(&sheet, &body, &found));
+        assert_true(is_found);
         assert_near(found.height, expected.height, 1e-12 * um);
         for (int i = 0; i < 3; i++)
         {
@@ -477,6 +478,42 @@ static void test_free_rim_is_a_baffles(void **unused)
     assert_true(edges > 1000 && vertices > 500 && from_behind > 1000);
     wall_mesh_free(&sheet);
     wall_mesh_free(&baffle);
+}
+
+/* A body that lies on a baffle touches the side that it is on: the other one is
+   seen from behind. */
+static void test_either_side_of_a_baffle(void **unused)
+{
+    const double corner[3] = {-5 * um, -5 * um, 0};
+    const double x[3] = {10 * um, 0, 0}, y[3] = {0, 10 * um, 0};
+    const ellipsoid_options o = exact_options(0.5 * um, 2 * um, 0.8 * um);
+    const ellipsoid_model model = test_model(&o);
+    static ellipsoid_facet_cache cache;
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    wall_mesh_plane(&mesh, corner, x, y, 1, 1, 0, 1);
+    wall_mesh_plane(&mesh, corner, y, x, 1, 1, 0, 2);
+    wall_mesh_finish(&mesh);
+    ellipsoid_facet_cache_clear(&cache);
+    for (int n = 0; n < 40; n++)
+    {
+        const ellipsoid_surroundings surroundings = inside(&mesh);
+        const double side = n % 2 ? -1 : 1, depth = 0.01 * (n + 1) * um;
+        const double place[3] = {0.3 * um, 0.2 * um, side * (0.8 * um - depth)};
+        const double q[4] = {0, 0, 0, 1};
+        ellipsoid_contact contact;
+
+        assert_ok(evaluate_pose(&model, &surroundings, place, q, &cache,
+                                &contact, NULL));
+        assert_int_equal(contact.surface_count, 1);
+        assert_int_equal(contact.surface[0], n % 2 ? 2 : 1);
+        assert_relative(contact.deepest, depth, 1e-9);
+        assert_relative(contact.force[2],
+                        side * stiffness_of(&o) * pow(depth, 1.5), 1e-8);
+    }
+    wall_mesh_free(&mesh);
 }
 
 /* A disc tilted about x against the edge of a wedge, upright over its middle and
@@ -554,6 +591,7 @@ int main(void)
         cmocka_unit_test(test_edge_and_corner_by_trial),
         cmocka_unit_test(test_gap_agrees_with_overlap),
         cmocka_unit_test(test_free_rim_is_a_baffles),
+        cmocka_unit_test(test_either_side_of_a_baffle),
         cmocka_unit_test(test_no_contact_beyond_the_body),
         cmocka_unit_test(test_exact_jacobian),
     };

@@ -379,6 +379,63 @@ static void test_continuous_over_edges(void **unused)
     wall_mesh_free(&mesh);
 }
 
+/* A post, upright at x1 > 0, x2 < 0, under a lid x3 = 3 um: two of its faces,
+   each long or high, in two triangles. */
+static void add_post(wall_mesh *mesh, int diagonal)
+{
+    const double f = 8e-6, h = 3e-6, low = -5e-6;
+    const double foot[3][3] = {{0, -f, low}, {0, 0, low}, {f, 0, low}};
+    const double top[3][3] = {{0, -f, h}, {0, 0, h}, {f, 0, h}};
+    const double lid[5][3] = {
+        {-f, -f, h}, {-f, 0, h}, {-f, f, h}, {0, f, h}, {f, f, h}};
+
+    wall_mesh_quad(mesh, foot[1], foot[0], top[0], top[1], diagonal, 0);
+    wall_mesh_quad(mesh, foot[2], foot[1], top[1], top[2], diagonal, 0);
+    wall_mesh_quad(mesh, top[0], lid[0], lid[1], top[1], diagonal, 1);
+    wall_mesh_quad(mesh, top[1], lid[1], lid[2], lid[3], diagonal, 1);
+    wall_mesh_quad(mesh, top[2], top[1], lid[3], lid[4], diagonal, 1);
+}
+
+/*
+    So too by the edge of a post below the lid on which it stands: the planes of
+    its faces go on above the lid as far as the edge does, however they are cut.
+    The cell tips towards the lid and a face, so that they stay perpendicular by
+    M: else a face and its edge fade by distances that are not quite the same.
+*/
+static void test_continuous_by_a_post(void **unused)
+{
+    const ellipsoid_options o = near_walls();
+    const ellipsoid_model model = test_model(&o);
+    uint64_t seed = 28;
+
+    (void)unused;
+    for (int diagonal = 0; diagonal < 2; diagonal++)
+    {
+        wall_mesh mesh;
+
+        wall_mesh_init(&mesh);
+        add_post(&mesh, diagonal);
+        wall_mesh_finish(&mesh);
+        ellipsoid_facet_cache_clear(&cache);
+        for (int n = 0; n < 40; n++)
+        {
+            const double from[3] = {(-3 + test_signed(&seed)) * 1e-6,
+                                    (-2 + test_signed(&seed)) * 1e-6,
+                                    (1 + 0.5 * test_signed(&seed)) * 1e-6};
+            const double to[3] = {from[0], from[1] + 4e-6, from[2]};
+            const double tip = 0.5 * test_pi * test_uniform(&seed);
+            const double axis[3] = {cos(tip), 0, sin(tip)};
+            double q[4], coarse, fine;
+
+            ellipsoid_quaternion_from_axis(axis, 0, q);
+            coarse = largest_change(&model, &mesh, from, to, q, 400);
+            fine = largest_change(&model, &mesh, from, to, q, 4000);
+            assert_true(fine < 0.35 * coarse + 1e-12);
+        }
+        wall_mesh_free(&mesh);
+    }
+}
+
 /* The result is that of the pose, to the last bit, whatever the cache holds:
    after a new pose, and after moves of about what leaves the closer look as it
    is, near few large facets and near many small ones. */
@@ -496,7 +553,8 @@ static int list_all(void *context, double t, const double centre[3],
 */
 static void test_cache_at_acute_angles(void **unused)
 {
-    const double w = 0.3e-6, crest[3][3] = {{0, -6e-6, 0}, {0}, {0, 6e-6, 1.2e-6}};
+    const double w = 0.3e-6;
+    const double crest[3][3] = {{0, -6e-6, 0}, {0}, {0, 6e-6, 1.2e-6}};
     ellipsoid_options o = near_walls();
     ellipsoid_model model;
     test_quadratic flow = test_shear(1000);
@@ -520,8 +578,10 @@ static void test_cache_at_acute_angles(void **unused)
             ellipsoid_set(top[end], at[0] + w, at[1], at[2]);
             ellipsoid_set(side[end], at[0], at[1], -w);
         }
-        wall_mesh_quad(&mesh, crest[part], top[0], top[1], crest[part + 1], 1, 0);
-        wall_mesh_quad(&mesh, crest[part], crest[part + 1], side[1], side[0], 1, 0);
+        wall_mesh_quad(&mesh, crest[part], top[0], top[1], crest[part + 1], 1,
+                       0);
+        wall_mesh_quad(&mesh, crest[part], crest[part + 1], side[1], side[0],
+                       1, 0);
     }
     wall_mesh_finish(&mesh);
     ellipsoid_facet_cache_clear(&cache);
@@ -561,7 +621,8 @@ static void test_in_line_with_an_edge(void **unused)
     (void)unused;
     for (int size = 1; size <= 7; size++)
     {
-        const double low[3] = {0}, high[3] = {size * 1e-6, size * 1e-6, size * 1e-6};
+        const double edge = size * 1e-6;
+        const double low[3] = {0}, high[3] = {edge, edge, edge};
         wall_mesh mesh;
 
         wall_mesh_init(&mesh);
@@ -571,7 +632,7 @@ static void test_in_line_with_an_edge(void **unused)
         {
             const ellipsoid_surroundings s = around(&mesh, &flow);
             const ellipsoid_state state = {
-                .x = {0, 0, high[2] + (4 + 0.02 * n) * 1e-6}, .q = {0, 0, 0, 1}};
+                .x = {0, 0, edge + (4 + 0.02 * n) * 1e-6}, .q = {0, 0, 0, 1}};
             ellipsoid_state derivative;
 
             ellipsoid_facet_cache_clear(&cache);
@@ -640,6 +701,7 @@ int main(void)
         cmocka_unit_test(test_cuts),
         cmocka_unit_test(test_continuous),
         cmocka_unit_test(test_continuous_over_edges),
+        cmocka_unit_test(test_continuous_by_a_post),
         cmocka_unit_test(test_cache),
         cmocka_unit_test(test_cache_far_beside),
         cmocka_unit_test(test_cache_at_acute_angles),

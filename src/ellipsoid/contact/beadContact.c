@@ -19,7 +19,7 @@ typedef ellipsoid_nearest contact;
 
 /*
     All contacts of a bead within the range of a law. *gap is lowered to the
-    smallest height less the radius. A facet seen from behind counts only if
+    smallest height less the radius. A face seen from behind counts only if
     nothing is nearer: then the centre has been pushed into the wall. Otherwise
     it is the far side of a thin one.
 */

@@ -247,6 +247,7 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
     p->facet = facet;
     p->feature = ELLIPSOID_ON_FACE;
     memcpy(p->over, outside, sizeof(p->over));
+    ellipsoid_copy(foot, p->place);
     ellipsoid_copy(view->normal, p->normal);
     p->height = height;
     return 1;

@@ -6,12 +6,8 @@
     wallPlanes.c - which planes stand for the walls near a cell.
 
     Each point where the grown body would meet a facet (wallFeatures.c) gives
-    one. Over a concave seam a plane does not end at once: facets, and edges
-    beyond their ends, go on as if they were larger, and the extent of their
-    plane falls to zero while the point moves away by a part of the height
-    (lengths by M). So nothing jumps where a wall goes on in other facets. Over
-    a flat one the facet across has the same plane. How planes of nearly one
-    normal share is told in planeWeights.c.
+    one (featurePlane.c). Over a flat seam the facet across has the same plane.
+    How planes of nearly one normal share is told in planeWeights.c.
 */
 #include "drag/wallResistance.h"
 
@@ -20,249 +16,9 @@ enum
     POSE = ELLIPSOID_POSE_SIZE
 };
 
-/* What makes two planes one. */
-static const double same = 1e-8;
-
-/* The part of the range within which a wall counts fully. */
-static const double full = 0.5;
-
-/* Changes by a component n of the pose, body frame, of a vector from a fixed
-   point to the centre, or of a fixed direction. */
-static void changed(const ellipsoid_wall_search *s, int n, int is_point,
-                    const double lab[3], double change[3])
-{
-    if (n >= 3)
-    {
-        ellipsoid_product(s->turned[n - 3], lab, change);
-    }
-    else if (is_point)
-    {
-        ellipsoid_set(change, s->axis[0][n], s->axis[1][n], s->axis[2][n]);
-    }
-    else
-    {
-        ellipsoid_set(change, 0, 0, 0);
-    }
-}
-
-/* The point slides along the edge so that the covector stays across it. */
-static void slide(const ellipsoid_wall_search *s,
-                  const ellipsoid_wall_feature *p,
-                  int n, const double along_lab[3], const double w[3],
-                  double change[3])
-{
-    double along[3], shrunk[3], turned[3], slip;
-
-    ellipsoid_product(s->axis, along_lab, along);
-    ellipsoid_shrink(s, along, shrunk);
-    changed(s, n, 0, along_lab, turned);
-    for (int i = 0; i < 3; i++)
-    {
-        change[i] -= p->foot * turned[i];
-    }
-    slip = (ellipsoid_dot(change, shrunk) + ellipsoid_dot(w, turned))
-         / ellipsoid_dot(along, shrunk);
-    for (int i = 0; i < 3; i++)
-    {
-        change[i] -= slip * along[i];
-    }
-}
-
-static void rim_slopes(const ellipsoid_wall_search *s,
-                       const ellipsoid_wall_feature *p, ellipsoid_plane *plane)
-{
-    const double *vertex = p->facet->vertex[p->k];
-    const double *m = p->normal;
-    double line[3], along[3], r[3], w[3], length;
-
-    ellipsoid_difference(s->x, vertex, line);
-    ellipsoid_difference(p->facet->vertex[(p->k + 1) % 3], vertex, along);
-    for (int i = 0; i < 3; i++)
-    {
-        const double lab[3] = {line[0] - p->foot * along[0],
-                               line[1] - p->foot * along[1],
-                               line[2] - p->foot * along[2]};
-
-        r[i] = ellipsoid_dot(s->axis[i], lab);
-    }
-    ellipsoid_shrink(s, r, w);
-    length = ellipsoid_length(w);
-    for (int n = 0; n < POSE; n++)
-    {
-        double change[3], turn[3], along_m;
-
-        changed(s, n, 1, line, change);
-        if (p->feature == ELLIPSOID_ON_EDGE)
-        {
-            slide(s, p, n, along, w, change);
-        }
-        ellipsoid_shrink(s, change, turn);
-        along_m = ellipsoid_dot(m, turn);
-        for (int i = 0; i < 3; i++)
-        {
-            plane->normal_slope[n][i] = (turn[i] - along_m * m[i]) / length;
-        }
-        plane->height.slope[n] = ellipsoid_dot(plane->normal_slope[n], r)
-                               + ellipsoid_dot(m, change);
-    }
-}
-
-static void face_slopes(const ellipsoid_wall_search *s,
-                        const ellipsoid_wall_feature *p, ellipsoid_plane *plane)
-{
-    for (int n = 0; n < POSE; n++)
-    {
-        changed(s, n, 0, p->facet->normal, plane->normal_slope[n]);
-        plane->height.slope[n] = n < 3 ? p->facet->normal[n] : 0;
-    }
-}
-
-/* Of what the window depends on, t. */
-typedef struct window_way
-{
-    double b[3], support2, arm, t; /* D n; n.D n; |D n| */
-} window_way;
-
-static void set_way(const ellipsoid_wall_search *s, const double m[3],
-                    double height, window_way *way)
-{
-    for (int i = 0; i < 3; i++)
-    {
-        way->b[i] = s->square[i] * m[i];
-    }
-    way->support2 = ellipsoid_dot(m, way->b);
-    way->arm = ellipsoid_length(way->b);
-    way->t = (height * way->arm / (way->support2 * s->range) - full)
-           / (1 - full);
-}
-
-/* The window's smooth end: 1, and its derivatives 0, at t = 0; 0 at t = 1. */
-static void set_window(const ellipsoid_wall_search *s, const window_way *way,
-                       ellipsoid_plane *plane)
-{
-    const double *b = way->b, height = plane->height.value;
-    const double support2 = way->support2, arm = way->arm, t = way->t;
-
-    plane->window.value = t <= 0 ? 1
-                                 : 1 - t * t * t * (10 + t * (6 * t - 15));
-    if (t <= 0 || !s->turned)
-    {
-        return;
-    }
-    for (int n = 0; n < POSE; n++)
-    {
-        const double *by = plane->normal_slope[n];
-        const double of_b[3] = {s->square[0] * by[0], s->square[1] * by[1],
-                                s->square[2] * by[2]};
-        const double distance =
-            plane->height.slope[n] * arm / support2
-            + height / support2
-                  * (ellipsoid_dot(b, of_b) / arm
-                     - 2 * arm * ellipsoid_dot(b, by) / support2);
-
-        plane->window.slope[n] = -30 * t * t * (1 - t) * (1 - t) * distance
-                               / (s->range * (1 - full));
-    }
-}
-
-/* How the point's distance from the centre, as seen by the body, changes: r =
-   D m h/p^2 */
-static void point_slope(const ellipsoid_wall_search *s,
-                        const ellipsoid_plane *plane, double support2, int n,
-                        double change[3])
-{
-    const double *m = plane->normal, *by = plane->normal_slope[n];
-    double of_support2 = 0;
-
-    for (int i = 0; i < 3; i++)
-    {
-        of_support2 += 2 * s->square[i] * m[i] * by[i];
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        change[i] = s->square[i] / support2
-                  * (by[i] * plane->height.value
-                     + m[i]
-                           * (plane->height.slope[n]
-                              - plane->height.value * of_support2 / support2));
-    }
-}
-
-/*
-    Takes from the extent by how far the point lies beside the facet, over edge
-    k, or, of a point on an edge, beyond its end at edge k. With y = h/p the
-    scaled height and d the scaled distance from the edge, or the end, and
-    u = d/(y f), the rest is 1 - u^2 (3 - 2 u).
-*/
-static void fade(const ellipsoid_wall_search *s,
-                 const ellipsoid_wall_feature *p, int k, ellipsoid_plane *plane)
-{
-    const int from_end = p->feature == ELLIPSOID_ON_EDGE;
-    const double *m = plane->normal;
-    const double *vertex =
-        p->facet->vertex[from_end && k == (p->k + 2) % 3 ? p->k : k];
-    double line[3], along[3], zeta[3], epsilon[3], out[3];
-    double support2 = 0, d, u, rest, ratio;
-
-    for (int i = 0; i < 3; i++)
-    {
-        support2 += s->square[i] * m[i] * m[i];
-    }
-    ellipsoid_difference(s->x, vertex, line);
-    ellipsoid_difference(p->facet->vertex[(k + 1) % 3], vertex, along);
-    ellipsoid_product(s->axis, line, zeta);
-    ellipsoid_product(s->axis, along, epsilon);
-    for (int i = 0; i < 3; i++)
-    {
-        const double a = sqrt(s->square[i]);
-
-        zeta[i] = (zeta[i]
-                   - s->square[i] * m[i] * plane->height.value / support2)
-                / a;
-        epsilon[i] /= a;
-    }
-    ratio = from_end ? 0
-                     : ellipsoid_dot(zeta, epsilon)
-                           / ellipsoid_dot(epsilon, epsilon);
-    for (int i = 0; i < 3; i++)
-    {
-        out[i] = zeta[i] - ratio * epsilon[i];
-    }
-    d = ellipsoid_length(out);
-    u = d * sqrt(support2) / (ellipsoid_fading * plane->height.value);
-    if (!(u < 1))
-    {
-        plane->extent.value = 0;
-        return;
-    }
-    rest = 1 - u * u * (3 - 2 * u);
-    for (int n = 0; s->turned && n < POSE; n++)
-    {
-        double moved[3], turned[3], slid[3], of_d = 0, of_support2 = 0;
-
-        changed(s, n, 1, line, moved);
-        changed(s, n, 0, along, turned);
-        point_slope(s, plane, support2, n, slid);
-        for (int i = 0; i < 3; i++)
-        {
-            of_d += out[i] * (moved[i] - slid[i] - ratio * turned[i])
-                  / sqrt(s->square[i]);
-            of_support2 += 2 * s->square[i] * m[i] * plane->normal_slope[n][i];
-        }
-        of_d = d > 0 ? of_d / d : 0;
-        plane->extent.slope[n] =
-            plane->extent.slope[n] * rest
-            - plane->extent.value * 6 * (1 - u)
-                  * (u * of_d * sqrt(support2)
-                         / (ellipsoid_fading * plane->height.value)
-                     + u * u
-                           * (0.5 * of_support2 / support2
-                              - plane->height.slope[n] / plane->height.value));
-    }
-    plane->extent.value *= rest;
-}
-
-/* ------------------------------------------------------------ all planes */
+/* What makes two planes one, and the angle [rad] to a plane that is the mesh's
+   rounding, as in facets.c. */
+static const double same = 1e-8, in_plane = 1e-6;
 
 static int is_same(const ellipsoid_wall_search *s, const ellipsoid_plane *a,
                    const ellipsoid_plane *b)
@@ -342,45 +98,18 @@ static void add_plane(const ellipsoid_wall_search *s,
                       const ellipsoid_wall_feature *p, ellipsoid_planes *all)
 {
     ellipsoid_plane *plane = &all->at[all->count];
-    window_way way;
     int before;
 
-    set_way(s, p->normal, p->height, &way);
-    if (way.t >= 1)
+    if (!ellipsoid_begin_plane(s, p, plane))
     {
         return; /* too far */
     }
-    memset(plane, 0, sizeof(*plane));
-    ellipsoid_copy(p->normal, plane->normal);
-    plane->height.value = p->height;
-    plane->extent.value = 1;
-    plane->feature = p->feature;
-    plane->vertex[0] = p->facet->vertex[p->k];
-    plane->vertex[1] = p->facet->vertex[(p->k + 1) % 3];
     before = seen(s, all);
     if (before >= 0 && all->at[before].extent.value == 1)
     {
         return;
     }
-    if (s->turned)
-    {
-        if (p->feature == ELLIPSOID_ON_FACE)
-        {
-            face_slopes(s, p, plane);
-        }
-        else
-        {
-            rim_slopes(s, p, plane);
-        }
-    }
-    set_window(s, &way, plane);
-    for (int k = 0; k < 3 && plane->window.value * plane->extent.value > 0; k++)
-    {
-        if (p->over[k])
-        {
-            fade(s, p, k, plane);
-        }
-    }
+    ellipsoid_complete_plane(s, p, plane);
     if (!(plane->window.value * plane->extent.value > 0))
     {
         return;
@@ -426,6 +155,56 @@ static void join_same(const ellipsoid_wall_search *s, ellipsoid_planes *all)
     all->count = count;
 }
 
+/* Does the plane of a face go on beside its facet? */
+static int goes_on(const ellipsoid_wall_feature *p)
+{
+    return p->feature == ELLIPSOID_ON_FACE
+        && (p->over[0] || p->over[1] || p->over[2]);
+}
+
+/* Is the plane's point beyond a convex edge of this facet, in the plane, too,
+   and the rest of the wall is not? */
+static int is_parted_by(const ellipsoid_wall_search *s,
+                        const ellipsoid_wall_feature *p,
+                        const ellipsoid_facet *facet)
+{
+    double turn[3], away[3], along[3];
+    int parted = 0;
+
+    ellipsoid_difference(p->facet->normal, facet->normal, turn);
+    ellipsoid_difference(p->facet->middle, facet->middle, away);
+    if (ellipsoid_dot(turn, turn) > in_plane * in_plane
+        || fabs(ellipsoid_dot(facet->normal, away)) > in_plane * s->range)
+    {
+        return 0;
+    }
+    for (int k = 0; k < 3; k++)
+    {
+        parted = parted
+              || (facet->edge[k] == ELLIPSOID_EDGE_CONVEX
+                  && ellipsoid_beyond(facet, p->place, k, along) > 0
+                  && ellipsoid_beyond(facet, p->facet->middle, k, along) < 0);
+    }
+    return parted
+        && ellipsoid_squared_rim_distance(facet, s->x) < s->range * s->range;
+}
+
+/* A face does not go on beyond the line of a convex edge of its wall: there the
+   edge does, or the face across it. */
+static int is_past_wall(const ellipsoid_wall_search *s,
+                        const ellipsoid_wall_feature *p, const short which[],
+                        int count, const ellipsoid_facet_cache *cache)
+{
+    for (int k = 0; k < count; k++)
+    {
+        if (is_parted_by(s, p, &cache->near_facets[cache->near_facet[which[k]]]))
+        {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* Adds the planes of facets that may be met, and keeps which are. */
 static void look_at(const ellipsoid_wall_search *s, const short which[],
                     int count, ellipsoid_facet_cache *cache,
@@ -440,7 +219,9 @@ static void look_at(const ellipsoid_wall_search *s, const short which[],
         ellipsoid_wall_feature found;
 
         if (ellipsoid_find_feature(
-                s, &cache->near_facets[cache->near_facet[near]], &view, &found))
+                s, &cache->near_facets[cache->near_facet[near]], &view, &found)
+            && !(goes_on(&found)
+                 && is_past_wall(s, &found, which, count, cache)))
         {
             add_plane(s, &found, planes);
             if (met < ELLIPSOID_MAX_MET)

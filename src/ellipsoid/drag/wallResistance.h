@@ -96,6 +96,7 @@ typedef struct ellipsoid_wall_feature
     int feature, k;
     int over[3];      /* beside the facet, over these edges: it fades */
     double foot;      /* along the edge, 0 to 1 on it */
+    double place[3];  /* lab, on the plane of a face */
     double normal[3]; /* body */
     double height;
 } ellipsoid_wall_feature;
@@ -127,6 +128,15 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
                            const ellipsoid_facet *facet,
                            ellipsoid_wall_view *view,
                            ellipsoid_wall_feature *p);
+
+/* Sets a feature's plane but for what may be slow; 0 if it is too far to count.
+   The rest: derivatives, if s->turned, window and extent (featurePlane.c). */
+int ellipsoid_begin_plane(const ellipsoid_wall_search *s,
+                          const ellipsoid_wall_feature *p,
+                          ellipsoid_plane *plane);
+void ellipsoid_complete_plane(const ellipsoid_wall_search *s,
+                              const ellipsoid_wall_feature *p,
+                              ellipsoid_plane *plane);
 
 /* How far all points over convex edges, and the vertices, are from the centre
    at least, squared. */

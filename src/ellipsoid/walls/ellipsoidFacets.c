@@ -192,27 +192,27 @@ static void contact_line(const ellipsoid_surface *body, const double d[3],
     complete(body, d, c);
 }
 
-/* From which side a facet is looked at: that of its normal, or from behind,
-   where it has only what is at free rims. */
-typedef struct side
+/* A facet as it is seen: from where its normal points, or from behind, where it
+   has only what is at free rims. */
+typedef struct view
 {
     double normal[3];
     int behind;
-} side;
+} view;
 
-static int at_vertex(const ellipsoid_facet *facet, const side *from_side, int k,
+static int at_vertex(const ellipsoid_facet *facet, const view *seen, int k,
                      double reach, const ellipsoid_surface_contact *c)
 {
-    const double upright = ellipsoid_dot(c->normal, from_side->normal);
+    const double upright = ellipsoid_dot(c->normal, seen->normal);
 
     return c->height < reach && upright >= -rounding
-        && (!from_side->behind || ellipsoid_facet_ends_at_vertex(facet, k))
+        && (!seen->behind || ellipsoid_facet_ends_at_vertex(facet, k))
         && (ellipsoid_facet_owns_vertex(facet, k) || upright >= 1 - rounding)
         && ellipsoid_facet_is_apex(facet, k, c->normal, rounding);
 }
 
 /* The lowest of the vertices in the set, bit by bit. */
-static int nearest_vertex(const ellipsoid_facet *facet, const side *from_side,
+static int nearest_vertex(const ellipsoid_facet *facet, const view *seen,
                           const ellipsoid_surface *body, double from[3][3],
                           int set, double reach,
                           ellipsoid_surface_contact *contact)
@@ -233,8 +233,7 @@ static int nearest_vertex(const ellipsoid_facet *facet, const side *from_side,
             }
         }
     }
-    return closest >= 0
-        && at_vertex(facet, from_side, closest, reach, contact);
+    return closest >= 0 && at_vertex(facet, seen, closest, reach, contact);
 }
 
 /* 1 in the first half of the chord that goes into the body at the contact point
@@ -256,11 +255,26 @@ static int half_of_chord(const ellipsoid_surface *body,
     return -c->height <= half ? 1 : -c->height < 2 * half ? 2 : 0;
 }
 
-static int nearest_from(const ellipsoid_facet *facet, const side *from_side,
+/* inward: across edge k, into the facet. A normal points into neither facet of
+   an edge. */
+static int at_edge(const ellipsoid_facet *facet, const view *seen, int k,
+                   const double inward[3], const ellipsoid_surface *body,
+                   const ellipsoid_surface_contact *c)
+{
+    const int ends = ellipsoid_facet_ends_at_edge(facet, k);
+    const double *into = ends ? inward : facet->edge_inward[k];
+
+    return facet->edge[k] != ELLIPSOID_EDGE_CONCAVE && (ends || !seen->behind)
+        && ellipsoid_dot(c->normal, into) <= rounding * ellipsoid_length(into)
+        && ellipsoid_dot(c->normal, seen->normal) >= -rounding
+        && half_of_chord(body, c) == 1;
+}
+
+static int nearest_from(const ellipsoid_facet *facet, const view *seen,
                         const ellipsoid_surface *body, double reach,
                         ellipsoid_surface_contact *contact)
 {
-    const double *n = from_side->normal;
+    const double *n = seen->normal;
     double from[3][3], p[3];
     int outside = 0, candidates = 0;
 
@@ -314,22 +328,16 @@ static int nearest_from(const ellipsoid_facet *facet, const side *from_side,
 
         if (part >= 0 && part <= 1)
         {
-            return facet->edge[k] != ELLIPSOID_EDGE_CONCAVE
-                && (!from_side->behind
-                    || ellipsoid_facet_ends_at_edge(facet, k))
-                && ellipsoid_dot(contact->normal, facet->edge_inward[k])
-                       <= rounding
-                && ellipsoid_dot(contact->normal, n) >= -rounding
-                && half_of_chord(body, contact) == 1;
+            return at_edge(facet, seen, k, inward, body, contact);
         }
         candidates |= 1 << (part < 0 ? k : (k + 1) % 3);
     }
     if (outside)
     {
-        return nearest_vertex(facet, from_side, body, from, candidates, reach,
+        return nearest_vertex(facet, seen, body, from, candidates, reach,
                               contact);
     }
-    if (from_side->behind)
+    if (seen->behind)
     {
         return 0;
     }
@@ -342,16 +350,20 @@ int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
                             ellipsoid_surface_contact *contact)
 {
     const double *n = facet->normal;
-    const side front = {{n[0], n[1], n[2]}, 0};
-    const side back = {{-n[0], -n[1], -n[2]}, 1};
+    const view front = {{n[0], n[1], n[2]}, 0};
+    const view back = {{-n[0], -n[1], -n[2]}, 1};
+    const int found = nearest_from(facet, &front, body, reach, contact);
+    ellipsoid_surface_contact rim;
 
-    if (nearest_from(facet, &front, body, reach, contact))
+    if (found != 1
+        && (ellipsoid_facet_ends_at_edge(facet, 0)
+            || ellipsoid_facet_ends_at_vertex(facet, 2))
+        && nearest_from(facet, &back, body, reach, &rim))
     {
+        *contact = rim;
         return 1;
     }
-    return (ellipsoid_facet_ends_at_edge(facet, 0)
-            || ellipsoid_facet_ends_at_vertex(facet, 2))
-        && nearest_from(facet, &back, body, reach, contact);
+    return found;
 }
 
 int ellipsoid_surface_cut_plane(const ellipsoid_facet *facet,

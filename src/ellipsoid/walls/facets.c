@@ -54,8 +54,8 @@ int ellipsoid_facet_is_apex(const ellipsoid_facet *facet, int k,
     return 1;
 }
 
-/* Fills *nearest from r, the vector from an edge or a vertex to the point; ends:
-   does the wall end there? */
+/* Fills *nearest from r, the vector from an edge or a vertex to the point;
+   ends: does the wall end there? */
 static int set_boundary_nearest(const ellipsoid_facet *facet, const double r[3],
                                 double length, int ends,
                                 ellipsoid_nearest *nearest)
