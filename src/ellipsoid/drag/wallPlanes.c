@@ -171,10 +171,17 @@ static int is_parted_by(const ellipsoid_wall_search *s,
     double turn[3], away[3], along[3];
     int parted = 0;
 
+    if (!ellipsoid_facet_has_convex_edge(facet))
+    {
+        return 0;
+    }
     ellipsoid_difference(p->facet->normal, facet->normal, turn);
+    if (ellipsoid_dot(turn, turn) > in_plane * in_plane)
+    {
+        return 0;
+    }
     ellipsoid_difference(p->facet->middle, facet->middle, away);
-    if (ellipsoid_dot(turn, turn) > in_plane * in_plane
-        || fabs(ellipsoid_dot(facet->normal, away)) > in_plane * s->range)
+    if (fabs(ellipsoid_dot(facet->normal, away)) > in_plane * s->range)
     {
         return 0;
     }
