@@ -379,6 +379,113 @@ static void test_continuous_over_edges(void **unused)
     wall_mesh_free(&mesh);
 }
 
+/* A floor x3 = 0 along a wall x1 = 0. The floor is cut from the seam at x2 = 0
+   to its far side at x2 = lean; or it has a pit, 1.5 by 5 um and 2 um deep. */
+static void add_floor_at_wall(wall_mesh *mesh, double lean, int has_pit)
+{
+    static const double um = 1e-6;
+    const double f = 12 * um, p[2] = {2 * um, 3.5 * um}, q = 5 * um;
+    const double seam[3][3] = {{0, -f, 0}, {0}, {0, f, 0}};
+    const double far[3][3] = {{f, -f, 0}, {f, lean, 0}, {f, f, 0}};
+    const double rim[4][3] = {
+        {p[0], 0, 0}, {p[1], 0, 0}, {p[1], q, 0}, {p[0], q, 0}};
+    const double bottom[4][3] = {{p[0], 0, -p[0]},
+                                 {p[1], 0, -p[0]},
+                                 {p[1], q, -p[0]},
+                                 {p[0], q, -p[0]}};
+
+    wall_mesh_quad(mesh, seam[0], far[0], far[1], seam[1], 0, 0);
+    for (int part = 0; part < 2; part++)
+    {
+        double top[2][3];
+
+        for (int end = 0; end < 2; end++)
+        {
+            ellipsoid_set(top[end], 0, seam[part + end][1], f);
+        }
+        wall_mesh_quad(mesh, seam[part], seam[part + 1], top[1], top[0], 0, 1);
+    }
+    if (!has_pit)
+    {
+        wall_mesh_quad(mesh, seam[1], far[1], far[2], seam[2], 0, 0);
+        return;
+    }
+    wall_mesh_triangle(mesh, seam[1], far[1], rim[0], 0);
+    wall_mesh_triangle(mesh, rim[0], far[1], rim[1], 0);
+    wall_mesh_quad(mesh, rim[1], far[1], far[2], rim[2], 0, 0);
+    wall_mesh_quad(mesh, rim[3], rim[2], far[2], seam[2], 0, 0);
+    wall_mesh_quad(mesh, seam[1], rim[0], rim[3], seam[2], 0, 0);
+    for (int k = 0; k < 4; k++)
+    {
+        const int next = (k + 1) % 4;
+
+        wall_mesh_quad(mesh, rim[k], bottom[k], bottom[next], rim[next], 0, 0);
+    }
+}
+
+/* Over a concave seam the floor goes on alike, however it is cut; what rounding
+   leaves. */
+static void test_cuts_at_a_seam(void **unused)
+{
+    const ellipsoid_options o = near_walls();
+    const ellipsoid_model model = test_model(&o);
+    uint64_t seed = 29;
+
+    (void)unused;
+    for (int n = 0; n < 300; n++)
+    {
+        const double x[3] = {(1.7 + 0.6 * test_signed(&seed)) * 1e-6,
+                             0.5e-6 * test_signed(&seed), 2.5e-6};
+        const double tip = 0.5 * test_pi * test_uniform(&seed);
+        const double axis[3] = {cos(tip), 0, sin(tip)};
+        double q[4], a[6][6], b[6][6];
+        wall_mesh straight, oblique;
+
+        wall_mesh_init(&straight);
+        wall_mesh_init(&oblique);
+        add_floor_at_wall(&straight, 0, 0);
+        add_floor_at_wall(&oblique, 10e-6 * test_signed(&seed), 0);
+        wall_mesh_finish(&straight);
+        wall_mesh_finish(&oblique);
+        ellipsoid_quaternion_from_axis(axis, 0, q);
+        ellipsoid_facet_cache_clear(&cache);
+        lab_resistance(&model, &straight, x, q, a);
+        ellipsoid_facet_cache_clear(&cache);
+        lab_resistance(&model, &oblique, x, q, b);
+        assert_true(difference(a, b) < 1e-10);
+        wall_mesh_free(&straight);
+        wall_mesh_free(&oblique);
+    }
+}
+
+/* Nor do the edges of a pit end it, that are in its plane but not at the seam:
+   a cell tipped towards the wall approaches that, beside the pit. */
+static void test_continuous_beside_a_pit(void **unused)
+{
+    const double axis[3] = {0.70710678118654752, 0, 0.70710678118654752};
+    const ellipsoid_options o = near_walls();
+    const ellipsoid_model model = test_model(&o);
+    double q[4];
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_floor_at_wall(&mesh, -5e-6, 1);
+    wall_mesh_finish(&mesh);
+    ellipsoid_quaternion_from_axis(axis, 0, q);
+    ellipsoid_facet_cache_clear(&cache);
+    for (int n = 0; n < 15; n++)
+    {
+        const double y = (-9 + 0.4 * n) * 1e-6;
+        const double from[3] = {3.2e-6, y, 2.5e-6}, to[3] = {1.6e-6, y, 2.5e-6};
+        const double coarse = largest_change(&model, &mesh, from, to, q, 400);
+        const double fine = largest_change(&model, &mesh, from, to, q, 4000);
+
+        assert_true(fine < 0.35 * coarse + 1e-12);
+    }
+    wall_mesh_free(&mesh);
+}
+
 /* A post, upright at x1 > 0, x2 < 0, under a lid x3 = 3 um: two of its faces,
    each long or high, in two triangles. */
 static void add_post(wall_mesh *mesh, int diagonal)
@@ -398,7 +505,7 @@ static void add_post(wall_mesh *mesh, int diagonal)
 
 /*
     So too by the edge of a post below the lid on which it stands: the planes of
-    its faces go on above the lid as far as the edge does, however they are cut.
+    its faces go on above the lid as far as the edge does, with either diagonal.
     The cell tips towards the lid and a face, so that they stay perpendicular by
     M: else a face and its edge fade by distances that are not quite the same.
 */
@@ -701,6 +808,8 @@ int main(void)
         cmocka_unit_test(test_cuts),
         cmocka_unit_test(test_continuous),
         cmocka_unit_test(test_continuous_over_edges),
+        cmocka_unit_test(test_cuts_at_a_seam),
+        cmocka_unit_test(test_continuous_beside_a_pit),
         cmocka_unit_test(test_continuous_by_a_post),
         cmocka_unit_test(test_cache),
         cmocka_unit_test(test_cache_far_beside),

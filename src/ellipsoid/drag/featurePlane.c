@@ -9,8 +9,8 @@
     All planes fade with the distance of their point from the centre. Over a
     concave seam a plane does not end at once: faces, and edges beyond their
     ends, go on as if they were larger, and the extent of their plane falls to
-    zero while the point moves away by a part of the height (lengths by M). So
-    nothing jumps where a wall goes on in other facets.
+    zero while the point moves away by a part of the height (lengths by M), so
+    that less jumps where a wall goes on in other facets.
 */
 #include "drag/wallResistance.h"
 
@@ -193,7 +193,8 @@ typedef struct way_beside
     double out[3], length;
 } way_beside;
 
-/* The way from edge k, or from that of its ends which is nearer. */
+/* The way from edge k or its nearer end; of a point on another edge, from the
+   end at which edge k meets that. */
 static void set_beside(const ellipsoid_wall_search *s,
                        const ellipsoid_wall_feature *p,
                        const ellipsoid_plane *plane, double support2, int k,

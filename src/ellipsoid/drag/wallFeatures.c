@@ -175,6 +175,34 @@ double ellipsoid_squared_rim_distance(const ellipsoid_facet *facet,
     return least > 0 ? least : 0; /* in line with an edge: rounding */
 }
 
+/* Is the place beside one of these edges, neither before nor behind it? */
+static int is_beside(const ellipsoid_wall_search *s,
+                     const ellipsoid_facet *facet, const int edges[3],
+                     const double place[3])
+{
+    for (int k = 0; k < 3; k++)
+    {
+        double line[3], to[3], along[3], w[3], at;
+
+        if (!edges[k])
+        {
+            continue;
+        }
+        ellipsoid_difference(place, facet->vertex[k], line);
+        ellipsoid_product(s->axis, line, to);
+        ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
+                             line);
+        ellipsoid_product(s->axis, line, along);
+        ellipsoid_shrink(s, along, w);
+        at = ellipsoid_dot(to, w) / ellipsoid_dot(along, w);
+        if (at >= 0 && at <= 1)
+        {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* Finds the plane that this facet gives; 0 if there is none. */
 int ellipsoid_find_feature(const ellipsoid_wall_search *s,
                            const ellipsoid_facet *facet,
@@ -184,7 +212,7 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
     /* far more than rounding */
     const double squared_range = s->range * s->range * (1 + 1e-6);
     double from[3], foot[3], aside[3], along[3], height;
-    int outside[3], on_rim = 0;
+    int outside[3], on_rim = 0, across = 0;
 
     ellipsoid_difference(s->x, facet->middle, from);
     height = ellipsoid_dot(from, facet->normal);
@@ -237,11 +265,13 @@ int ellipsoid_find_feature(const ellipsoid_wall_search *s,
         }
         out = ellipsoid_beyond(facet, foot, k, along);
         outside[k] = out > 0 && facet->edge[k] != ELLIPSOID_EDGE_FLAT;
-        if (out > 0 && !outside[k]
-            && out > ellipsoid_lap * height * ellipsoid_length(along))
-        {
-            return 0; /* the same plane is that of the facet across */
-        }
+        across = across
+              || (out > 0 && !outside[k]
+                  && out > ellipsoid_lap * height * ellipsoid_length(along));
+    }
+    if (across && !is_beside(s, facet, outside, foot))
+    {
+        return 0; /* the same plane is that of the facet across */
     }
     memset(p, 0, sizeof(*p));
     p->facet = facet;

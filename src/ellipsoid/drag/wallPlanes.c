@@ -93,26 +93,114 @@ static void keep(ellipsoid_planes *all)
     }
 }
 
-/* Of features seen twice the one that fades less is kept. */
-static void add_plane(const ellipsoid_wall_search *s,
-                      const ellipsoid_wall_feature *p, ellipsoid_planes *all)
+/* Does edge k of a facet end on the line of edge j of another? */
+static int ends_on_line(const ellipsoid_facet *facet, int k,
+                        const ellipsoid_facet *other, int j, double nothing)
+{
+    double along[3];
+
+    for (int end = 0; end < 2; end++)
+    {
+        const double *vertex = facet->vertex[(k + end) % 3];
+
+        if (fabs(ellipsoid_beyond(other, vertex, j, along))
+            <= nothing * ellipsoid_length(along))
+        {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Is there a convex edge of this facet, in the plane, too, that ends at the
+   seam over which the face goes on, between that and the plane's point? */
+static int is_parted_by(const ellipsoid_wall_search *s,
+                        const ellipsoid_wall_feature *p,
+                        const ellipsoid_facet *facet)
+{
+    const ellipsoid_facet *face = p->facet;
+    const double nothing = in_plane * s->range;
+    double turn[3], away[3], along[3], middle[3];
+
+    ellipsoid_difference(face->normal, facet->normal, turn);
+    if (fabs(turn[0]) > in_plane || fabs(turn[1]) > in_plane
+        || fabs(turn[2]) > in_plane
+        || !ellipsoid_facet_has_convex_edge(facet))
+    {
+        return 0;
+    }
+    ellipsoid_difference(face->middle, facet->middle, away);
+    if (fabs(ellipsoid_dot(facet->normal, away)) > nothing
+        || ellipsoid_squared_rim_distance(facet, s->x) >= s->range * s->range)
+    {
+        return 0;
+    }
+    for (int j = 0; j < 3; j++)
+    {
+        for (int i = 0; i < 3; i++)
+        {
+            middle[i] =
+                0.5 * (face->vertex[j][i] + face->vertex[(j + 1) % 3][i]);
+        }
+        for (int k = 0; p->over[j] && k < 3; k++)
+        {
+            if (facet->edge[k] == ELLIPSOID_EDGE_CONVEX
+                && ellipsoid_beyond(facet, p->place, k, along) > 0
+                && ellipsoid_beyond(facet, middle, k, along) < 0
+                && ends_on_line(facet, k, face, j, nothing))
+            {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+/* A face goes on beside its facet no farther than its wall would: where a
+   convex edge ends at the seam, that edge goes on, or the face across it. */
+static int is_past_wall(const ellipsoid_wall_search *s,
+                        const ellipsoid_wall_feature *p, const short which[],
+                        int count, const ellipsoid_facet_cache *cache)
+{
+    if (p->feature != ELLIPSOID_ON_FACE)
+    {
+        return 0;
+    }
+    for (int k = 0; k < count; k++)
+    {
+        if (is_parted_by(s, p,
+                         &cache->near_facets[cache->near_facet[which[k]]]))
+        {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Of features seen twice the one that fades less is kept. Returns 0 if there is
+   nothing of this one, whatever the others are. */
+static int add_plane(const ellipsoid_wall_search *s,
+                     const ellipsoid_wall_feature *p, const short which[],
+                     int count, const ellipsoid_facet_cache *cache,
+                     ellipsoid_planes *all)
 {
     ellipsoid_plane *plane = &all->at[all->count];
     int before;
 
     if (!ellipsoid_begin_plane(s, p, plane))
     {
-        return; /* too far */
+        return 0; /* too far */
     }
     before = seen(s, all);
     if (before >= 0 && all->at[before].extent.value == 1)
     {
-        return;
+        return 1;
     }
     ellipsoid_complete_plane(s, p, plane);
-    if (!(plane->window.value * plane->extent.value > 0))
+    if (!(plane->window.value * plane->extent.value > 0)
+        || (plane->extent.value < 1 && is_past_wall(s, p, which, count, cache)))
     {
-        return;
+        return 0;
     }
     if (before < 0)
     {
@@ -122,6 +210,7 @@ static void add_plane(const ellipsoid_wall_search *s,
     {
         all->at[before] = *plane;
     }
+    return 1;
 }
 
 /* What planes that are the same add to the resistance is evaluated once. */
@@ -155,63 +244,6 @@ static void join_same(const ellipsoid_wall_search *s, ellipsoid_planes *all)
     all->count = count;
 }
 
-/* Does the plane of a face go on beside its facet? */
-static int goes_on(const ellipsoid_wall_feature *p)
-{
-    return p->feature == ELLIPSOID_ON_FACE
-        && (p->over[0] || p->over[1] || p->over[2]);
-}
-
-/* Is the plane's point beyond a convex edge of this facet, in the plane, too,
-   and the rest of the wall is not? */
-static int is_parted_by(const ellipsoid_wall_search *s,
-                        const ellipsoid_wall_feature *p,
-                        const ellipsoid_facet *facet)
-{
-    double turn[3], away[3], along[3];
-    int parted = 0;
-
-    if (!ellipsoid_facet_has_convex_edge(facet))
-    {
-        return 0;
-    }
-    ellipsoid_difference(p->facet->normal, facet->normal, turn);
-    if (ellipsoid_dot(turn, turn) > in_plane * in_plane)
-    {
-        return 0;
-    }
-    ellipsoid_difference(p->facet->middle, facet->middle, away);
-    if (fabs(ellipsoid_dot(facet->normal, away)) > in_plane * s->range)
-    {
-        return 0;
-    }
-    for (int k = 0; k < 3; k++)
-    {
-        parted = parted
-              || (facet->edge[k] == ELLIPSOID_EDGE_CONVEX
-                  && ellipsoid_beyond(facet, p->place, k, along) > 0
-                  && ellipsoid_beyond(facet, p->facet->middle, k, along) < 0);
-    }
-    return parted
-        && ellipsoid_squared_rim_distance(facet, s->x) < s->range * s->range;
-}
-
-/* A face does not go on beyond the line of a convex edge of its wall: there the
-   edge does, or the face across it. */
-static int is_past_wall(const ellipsoid_wall_search *s,
-                        const ellipsoid_wall_feature *p, const short which[],
-                        int count, const ellipsoid_facet_cache *cache)
-{
-    for (int k = 0; k < count; k++)
-    {
-        if (is_parted_by(s, p, &cache->near_facets[cache->near_facet[which[k]]]))
-        {
-            return 1;
-        }
-    }
-    return 0;
-}
-
 /* Adds the planes of facets that may be met, and keeps which are. */
 static void look_at(const ellipsoid_wall_search *s, const short which[],
                     int count, ellipsoid_facet_cache *cache,
@@ -227,10 +259,8 @@ static void look_at(const ellipsoid_wall_search *s, const short which[],
 
         if (ellipsoid_find_feature(
                 s, &cache->near_facets[cache->near_facet[near]], &view, &found)
-            && !(goes_on(&found)
-                 && is_past_wall(s, &found, which, count, cache)))
+            && add_plane(s, &found, which, count, cache, planes))
         {
-            add_plane(s, &found, planes);
             if (met < ELLIPSOID_MAX_MET)
             {
                 cache->met[met] = near;
