@@ -615,7 +615,7 @@ static void test_cache_far_beside(void **unused)
     for (long n = 0; n < count; n++)
     {
         const ellipsoid_surroundings s = around(&mesh, &flow);
-        const double away = o.wall_range * (1.2 + 0.9 * test_uniform(&seed));
+        const double away = o.wall_range * (1.05 + 0.6 * test_uniform(&seed));
         double to[3];
         ellipsoid_state near = {.u = {0}}, a, b, free;
         ellipsoid_surroundings none = s;
