@@ -243,16 +243,13 @@ static void set_beside(const ellipsoid_wall_search *s,
     the facet or the end, and u = d/(y f), it is 1 - u^2 (3 - 2 u).
 */
 static void fade(const ellipsoid_wall_search *s,
-                 const ellipsoid_wall_feature *p, ellipsoid_plane *plane)
+                 const ellipsoid_wall_feature *p, double support2,
+                 ellipsoid_plane *plane)
 {
     const double *m = plane->normal;
-    double support2 = 0, line[3], u;
+    double line[3], u;
     way_beside way = {.length = HUGE_VAL};
 
-    for (int i = 0; i < 3; i++)
-    {
-        support2 += s->square[i] * m[i] * m[i];
-    }
     for (int k = 0; k < 3; k++)
     {
         way_beside other;
@@ -341,6 +338,6 @@ void ellipsoid_complete_plane(const ellipsoid_wall_search *s,
     set_window(s, &way, plane);
     if (plane->window.value > 0)
     {
-        fade(s, p, plane);
+        fade(s, p, way.support2, plane);
     }
 }

@@ -101,6 +101,18 @@ static int feature_at_vertex(const ellipsoid_wall_search *s, const corners *c,
         && set_feature(p, ELLIPSOID_ON_VERTEX, k, 0, c->from[k], w);
 }
 
+/* Where the foot of a vector from an edge's first vertex is along the edge, by
+   M; squared: the edge's length by M, squared. */
+static double foot_along(const ellipsoid_wall_search *s, const double along[3],
+                         const double from[3], double *squared)
+{
+    double w[3];
+
+    ellipsoid_shrink(s, along, w);
+    *squared = ellipsoid_dot(along, w);
+    return ellipsoid_dot(from, w) / *squared;
+}
+
 /* The point beside the facet's face, over a convex edge. */
 static int feature_on_rim(const ellipsoid_wall_search *s,
                           const double normal[3], double bare,
@@ -113,7 +125,7 @@ static int feature_on_rim(const ellipsoid_wall_search *s,
 
     for (int k = 0; k < 3; k++)
     {
-        double line[3], w[3], at, past, squared;
+        double line[3], at, past, squared;
 
         if (!outside[k] || facet->edge[k] != ELLIPSOID_EDGE_CONVEX)
         {
@@ -123,9 +135,7 @@ static int feature_on_rim(const ellipsoid_wall_search *s,
         ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
                              line);
         ellipsoid_product(s->axis, line, c.along[k]);
-        ellipsoid_shrink(s, c.along[k], w);
-        squared = ellipsoid_dot(c.along[k], w);
-        at = ellipsoid_dot(c.from[k], w) / squared;
+        at = foot_along(s, c.along[k], c.from[k], &squared);
         past = fmax(0, fmax(-at, at - 1)) * sqrt(squared);
         if (past < best)
         {
@@ -182,7 +192,7 @@ static int is_beside(const ellipsoid_wall_search *s,
 {
     for (int k = 0; k < 3; k++)
     {
-        double line[3], to[3], along[3], w[3], at;
+        double line[3], to[3], along[3], at, squared;
 
         if (!edges[k])
         {
@@ -193,8 +203,7 @@ static int is_beside(const ellipsoid_wall_search *s,
         ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
                              line);
         ellipsoid_product(s->axis, line, along);
-        ellipsoid_shrink(s, along, w);
-        at = ellipsoid_dot(to, w) / ellipsoid_dot(along, w);
+        at = foot_along(s, along, to, &squared);
         if (at >= 0 && at <= 1)
         {
             return 1;

@@ -137,12 +137,16 @@ static int is_parted_by(const ellipsoid_wall_search *s,
     }
     for (int j = 0; j < 3; j++)
     {
+        if (!p->over[j])
+        {
+            continue;
+        }
         for (int i = 0; i < 3; i++)
         {
             middle[i] =
                 0.5 * (face->vertex[j][i] + face->vertex[(j + 1) % 3][i]);
         }
-        for (int k = 0; p->over[j] && k < 3; k++)
+        for (int k = 0; k < 3; k++)
         {
             if (facet->edge[k] == ELLIPSOID_EDGE_CONVEX
                 && ellipsoid_beyond(facet, p->place, k, along) > 0

@@ -357,7 +357,8 @@ int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
 
     if (found != 1
         && (ellipsoid_facet_ends_at_edge(facet, 0)
-            || ellipsoid_facet_ends_at_vertex(facet, 2))
+            || ellipsoid_facet_ends_at_edge(facet, 1)
+            || ellipsoid_facet_ends_at_edge(facet, 2))
         && nearest_from(facet, &back, body, reach, &rim))
     {
         *contact = rim;
