@@ -20,9 +20,6 @@ Description
 #include "flow/frozenFlowFluxes.C"
 #include "flow/frozenFlowTets.C"
 #include "flow/frozenFlowWalk.C"
-#include "flow/partitionCells.C"
-#include "flow/partitionNeighbours.C"
-#include "flow/partitionOfUnity.C"
 #include "flow/pointImages.C"
 #include "flow/vertexFit.C"
 

@@ -28,7 +28,6 @@ FLIGHT = 0.03
 WAYS = (
     ("thirteen equations, `divergenceFree`", "divergenceFree", "inertial", "rosenbrock", "1e-5"),
     ("thirteen equations, `cellPoint`", "cellPoint", "inertial", "rosenbrock", "1e-5"),
-    ("thirteen equations, `partitionOfUnity`, `slowManifold`", "partitionOfUnity", "inertial", "slowManifold", "1e-5"),
     ("`inertialess`, `cellPoint`", "cellPoint", "inertialess", "rosenbrock", "1e-3"),
 )
 # So few cells are for a test of this benchmark: it leaves out most of the runs
@@ -43,7 +42,7 @@ class Bench:
         self.folder, self.docs, self.repeats, self.largest = folder, docs, repeats, largest
         self.few = largest < FEW
         # Those whose growth is measured
-        self.growing = (WAYS[3],) if self.few else (WAYS[0], WAYS[2], WAYS[3])
+        self.growing = (WAYS[2],) if self.few else (WAYS[0], WAYS[2])
 
     def measure(self, cases, figures, repeats=None):
         """Run each case so often, in turns; medians of each of the figures that a function gives of it."""
@@ -88,7 +87,7 @@ def at_error(rows, error):
 def tracks(bench):
     """The stock tool and ours: processor time and error, by maxCo and by tolerance."""
     number, followed = min(1000, bench.largest), min(300, bench.largest)
-    cells = first_cells(bench.trap("draw", WAYS[3], "1e-3", number, 0.001, 0.005))
+    cells = first_cells(bench.trap("draw", WAYS[2], "1e-3", number, 0.001, 0.005))
     numbers = ("0.3", "0.1") if bench.few else ("0.3", "0.1", "0.03", "0.01", "0.003", "0.001")
     finest = "0.03" if bench.few else "0.0001"
     tolerances = ("1e-4", "1e-5") if bench.few else ("1e-3", "1e-4", "1e-5", "1e-6")
@@ -96,7 +95,7 @@ def tracks(bench):
     sets = []
     for co in numbers:
         sets.append({"tool": "stock", "name": "stock", "setting": co, "reference": finest})
-    for way in (WAYS[0], WAYS[3]) if bench.few else WAYS:
+    for way in (WAYS[0], WAYS[2]) if bench.few else WAYS:
         for tolerance in tolerances:
             sets.append({"tool": "ours", "name": way[0], "setting": tolerance, "reference": REFERENCE,
                          "way": way, "usual": way[4] == tolerance})
@@ -171,7 +170,7 @@ def plot(sets, file):
     file.parent.mkdir(exist_ok=True)
     figure, axes = plt.subplots(figsize=(7, 4.4), layout="constrained")
     looks = {"stock": ("black", "s"), WAYS[0][0]: ("#D55E00", "o"), WAYS[1][0]: ("#E69F00", "^"),
-             WAYS[2][0]: ("#0072B2", "D"), WAYS[3][0]: ("#CC79A7", "v")}
+             WAYS[2][0]: ("#CC79A7", "v")}
     for name, (colour, marker) in looks.items():
         rows = [row for row in sets if row["name"] == name]
         if not rows:

@@ -12,6 +12,8 @@ Description
 \*---------------------------------------------------------------------------*/
 #include "vertexFit.H"
 #include "wallsAtVertices.H"
+#include "symmTensorField.H"
+#include "symmTransform.H"
 #include "Tuple2.H"
 
 #include <algorithm>
@@ -258,6 +260,41 @@ namespace Foam
         }
     };
 
+    //- Second moments of the mesh cells about their centres by volume [m2]
+    static symmTensorField secondMoments(const polyMesh& mesh)
+    {
+        const pointField& points = mesh.points();
+        const pointField& centres = mesh.cellCentres();
+        symmTensorField moments(mesh.nCells(), Zero);
+        scalarField volumes(mesh.nCells(), Zero);
+
+        forAll(mesh.faces(), facei)
+        {
+            const face& f = mesh.faces()[facei];
+            for (label side = 0; side < 1 + mesh.isInternalFace(facei); ++side)
+            {
+                const label celli =
+                    side ? mesh.faceNeighbour()[facei]
+                  : mesh.faceOwner()[facei];
+                const point& c = centres[celli];
+
+                for (label i = 1; i < f.size() - 1; ++i)
+                {
+                    const vector a(points[f[0]] - c);
+                    const vector b(points[f[i]] - c);
+                    const vector d(points[f[i + 1]] - c);
+                    const scalar volume = (side ? -1 : 1)*(a & (b ^ d));
+
+                    moments[celli] +=
+                        volume*(sqr(a) + sqr(b) + sqr(d) + sqr(a + b + d))/20;
+                    volumes[celli] += volume;
+                }
+            }
+        }
+
+        return moments/volumes;
+    }
+
     //- What polynomials are fitted to
     class cellFitter
     {
@@ -269,7 +306,7 @@ namespace Foam
         const baffleSides& baffles_;
         const pointImages& images_;
         const wallsAtVertices& walls_;
-        const symmTensorField& M_;
+        const symmTensorField M_;
 
         //- For one mesh cell and its size [m]
         label celli_;
@@ -365,8 +402,7 @@ namespace Foam
             const volVectorField& U,
             const baffleSides& baffles,
             const pointImages& images,
-            const wallsAtVertices& walls,
-            const symmTensorField& moments
+            const wallsAtVertices& walls
         )
         :
             U_(U),
@@ -377,7 +413,7 @@ namespace Foam
             baffles_(baffles),
             images_(images),
             walls_(walls),
-            M_(moments),
+            M_(secondMoments(mesh_)),
             celli_(-1),
             length_(0),
             cells_(mesh_.nCells()),
@@ -420,51 +456,15 @@ namespace Foam
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
-Foam::symmTensorField Foam::secondMoments(const polyMesh& mesh)
-{
-    const pointField& points = mesh.points();
-    const pointField& centres = mesh.cellCentres();
-    symmTensorField moments(mesh.nCells(), Zero);
-    scalarField volumes(mesh.nCells(), Zero);
-
-    forAll(mesh.faces(), facei)
-    {
-        const face& f = mesh.faces()[facei];
-        for (label side = 0; side < 1 + mesh.isInternalFace(facei); ++side)
-        {
-            const label celli =
-                side ? mesh.faceNeighbour()[facei]
-              : mesh.faceOwner()[facei];
-            const point& c = centres[celli];
-
-            for (label i = 1; i < f.size() - 1; ++i)
-            {
-                const vector a(points[f[0]] - c);
-                const vector b(points[f[i]] - c);
-                const vector d(points[f[i + 1]] - c);
-                const scalar volume = (side ? -1 : 1)*(a & (b ^ d));
-
-                moments[celli] +=
-                    volume*(sqr(a) + sqr(b) + sqr(d) + sqr(a + b + d))/20;
-                volumes[celli] += volume;
-            }
-        }
-    }
-
-    return moments/volumes;
-}
-
-
 Foam::List<Foam::quadratic> Foam::cellFits
 (
     const volVectorField& U,
     const baffleSides& baffles,
     const pointImages& images,
-    const wallsAtVertices& walls,
-    const symmTensorField& moments
+    const wallsAtVertices& walls
 )
 {
-    cellFitter fitter(U, baffles, images, walls, moments);
+    cellFitter fitter(U, baffles, images, walls);
     List<quadratic> fits(U.mesh().nCells());
 
     forAll(fits, celli)

@@ -25,9 +25,7 @@ License
 const Foam::Enum<Foam::frozenFlow::schemeType> Foam::frozenFlow::schemeNames
 ({
     { schemeType::stCellPoint, "cellPoint" },
-    { schemeType::stCellPointQuadratic, "cellPointQuadratic" },
-    { schemeType::stDivergenceFree, "divergenceFree" },
-    { schemeType::stPartitionOfUnity, "partitionOfUnity" }
+    { schemeType::stDivergenceFree, "divergenceFree" }
 });
 
 
@@ -91,26 +89,6 @@ void Foam::frozenFlow::sampleOf
     if (pressure_ && derivatives)
     {
         copy(c.back(c.derivatives(gradp)), sample.pressure_jacobian);
-    }
-
-    if (scheme_ == stPartitionOfUnity)
-    {
-        vector value;
-        tensor G;
-        symmTensor curvature[3];
-
-        unityAt(values.fits, c, value, &G, derivatives ? curvature : nullptr);
-        copy(value, sample.velocity);
-        copy(G, sample.gradient);
-        if (derivatives)
-        {
-            copy(G, sample.velocity_jacobian);
-        }
-        for (direction i = 0; derivatives && i < 3; ++i)
-        {
-            copy(tensor(curvature[i]), sample.gradient_jacobian[i]);
-        }
-        return;
     }
 
     velocityOf
@@ -194,119 +172,17 @@ void Foam::frozenFlow::velocityOf
         return;
     }
 
-    if (scheme_ == stPartitionOfUnity)
+    const linearFlow& linear = linearIn(values, c);
+
+    vector value(Zero);
+    for (int a = 0; a < 4; ++a)
     {
-        vector value;
-        tensor G;
-
-        unityAt(values.fits, c, value, jacobian ? &G : nullptr, nullptr);
-        copy(value, velocity);
-        if (jacobian)
-        {
-            copy(G, jacobian);
-        }
-        return;
+        value += c.weight[a]*linear.u[a];
     }
-
-    if (scheme_ == stCellPoint)
-    {
-        const linearFlow& linear = linearIn(values, c);
-
-        vector value(Zero);
-        for (int a = 0; a < 4; ++a)
-        {
-            value += c.weight[a]*linear.u[a];
-        }
-        copy(c.back(value), velocity);
-        if (jacobian)
-        {
-            copy(c.back(linear.derivatives), jacobian);
-        }
-        return;
-    }
-
-    const auto u =
-        [&](const label i) -> const vector& { return values.vertices[i].u; };
-
-    vector value(c.value<vector>(u));
-    tensor derivatives(jacobian ? c.derivatives(u) : tensor::zero);
-
-    for (int a = 0; a < 3; ++a)
-    {
-        for (int b = a + 1; b < 4; ++b)
-        {
-            // Change of the slope along the edge from a to b
-            const flowVertex& va = values.vertices[c.vertices[a]];
-            const flowVertex& vb = values.vertices[c.vertices[b]];
-            const vector bend((va.gradient - vb.gradient) & (vb.x - va.x));
-
-            value += 0.5*c.weight[a]*c.weight[b]*bend;
-            derivatives +=
-                (0.5*bend)
-               *(c.weight[b]*c.gradient[a] + c.weight[a]*c.gradient[b]);
-        }
-    }
-
     copy(c.back(value), velocity);
     if (jacobian)
     {
-        copy(c.back(derivatives), jacobian);
-    }
-}
-
-
-void Foam::frozenFlow::unityAt
-(
-    const UList<quadraticTerms>& fits,
-    const tetCoordinates& c,
-    vector& velocity,
-    tensor* gradient,
-    symmTensor* curvature
-) const
-{
-    // Beyond an open patch it goes on linearly
-    scalar inside[4];
-    std::copy_n(c.weight, 4, inside);
-    const bool beyond = *std::min_element(inside, inside + 4) < -1e-9;
-    if (beyond)
-    {
-        toFace(inside);
-    }
-
-    point x(Zero);
-    vector past(Zero);
-    for (int a = 0; a < 4; ++a)
-    {
-        const vector d(values_.vertices[c.vertices[a]].x - c.origin);
-        x += inside[a]*d;
-        past += (c.weight[a] - inside[a])*d;
-    }
-    x += c.origin;
-
-    tensor slope(Zero);
-    const label celli = c.vertices[0];
-    unity_.evaluate
-    (
-        fits, celli, x, velocity, gradient || beyond ? &slope : nullptr,
-        curvature
-    );
-    if (beyond)
-    {
-        velocity += slope & past;
-    }
-    for (direction i = 0; curvature && beyond && i < 3; ++i)
-    {
-        curvature[i] = Zero;
-    }
-
-    velocity = c.back(velocity);
-    if (gradient)
-    {
-        *gradient = c.back(slope);
-    }
-    if (curvature && c.turned)
-    {
-        turnCurvature(c.turn.T(), curvature);
+        copy(c.back(linear.derivatives), jacobian);
     }
 }
 
@@ -328,7 +204,6 @@ Foam::frozenFlow::frozenFlow
     unsteady_(unsteady),
     start_(0),
     end_(0),
-    unity_(dividedMesh{tets_, cellTets_, values_.vertices}),
     fluxes_(new cellFluxes(tets_)),
     images_(undecomposed.mesh(), unreached)
 {

@@ -245,17 +245,6 @@ void Foam::frozenFlow::make
         }
     }
 
-    if (scheme_ == stPartitionOfUnity)
-    {
-        unity_.make
-        (
-            master ? &undecomposed.mesh() : nullptr,
-            baffles.get(),
-            images_
-        );
-        values_.fits.reset(unity_.nFits());
-    }
-
     cellTets_.share();
     tets_.share();
     values_.share();

@@ -296,11 +296,11 @@ void Foam::frozenFlow::setFlow
         );
     }
 
-    if (scheme_ == stCellPoint || scheme_ == stCellPointQuadratic)
+    if (scheme_ == stCellPoint)
     {
         interpolateVelocity(undecomposed.U(), images_, baffles, vertices);
     }
-    else if (scheme_ == stDivergenceFree)
+    else
     {
         const pointImages images(undecomposed.mesh(), images_);
         const vertexFit fit(undecomposed.U(), baffles, images);
@@ -311,11 +311,6 @@ void Foam::frozenFlow::setFlow
             vertices[i].gradient = fit.gradient[i];
         }
         makeExcess(undecomposed, images);
-    }
-    else if (scheme_ == stPartitionOfUnity)
-    {
-        const pointImages images(undecomposed.mesh(), images_);
-        unity_.setFits(undecomposed.U(), baffles, images, values_.fits);
     }
 }
 

@@ -23,10 +23,7 @@ Foam::vertexFit::vertexFit
     const polyMesh& mesh = U.mesh();
     const label nCells = mesh.nCells();
     const wallsAtVertices walls(U, baffles);
-    const List<quadratic> fits
-    (
-        cellFits(U, baffles, images, walls, secondMoments(mesh))
-    );
+    const List<quadratic> fits(cellFits(U, baffles, images, walls));
 
     u.setSize(nCells + mesh.nPoints() + baffles.sides().size(), Zero);
     gradient.setSize(u.size(), Zero);
