@@ -2,9 +2,9 @@
 # ellipsoidTrapFoam set-up, shared by Allwmake, Allrun and Alltest.
 # License: GPL-3.0-or-later, see COPYING.
 #
-# Finds OpenFOAM (ESI, v1912 or newer). Where there is none, on Debian 12, brings
-# Debian's own: programs and libraries from the binary package, headers and wmake
-# from the source package of the same version, kept in one cache folder. Then
+# Finds OpenFOAM (ESI, v1912 or newer). Where there is none, but apt's sources offer
+# Debian's, brings that: programs and libraries from the binary package, headers and
+# wmake from the source package of the same version, kept in one cache folder. Then
 # gives the calling shell OpenFOAM's environment.
 #
 # Usage (bash):  . Make/setup.sh && setup_environment build|run|test|full
@@ -18,9 +18,10 @@
 # Variables that may be set beforehand:
 #   WM_PROJECT_DIR        an OpenFOAM to use instead of searching
 #   ELLIPSOID_CACHE       cache folder [${XDG_CACHE_HOME:-$HOME/.cache}/ellipsoidTrapFoam]
-#   ELLIPSOID_OS_RELEASE  file that names the distribution [/etc/os-release]
 
-setup_needed="an ESI OpenFOAM (www.openfoam.com), v1912 or newer"
+setup_folder=$(cd "${BASH_SOURCE[0]%/*}" && pwd)
+setup_needed="an ESI OpenFOAM (openfoam.com), v1912 or newer, with headers and wmake, such as \
+the packages openfoamNNNN-default of openfoam.com, which are found in /usr/lib/openfoam"
 
 setup_say() { echo "[set-up] $*"; }
 
@@ -51,17 +52,13 @@ setup_cache_folder()
     fi
 }
 
-setup_os_release()      # FIELD
-(
-    # shellcheck disable=SC1090
-    . "${ELLIPSOID_OS_RELEASE:-/etc/os-release}" 2> /dev/null
-    echo "${!1}"
-)
+setup_has_apt() { command -v apt-get > /dev/null && command -v dpkg-query > /dev/null; }
 
-setup_is_debian_12()
-{
-    [ "$(setup_os_release ID)/$(setup_os_release VERSION_ID)" = debian/12 ]
-}
+setup_system_name()
+(
+    . /etc/os-release 2> /dev/null
+    echo "${PRETTY_NAME:-an unknown system}"
+)
 
 # -----------------------------------------------------------------------------
 # Which OpenFOAM
@@ -147,10 +144,12 @@ setup_missing_packages()    # LEVEL OPENFOAM_DIR ('' for Debian's)
     command -v gcc > /dev/null || echo gcc
     command -v g++ > /dev/null || echo g++
     command -v make > /dev/null || echo make
-    command -v mpicc > /dev/null || echo libopenmpi-dev
     setup_has_header Random123/philox.h || echo librandom123-dev
-    if [ -z "$2" ]; then
+    if [ -n "$2" ]; then
+        command -v mpicc > /dev/null || echo libopenmpi-dev
+    else
         [ -n "$(setup_debian_openfoam_version)" ] || echo openfoam
+        [ -n "$(setup_debian_mpi)" ] || echo libopenmpi-dev
         command -v bzip2 > /dev/null || echo bzip2
     fi
     if [ "$1" != build ] && [ -z "$(setup_find_python)" ]; then
@@ -179,14 +178,27 @@ setup_reason()      # LOG OFFSET: what was logged after the first OFFSET bytes c
     case $text in
         *"No space left"* | *"enough free space"*)
             echo "the disk is full" ;;
+        *"E: Failed to fetch"*" 404 "*)
+            echo "the package registry answers, but lacks a file of them" ;;
         *"Could not resolve"* | *"Temporary failure"* | *"onnection"* | *"Could not connect"* | *"Failed to fetch"*)
             echo "the package registry cannot be reached" ;;
         *"Unable to locate package"* | *"Unable to find a source package"* | *"no installation candidate"*)
-            echo "apt's sources offer no such package (is 'main' of Debian 12 among them?)" ;;
+            echo "apt's sources offer no such package (is Debian's 'main' or Ubuntu's 'universe' among them?)" ;;
         *"Unable to acquire the dpkg"* | *"Could not get lock"*)
             echo "another program holds apt's lock" ;;
         *)  echo "the log tells why" ;;
     esac
+}
+
+# Whether apt's sources have PACKAGE in VERSION or a newer one
+setup_is_offered()          # PACKAGE VERSION
+{
+    local candidate
+    candidate=$(LC_ALL=C apt-cache policy "$1" | sed -n 's/^ *Candidate: //p')
+    if ! dpkg --compare-versions "${candidate/(none)/0}" ge "$2"; then
+        echo "E: Unable to locate package $1 in version $2 or newer, but ${candidate:-none}"
+        return 1
+    fi
 }
 
 setup_install_packages()    # LOG PACKAGE...
@@ -197,9 +209,9 @@ setup_install_packages()    # LOG PACKAGE...
     local by_hand="Install by hand, as root, then start again:"
     by_hand+=" apt-get update && apt-get install --no-install-recommends $*"
 
-    if ! setup_is_debian_12; then
+    if ! setup_has_apt; then
         setup_fail "missing: $*" \
-            "Packages are installed for you on Debian 12 only; this is $(setup_os_release PRETTY_NAME)." \
+            "Packages are installed for you by apt, which is not on this $(setup_system_name)." \
             "Install these (Debian's names), then start again."
         return
     fi
@@ -223,6 +235,11 @@ setup_install_packages()    # LOG PACKAGE...
         -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
     # Some unrelated source may fail to update: only the installation counts
     "${apt[@]}" update >> "$log" 2>&1
+    if [[ " $* " = *" openfoam "* ]] && ! setup_is_offered openfoam 1912 >> "$log"; then
+        setup_fail "no OpenFOAM found, and none to install: $(setup_reason "$log" "$offset")" \
+            "Needed: Debian's package 'openfoam' in version 1912 or newer," "or $setup_needed." "Log: $log"
+        return
+    fi
     if ! "${apt[@]}" install --no-install-recommends "$@" >> "$log" 2>&1; then
         setup_fail "cannot install packages: $(setup_reason "$log" "$offset")" \
             "$by_hand" "Log: $log"
@@ -234,12 +251,16 @@ setup_install_packages()    # LOG PACKAGE...
 # -----------------------------------------------------------------------------
 # OpenFOAM from Debian: binary packages, and headers and wmake from their source
 
-# Source version of the installed packages; nothing if they are not installed
+# Source version of the installed packages; nothing if they are not installed, or too old
 setup_debian_openfoam_version()
 {
-    dpkg-query -W -f='${db:Status-Status} ${source:Version}\n' openfoam 2> /dev/null \
-        | sed -n 's/^installed //p'
+    local status version
+    read -r status version < <(dpkg-query -W -f='${db:Status-Status} ${source:Version}\n' openfoam 2> /dev/null)
+    if [ "$status" = installed ] && dpkg --compare-versions "$version" ge 1912; then echo "$version"; fi
 }
+
+# Folder of the MPI with headers; nothing if it is not installed
+setup_debian_mpi() { dpkg-query -L libopenmpi-dev 2> /dev/null | grep -m 1 '/openmpi$'; }
 
 # A private set of apt sources: the machine's own, each asked for source packages
 setup_write_source_lists()  # FOLDER
@@ -270,16 +291,15 @@ setup_build_tree()      # WORK VERSION: WORK/tree becomes a tree that wmake can 
     # Where the disk is full, apt's own retries may never end
     local -a update=("${apt[@]}" -o Acquire::Retries=0 update)
     "${update[@]}" || "${update[@]}"
-    (cd "$work/download" && "${apt[@]}" source --download-only --only-source "openfoam=$version") \
-        || return
+    # Of the package's files only this one is needed, and no dpkg-source to unpack it
+    (cd "$work/download" && "${apt[@]}" source --tar-only --only-source "openfoam=$version") || return
 
     tar -xf "$work"/download/openfoam_*.orig.tar.* -C "$work/tree" --strip-components=1 \
         --exclude='*/tutorials' --exclude='*/doc' || return
     rm -rf "$work"/{sources,lists,archives,download}
 
-    # mpicc, which settings ask for this folder, is in a package not needed otherwise
-    path=$(dpkg-query -L libopenmpi3 | grep -m 1 '/openmpi$') || return
-    echo "export MPI_ARCH_PATH=$path" > "$work/tree/etc/config.sh/openmpi-system" || return
+    # Settings would ask mpicc for it, which may be another MPI's
+    echo "export MPI_ARCH_PATH=$(setup_debian_mpi)" > "$work/tree/etc/config.sh/openmpi-system" || return
 
     (
         setup_source_bashrc "$work/tree"
@@ -301,8 +321,33 @@ setup_build_tree()      # WORK VERSION: WORK/tree becomes a tree that wmake can 
                 esac
             done < <(dpkg-query -L "$package")
         done
-        [ -e src/finiteVolume/lnInclude/fvCFD.H ]
+        [ -e src/finiteVolume/lnInclude/fvCFD.H ] || exit
+        setup_has_digest "$work" || setup_mend_digest "$work"
     )
+}
+
+setup_compile()         # ARGUMENT...: against the library OpenFOAM
+{
+    local -a compile
+    read -r -a compile < <(wmake -show-compile-cxx)
+    "${compile[@]}" -I"$WM_PROJECT_DIR"/src/{OpenFOAM,OSspecific/POSIX}/lnInclude "$@"
+}
+
+# Whether a program can take the digest of a dictionary, without which no function object starts
+setup_has_digest()      # WORK
+{
+    setup_compile -x c++ - -x none -o "$1/digest" -L"$FOAM_LIBBIN" -lOpenFOAM <<< '#include "dictionary.H"
+#include "SHA1Digest.H"
+int main() { Foam::dictionary dict; dict.add("entry", 1); dict.digest(); }' && "$1/digest"
+}
+
+# A library OpenFOAM with our digest(), which leaves all else to the one that is there. It is where
+# programs look first, by OpenFOAM's settings, and the linker does not.
+setup_mend_digest()     # WORK
+{
+    setup_say "this libOpenFOAM fails in every function object"
+    setup_compile -shared "$setup_folder/dictionaryDigest.C" -o "$FOAM_LIBBIN/$FOAM_MPI/libOpenFOAM.so" \
+        "$(realpath "$FOAM_LIBBIN/libOpenFOAM.so")" && setup_has_digest "$1"
 }
 
 # A tree is moved in place when complete; its links die with the packages they lead to
@@ -333,12 +378,18 @@ setup_debian_openfoam()     # CACHE VERSION LOG: makes CACHE/openfoam-VERSION un
         && setup_build_tree "$work" "$version" >> "$log" 2>&1 \
         && mv -T "$work/tree" "$tree" 2>> "$log"
     then
+        if compgen -G "$tree/platforms/*/lib/*/libOpenFOAM.so" > /dev/null; then
+            setup_say "this package's OpenFOAM stops in every function object ('error in IOstream \"sha1\"'): it is" \
+                "older than the gcc that built it. In this environment a library of ours mends it" \
+                "(Make/dictionaryDigest.C). Newer versions of OpenFOAM do not have this fault."
+        fi
         setup_say "OpenFOAM's headers and wmake are in $tree ($(setup_seconds_since "$start"))"
     else
         rm -rf "$work"
         setup_fail "cannot fetch or unpack OpenFOAM's source package: $(setup_reason "$log" "$offset")" \
             "Needed: the network, 250 MB free in $cache (ELLIPSOID_CACHE names another folder)," \
-            "and Debian 12's source package 'openfoam' in version $version." \
+            "and the source package of version $version among apt's sources;" \
+            "if they have another one: apt-get install openfoam. Or $setup_needed." \
             "Log: $log"
         exit 1
     fi
@@ -381,12 +432,12 @@ setup_environment()     # build|run|test|full
     else
         dir=$(setup_search_openfoam)
     fi
-    if [ -z "$dir" ] && ! setup_is_debian_12; then
-        setup_fail "no OpenFOAM found, and this is $(setup_os_release PRETTY_NAME)" \
-            "OpenFOAM is installed for you on Debian 12 only. Needed: $setup_needed" \
-            "with its headers and wmake, and its etc/bashrc sourced; also gcc, g++, make, an MPI," \
-            "Random123; for pictures Python 3 with numpy, matplotlib and vtk; for tests cmocka;" \
-            "for all tests (--full) clang with compiler-rt, valgrind, cppcheck, shellcheck, SUNDIALS."
+    if [ -z "$dir" ] && ! setup_has_apt; then
+        setup_fail "no OpenFOAM found, and this $(setup_system_name) has no apt to install Debian's" \
+            "Needed: $setup_needed;" \
+            "also gcc, g++, make, an MPI and Random123;" \
+            "for pictures Python 3 with numpy, matplotlib and vtk; for tests cmocka and h5py;" \
+            "for all tests (--full) clang with compiler-rt, valgrind, cppcheck, shellcheck, chromium, SUNDIALS."
         return
     fi
 
