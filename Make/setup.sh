@@ -322,7 +322,7 @@ setup_build_tree()      # WORK VERSION: WORK/tree becomes a tree that wmake can 
             done < <(dpkg-query -L "$package")
         done
         [ -e src/finiteVolume/lnInclude/fvCFD.H ] || exit
-        setup_has_digest "$work" || setup_mend_digest "$work"
+        setup_has_digest "$work" || setup_mend_digest "$work" "$(realpath "$lib/libOpenFOAM.so")"
     )
 }
 
@@ -341,13 +341,13 @@ setup_has_digest()      # WORK
 int main() { Foam::dictionary dict; dict.add("entry", 1); dict.digest(); }' && "$1/digest"
 }
 
-# A library OpenFOAM with our digest(), which leaves all else to the one that is there. It is where
-# programs look first, by OpenFOAM's settings, and the linker does not.
-setup_mend_digest()     # WORK
+# A library OpenFOAM that has our digest() and leaves all else to LIBRARY. It is where programs look
+# first, by OpenFOAM's settings, and the linker does not.
+setup_mend_digest()     # WORK LIBRARY
 {
-    setup_say "this libOpenFOAM fails in every function object"
-    setup_compile -shared "$setup_folder/dictionaryDigest.C" -o "$FOAM_LIBBIN/$FOAM_MPI/libOpenFOAM.so" \
-        "$(realpath "$FOAM_LIBBIN/libOpenFOAM.so")" && setup_has_digest "$1"
+    setup_say "$2 fails in every function object"
+    setup_compile -shared -Wl,--no-as-needed "$setup_folder/dictionaryDigest.C" -o "$FOAM_LIBBIN/$FOAM_MPI/libOpenFOAM.so" "$2" \
+        && setup_has_digest "$1"
 }
 
 # A tree is moved in place when complete; its links die with the packages they lead to

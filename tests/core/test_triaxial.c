@@ -80,7 +80,7 @@ static void gauss_step(const reference *b, double h, double *y)
         moved = 0;
         for (int i = 0; i < 3; i++)
         {
-            double stage[LARGEST], f[LARGEST];
+            double stage[LARGEST] = {0}, f[LARGEST];
 
             for (int n = 0; n < b->size; n++)
             {
