@@ -170,11 +170,11 @@ set_decomposition()     # N METHOD '(NX NY NZ)'
 
 # Runs the solver, or $program, in the present folder, decomposed if on more than one
 # rank; its output goes to log, and the end of that is shown. A rank that waits for
-# ever shall not hold the test: $run_limit [s], 600 if not set.
+# ever shall not hold the test: $run_limit [s], 3000 if not set; a machine may be busy.
 run_cells()     # RANKS [OPTION...]
 {
     local status n=$1
-    local run=(timeout -k 10 "${run_limit:-600}")
+    local run=(timeout -k 10 "${run_limit:-3000}")
     shift
     if [ "$n" -gt 1 ]; then
         run+=(mpirun --oversubscribe -np "$n")
@@ -200,7 +200,7 @@ refused()       # [-OPTION] RANKS REGEX...
 {
     local text found status=0 option=()
     if [ "${1#-}" != "$1" ]; then option=("$1"); shift; fi
-    run_limit=60 run_cells "$1" "${option[@]}" > log.shown
+    run_limit=600 run_cells "$1" "${option[@]}" > log.shown
     found=$?
     shift
     sed '1,/^Create time/d' log

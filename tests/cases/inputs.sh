@@ -84,7 +84,7 @@ try_input()     # FILE SETTING STATUS FRAGMENTS [OPTION...]
     if [ "$(digests)" = "$before" ]; then echo "nothing was set"; return 1; fi
     before=$(digests)
 
-    run_limit=60 run_cells 1 "$@"
+    run_limit=600 run_cells 1 "$@"
     found=$?
     if [ "$found" -ne "$status" ]; then echo "exit status $found"; failed=1; fi
     if ! diff <(echo "$before") <(digests); then echo "files are not as they were"; failed=1; fi
