@@ -15,12 +15,21 @@
 extern "C" {
 #endif
 
-/* A minor version adds, a major one may change what is declared here and in
-   ellipsoid.h (semver.org; below 1.0 any may). */
+/* The one place of the version. A minor one adds, a major one may change what is
+   declared here and in ellipsoid.h (semver.org; below 1.0 any may). */
 #define ELLIPSOID_VERSION_MAJOR 0
 #define ELLIPSOID_VERSION_MINOR 1
 #define ELLIPSOID_VERSION_PATCH 0
-#define ELLIPSOID_VERSION "0.1.0"
+
+#define ELLIPSOID_QUOTED(x) #x
+#define ELLIPSOID_DOTTED(a, b, c)                                              \
+    ELLIPSOID_QUOTED(a) "." ELLIPSOID_QUOTED(b) "." ELLIPSOID_QUOTED(c)
+#define ELLIPSOID_VERSION                                                      \
+    ELLIPSOID_DOTTED(ELLIPSOID_VERSION_MAJOR, ELLIPSOID_VERSION_MINOR,         \
+                     ELLIPSOID_VERSION_PATCH)
+
+/* ELLIPSOID_VERSION of the library, which need not be that of the header. */
+const char *ellipsoid_version(void);
 
 /* -------------------------------------------------------------- status */
 

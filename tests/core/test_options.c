@@ -329,6 +329,12 @@ static void test_near_sphere_keeps_its_digits(void **unused)
     assert_true(m.strain_factor[2] == -m.strain_factor[0]);
 }
 
+static void test_library_has_the_version_of_the_header(void **unused)
+{
+    (void)unused;
+    assert_string_equal(ellipsoid_version(), ELLIPSOID_VERSION);
+}
+
 static void test_every_status_has_a_text(void **unused)
 {
     (void)unused;
@@ -355,6 +361,7 @@ int main(void)
         cmocka_unit_test(test_bad_options_leave_the_model),
         cmocka_unit_test(test_model_of_the_paper),
         cmocka_unit_test(test_near_sphere_keeps_its_digits),
+        cmocka_unit_test(test_library_has_the_version_of_the_header),
         cmocka_unit_test(test_every_status_has_a_text),
     };
 

@@ -38,6 +38,7 @@ SourceFiles
 #include "captureMap.H"
 #include "masterGate.H"
 #include "checkpoint.H"
+#include "ellipsoid.h"
 #include "surfaceFields.H"
 #include "undecomposedFlow.H"
 #include "volFields.H"
@@ -99,6 +100,7 @@ int main(int argc, char *argv[])
     argList::addNote
     (
         "Map from where cells that enter by a patch end in which sieve."
+        " Version " ELLIPSOID_VERSION
     );
 
     #include "setRootCaseLists.H"

@@ -3,9 +3,14 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    status.c - the texts of the status codes.
+    status.c - the texts of the status codes, and of the version.
 */
 #include "ellipsoid.h"
+
+const char *ellipsoid_version(void)
+{
+    return ELLIPSOID_VERSION;
+}
 
 const char *ellipsoid_status_text(ellipsoid_status status)
 {

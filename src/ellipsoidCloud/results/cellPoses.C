@@ -99,7 +99,7 @@ namespace Foam
         }
 
         std::ostringstream os;
-        os  << "<?xml version=\"1.0\"?>\n"
+        os  << vtkPolyData::prolog
             << "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
         for (const auto& time : times)
         {

@@ -9,6 +9,14 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "vtkPolyData.H"
+#include "ellipsoid.h"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const char* const Foam::vtkPolyData::prolog =
+    "<?xml version=\"1.0\"?>\n"
+    "<!-- ellipsoidTrapFoam " ELLIPSOID_VERSION " -->\n";
+
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -23,7 +31,7 @@ Foam::vtkPolyData::vtkPolyData
     kind_(kind),
     ends_(ends)
 {
-    os_ << "<?xml version=\"1.0\"?>\n"
+    os_ << prolog
         << "<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
         << "<Piece NumberOfPoints=\"" << (ends.empty() ? 0 : ends.last())
         << "\" NumberOf" << kind_ << "=\"" << ends.size()
