@@ -19,7 +19,7 @@
 #   WM_PROJECT_DIR        an OpenFOAM to use instead of searching
 #   ELLIPSOID_CACHE       cache folder [${XDG_CACHE_HOME:-$HOME/.cache}/ellipsoidTrapFoam]
 
-setup_folder=$(cd "${BASH_SOURCE[0]%/*}" && pwd)
+setup_folder=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 setup_needed="an ESI OpenFOAM (openfoam.com), v1912 or newer, with headers and wmake, such as \
 the packages openfoamNNNN-default of openfoam.com, which are found in /usr/lib/openfoam"
 
@@ -237,7 +237,8 @@ setup_install_packages()    # LOG PACKAGE...
     "${apt[@]}" update >> "$log" 2>&1
     if [[ " $* " = *" openfoam "* ]] && ! setup_is_offered openfoam 1912 >> "$log"; then
         setup_fail "no OpenFOAM found, and none to install: $(setup_reason "$log" "$offset")" \
-            "Needed: Debian's package 'openfoam' in version 1912 or newer," "or $setup_needed." "Log: $log"
+            "Needed: Debian's package 'openfoam' in version 1912 or newer," \
+            "or $setup_needed." "Log: $log"
         return
     fi
     if ! "${apt[@]}" install --no-install-recommends "$@" >> "$log" 2>&1; then
@@ -346,8 +347,8 @@ int main() { Foam::dictionary dict; dict.add("entry", 1); dict.digest(); }' && "
 setup_mend_digest()     # WORK LIBRARY
 {
     setup_say "$2 fails in every function object"
-    setup_compile -shared -Wl,--no-as-needed "$setup_folder/dictionaryDigest.C" -o "$FOAM_LIBBIN/$FOAM_MPI/libOpenFOAM.so" "$2" \
-        && setup_has_digest "$1"
+    setup_compile -shared -Wl,--no-as-needed -o "$FOAM_LIBBIN/$FOAM_MPI/libOpenFOAM.so" \
+        "$setup_folder/dictionaryDigest.C" "$2" && setup_has_digest "$1"
 }
 
 # A tree is moved in place when complete; its links die with the packages they lead to
