@@ -323,7 +323,8 @@ setup_build_tree()      # WORK VERSION: WORK/tree becomes a tree that wmake can 
             done < <(dpkg-query -L "$package")
         done
         [ -e src/finiteVolume/lnInclude/fvCFD.H ] || exit
-        setup_has_digest "$work" || setup_mend_digest "$work" "$(realpath "$lib/libOpenFOAM.so")"
+        setup_starts_functions "$work" \
+            || setup_mend_digest "$work" "$(realpath "$lib/libOpenFOAM.so")"
     )
 }
 
@@ -334,12 +335,19 @@ setup_compile()         # ARGUMENT...: against the library OpenFOAM
     "${compile[@]}" -I"$WM_PROJECT_DIR"/src/{OpenFOAM,OSspecific/POSIX}/lnInclude "$@"
 }
 
-# Whether a program can take the digest of a dictionary, without which no function object starts
-setup_has_digest()      # WORK
+# Whether a function object starts, even one that is off
+setup_starts_functions()    # WORK
 {
-    setup_compile -x c++ - -x none -o "$1/digest" -L"$FOAM_LIBBIN" -lOpenFOAM <<< '#include "dictionary.H"
-#include "SHA1Digest.H"
-int main() { Foam::dictionary dict; dict.add("entry", 1); dict.digest(); }' && "$1/digest"
+    setup_compile -x c++ - -x none -o "$1/functions" -L"$FOAM_LIBBIN" -lOpenFOAM << 'END' && "$1/functions"
+#include "IStringStream.H"
+#include "Time.H"
+int main()
+{
+    Foam::IStringStream text("deltaT 1; writeFrequency 1; functions { any { enabled no; } }");
+    Foam::Time time(Foam::dictionary(text), ".", ".");
+    time.functionObjects().start();
+}
+END
 }
 
 # A library OpenFOAM that has our digest() and leaves all else to LIBRARY. It is where programs look
@@ -348,7 +356,7 @@ setup_mend_digest()     # WORK LIBRARY
 {
     setup_say "$2 fails in every function object"
     setup_compile -shared -Wl,--no-as-needed -o "$FOAM_LIBBIN/$FOAM_MPI/libOpenFOAM.so" \
-        "$setup_folder/dictionaryDigest.C" "$2" && setup_has_digest "$1"
+        "$setup_folder/dictionaryDigest.C" "$2" && setup_starts_functions "$1"
 }
 
 # A tree is moved in place when complete; its links die with the packages they lead to
