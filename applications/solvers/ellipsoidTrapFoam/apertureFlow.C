@@ -9,7 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "apertureFlow.H"
-#include "coupledFlow.H"
+#include "coupledCorrection.H"
 #include "fixedValueFvPatchFields.H"
 #include "fvmLaplacian.H"
 #include "fvmSup.H"
@@ -73,7 +73,7 @@ Foam::scalar Foam::apertureFlow::solve
     const label maxCorrections = 50;
 
     const sigFpe::ignore noTrap;
-    coupledFlow together(nu_, U_, p_, phi_);
+    coupledCorrection together(U_, p_, phi_, nu_.value());
     scalar flux = 0;
     scalar change = 1;
     for (label i = 0; mag(change) > tolerance_*mag(flux); ++i)

@@ -31,8 +31,8 @@ Usage
         Read and check everything, and say what would happen. Solve and write
         nothing.
 
-    Entries are described in flowFields.H, steadyFlow.H, flowConvergence.H
-    (flow) and ellipsoidProperties.H (ellipsoids).
+    Entries are described in flowFields.H, steadyFlow.H (flow) and
+    ellipsoidProperties.H (ellipsoids).
 
 SourceFiles
     apertureFlow.C
@@ -43,8 +43,6 @@ SourceFiles
     solidBodies.C
     steadyFlow.C
     superposedFlow.C
-    steadyFlowEquations.C
-    flowConvergence.C
 
 \*---------------------------------------------------------------------------*/
 

@@ -10,15 +10,26 @@ License
 
 #include "steadyFlow.H"
 #include "checkedEntries.H"
-#include "clockTime.H"
-#include "coupledFlow.H"
 #include "findRefCell.H"
-#include "IOdictionary.H"
+#include "fvcDiv.H"
+#include "fvcGrad.H"
+#include "fvmDiv.H"
+#include "fvmLaplacian.H"
+#include "fvmSup.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
+#include "IOdictionary.H"
 #include "masterGate.H"
 #include "readViscosity.H"
-#include "sigFpe.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::word Foam::steadyFlow::transposedScheme_
+(
+    "div((nuEff*dev2(T(grad(U)))))",
+    false
+);
+
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -43,20 +54,6 @@ static dictionary readIfPresent
         return dictionary();
     }
     return IOdictionary(io);
-}
-
-
-// A control; what is wrong with it is said once
-static label wholeNumber
-(
-    const dictionary& dict,
-    const word& keyword,
-    const label least,
-    const label deflt
-)
-{
-    const masterGate once;
-    return checkedNumber(dict, keyword, atLeast(least), deflt);
 }
 
 } // End namespace Foam
@@ -95,7 +92,7 @@ void Foam::steadyFlow::checkControls() const
 
     if
     (
-        consistent_
+        controls_.getOrDefault("consistent", true)
      && !(
             mesh_.relaxEquation("U")
          && mesh_.equationRelaxationFactor("U") < 1
@@ -107,6 +104,51 @@ void Foam::steadyFlow::checkControls() const
             << " relaxationFactors { equations { U 0.9; } }"
             << exit(FatalIOError);
     }
+}
+
+
+Foam::coupledStokes::settings Foam::steadyFlow::readControls() const
+{
+    checkControls();
+
+    coupledStokes::settings how;
+    const string refusal(coupledStokes::refusal(U_, p_));
+    how.coupled = controls_.getOrDefault("coupled", refusal.empty());
+    how.consistent = controls_.getOrDefault("consistent", how.consistent);
+    {
+        const masterGate once;
+
+        if (how.coupled && !refusal.empty())
+        {
+            FatalIOErrorInFunction(controls_)
+                << "coupled yes does not deal with " << refusal.c_str()
+                << ": set coupled no" << exit(FatalIOError);
+        }
+
+        how.nNonOrthogonalCorrectors = checkedNumber
+        (
+            controls_, "nNonOrthogonalCorrectors", atLeast(0),
+            how.nNonOrthogonalCorrectors
+        );
+        how.maxIterations = checkedNumber
+        (
+            controls_, "maxIterations", atLeast(1), how.maxIterations
+        );
+        how.fluxTolerance = checkedNumber
+        (
+            controls_, "fluxTolerance", above(0), how.fluxTolerance
+        );
+        how.fluxWindow = checkedNumber
+        (
+            controls_, "fluxWindow", atLeast(1), how.fluxWindow
+        );
+        const dictionary targets(controls_.subOrEmptyDict("residualControl"));
+        how.pResidual = checkedNumber(targets, "p", above(0), how.pResidual);
+        how.UResidual = checkedNumber(targets, "U", above(0), how.UResidual);
+    }
+    setRefCell(p_, controls_, how.pRefCell, how.pRefValue);
+
+    return how;
 }
 
 
@@ -178,76 +220,20 @@ void Foam::steadyFlow::add
 }
 
 
-Foam::scalar Foam::steadyFlow::linearTolerance(const scalar before) const
+Foam::tmp<Foam::fvVectorMatrix> Foam::steadyFlow::momentum()
 {
-    // Nothing is known before the first correction. What it leaves of the forces
-    // is its convecting flux's fault
-    if (!convergence_.sound() || convergence_.excess() <= SMALL)
+    tmp<fvVectorMatrix> UEqn(fvm::div(phi_, U_) - fvm::laplacian(nu_, U_));
+
+    if (hasTransposed_)
     {
-        return 3e-5;
+        UEqn.ref() -= fvc::div(nu_*dev2(T(fvc::grad(U_))), transposedScheme_);
+    }
+    if (const auto* resistance = mesh_.cfindObject<volScalarField>("resistance"))
+    {
+        UEqn.ref() += fvm::Sp(*resistance, U_);
     }
 
-    // Not farther than the targets ask, with room for what is measured in
-    // another way; nor than pays, of what the next convecting flux will change
-    // again: a tenth of that
-    const scalar ahead = 0.2/convergence_.excess();
-    const scalar changing = 0.1*min(convergence_.excess()/before, scalar(1));
-
-    return min(max(max(ahead, changing), scalar(1e-4)), scalar(0.3));
-}
-
-
-Foam::label Foam::steadyFlow::correct
-(
-    coupledFlow& together,
-    const fvVectorMatrix& UEqn,
-    const scalar relTol
-)
-{
-    const sigFpe::ignore noTrap;
-
-    const label n = together.correct(UEqn, relTol);
-    if (p_.needReference())
-    {
-        const scalar shift = pRefValue_ - getRefCellValue(p_, pRefCell_);
-        p_ += dimensionedScalar("shift", p_.dimensions(), shift);
-    }
-
-    return n;
-}
-
-
-Foam::autoPtr<Foam::coupledFlow> Foam::steadyFlow::begin(const bool scale)
-{
-    autoPtr<coupledFlow> together(new coupledFlow(nu_, U_, p_, phi_));
-
-    const bool moves = gMax(mag(U_.primitiveField())()) > 0;
-    together->setDirections();
-    if (scale && moves)
-    {
-        together->scale([this] { return momentum(); });
-        iterate(momentum(), true);
-    }
-
-    return together;
-}
-
-
-void Foam::steadyFlow::reportProgress(const label iteration) const
-{
-    Info<< "flow: iteration " << iteration << ": "
-        << convergence_.measures().c_str();
-
-    const inletFlux& through = convergence_.through();
-
-    if (through.closed())
-    {
-        Info<< ", mean speed " << text(through.speed) << " m/s" << endl;
-    }
-    else
-    {
-        Info<< ", inflow " << text(through.inflow) << " m3/s" << endl;
-    }
+    return UEqn;
 }
 
 
@@ -258,36 +244,14 @@ Foam::steadyFlow::steadyFlow(const fvMesh& mesh, const solveType solve)
     flowFields(mesh),
     solve_(solve),
     controls_(mesh.solutionDict().subDict("SIMPLE")),
-    coupled_(controls_.getOrDefault("coupled", coupledFlow::handles(U_, p_))),
-    consistent_(controls_.getOrDefault("consistent", true)),
-    nNonOrthogonalCorrectors_
-    (
-        wholeNumber(controls_, "nNonOrthogonalCorrectors", 0, 0)
-    ),
-    maxIterations_(wholeNumber(controls_, "maxIterations", 1, 2000)),
     hasTransposed_
     (
         mesh.schemesDict().subOrEmptyDict("divSchemes").found(transposedScheme_)
     ),
     nu_(readViscosity(mesh)),
-    pRefCell_(0),
-    pRefValue_(0),
-    convergence_(mesh, controls_, coupled_ ? 1 : 10)
-{
-    checkControls();
-    if (coupled_)
-    {
-        coupledFlow::check(U_, p_, controls_);
-    }
-
-    setRefCell(p_, controls_, pRefCell_, pRefValue_);
-    mesh_.setFluxRequired(p_.name());
-    convergence_.restart(U_, phi_);
-
-    // One line a second tells more than several in each iteration
-    SolverPerformance<scalar>::debug = 0;
-    SolverPerformance<vector>::debug = 0;
-}
+    how_(readControls()),
+    solver_(U_, p_, phi_, nu_, [this] { return momentum(); }, how_)
+{}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
@@ -300,27 +264,21 @@ bool Foam::steadyFlow::converged()
         return false;
     }
 
-    const flow read(*this);
-    iterate(momentum(), false);
-    const bool arrived = convergence_.sound() && convergence_.reachedBefore();
-
-    restore(read);
-
-    if (arrived)
+    const bool steady = solver_.isSteady();
+    if (steady)
     {
-        Info<< "flow: already converged (" << convergence_.measures().c_str()
+        Info<< "flow: already converged (" << solver_.measures().c_str()
             << "), not solved again: as stored in " << instance_ << endl;
     }
-    convergence_.restart(U_, phi_);
 
-    return arrived;
+    return steady;
 }
 
 
 void Foam::steadyFlow::solveFrom(const flow& kept, const scalar tolerance)
 {
     restore(kept);
-    convergence_.begin(tolerance);
+    solver_.setTolerance(tolerance);
     solve(false);
 }
 
@@ -333,7 +291,7 @@ void Foam::steadyFlow::refuseForeign() const
         FatalErrorInFunction
             << "The flow in " << instance_ << " is of another program, and not"
             << " steady by the measures of this one:" << nl
-            << convergence_.shortcomings().c_str()
+            << solver_.shortcomings().c_str()
             << "-frozenFlow, or flow { solve no; } in system/fvSolution, takes"
             << " it as it is; flow { solve yes; } solves it again and keeps its"
             << " files as U.bak, p.bak and phi.bak" << exit(FatalError);
@@ -377,86 +335,32 @@ void Foam::steadyFlow::solve()
 }
 
 
-void Foam::steadyFlow::solve(const bool scale)
+void Foam::steadyFlow::solve(const bool scaled)
 {
     Info<< "flow: solved from that in " << instance_ << " by "
-        << (coupled_ ? "corrections of U and p together, checked by " : "")
-        << (consistent_ ? "SIMPLEC" : "SIMPLE") << endl;
+        << (how_.coupled ? "corrections of U and p together, checked by " : "")
+        << (how_.consistent ? "SIMPLEC" : "SIMPLE") << endl;
 
-    convergence_.restart(U_, phi_);
-    const clockTime clock;
-    scalar reported = -1;
-    label iteration = 0;
+    const coupledStokes::outcome end = solver_.solve(scaled);
+    const masterGate once;
 
-    // Of the coupled method: iterations of GMRES, and how far the flow had been
-    // from the targets before the latest correction
-    autoPtr<coupledFlow> together;
-    tmp<fvVectorMatrix> UEqn;
-    if (coupled_)
+    if (end == coupledStokes::DIVERGED)
     {
-        // As in an iteration
-        const sigFpe::ignore noTrap;
-        together = begin(scale);
-        UEqn = momentum();
+        FatalIOErrorInFunction(controls_)
+            << "The flow diverges: the last iteration left "
+            << solver_.measures().c_str() << nl
+            << "Nothing was written. Lower the relaxationFactors, or check"
+            << " the boundary conditions and nu." << exit(FatalIOError);
     }
-    label nLinear = 0;
-    scalar before = GREAT;
-
-    do
+    if (end == coupledStokes::UNSTEADY)
     {
-        if (iteration == maxIterations_)
-        {
-            const masterGate once;
-            FatalIOErrorInFunction(controls_)
-                << "The flow is not steady after " << iteration
-                << " iterations:" << nl
-                << convergence_.shortcomings().c_str()
-                << "Nothing was written. Raise maxIterations or the U entry of"
-                << " relaxationFactors, or loosen residualControl or"
-                << " fluxTolerance." << exit(FatalIOError);
-        }
-
-        if (coupled_)
-        {
-            const scalar relTol = linearTolerance(before);
-            before = iteration > 0 ? convergence_.excess() : GREAT;
-            const label n = correct(*together, UEqn(), relTol);
-            nLinear = n < 0 ? n : nLinear + n;
-            UEqn = momentum();
-            iterate(tmp<fvVectorMatrix>(UEqn()), true);
-        }
-        else
-        {
-            iterate(momentum(), false);
-        }
-        ++iteration;
-
-        if (nLinear < 0 || !convergence_.sound())
-        {
-            const masterGate once;
-            FatalIOErrorInFunction(controls_)
-                << "The flow diverges: iteration " << iteration << " left "
-                << convergence_.measures().c_str() << ", mean speed "
-                << text(convergence_.through().meanSpeed) << " m/s" << nl
-                << "Nothing was written. Lower the relaxationFactors, or check"
-                << " the boundary conditions and nu." << exit(FatalIOError);
-        }
-
-        // About a line a second
-        if (clock.elapsedTime() > reported + 1)
-        {
-            reported = clock.elapsedTime();
-            reportProgress(iteration);
-        }
-    } while (!convergence_.reached());
-
-    reportProgress(iteration);
-    Info<< "flow: converged in " << iteration << " iterations, ";
-    if (coupled_)
-    {
-        Info<< nLinear << " of GMRES, ";
+        FatalIOErrorInFunction(controls_)
+            << "The flow is not steady after " << how_.maxIterations
+            << " iterations:" << nl << solver_.shortcomings().c_str()
+            << "Nothing was written. Raise maxIterations or the U entry of"
+            << " relaxationFactors, or loosen residualControl or"
+            << " fluxTolerance." << exit(FatalIOError);
     }
-    Info<< text(clock.elapsedTime()) << " s" << endl;
 }
 
 

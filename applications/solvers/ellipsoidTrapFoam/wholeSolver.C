@@ -7,22 +7,18 @@ License
     See COPYING at the top of the source tree.
 
 Description
-    All files of the program but those of wholeCoupled.C. Compiled with -O1
-    (Make/options), which takes half the time.
+    All files of the program. Compiled with -O1 (Make/options), which takes half
+    the time.
 
     One translation unit for all of them: OpenFOAM's templates are instantiated and
     optimised once, which takes a third of the time that a unit for each file takes.
 
 \*---------------------------------------------------------------------------*/
-#include "coupled/coupledFlow.C"
 #include "apertureFlow.C"
-#include "flowConvergence.C"
 #include "flowFields.C"
 #include "occupiedFlow.C"
 #include "partMesh.C"
 #include "solidBodies.C"
 #include "steadyFlow.C"
-#include "steadyFlowEquations.C"
 #include "superposedFlow.C"
-#include "coupled/stokesCoefficients.C"
 #include "ellipsoidTrapFoam.C"

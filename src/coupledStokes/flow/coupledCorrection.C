@@ -8,48 +8,34 @@ License
 
 \*---------------------------------------------------------------------------*/
 
-#include "coupledFlow.H"
+#include "coupledCorrection.H"
 #include "fvcFlux.H"
 #include "fvcGrad.H"
 #include "fvcSnGrad.H"
 #include "fvcSurfaceIntegrate.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
-#include "masterGate.H"
 #include "stokesGMRES.H"
 #include "surfaceInterpolate.H"
 
 #include <cmath>
 
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-
-// Does the velocity of the cells say what flows through?
-static bool isOpen(const fvPatchVectorField& Up)
-{
-    return
-        Up.assignable()
-     && !Up.coupled()
-     && !polyPatch::constraintType(Up.patch().type());
-}
-
-} // End namespace Foam
-
-
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::tmp<Foam::surfaceScalarField> Foam::coupledFlow::setResidual
+Foam::tmp<Foam::surfaceScalarField> Foam::coupledCorrection::linearise
 (
     const fvVectorMatrix& UEqn,
-    const volScalarField& rAU,
     List<fourFloats>& r
-) const
+)
 {
     const fvMesh& mesh = U_.mesh();
     const scalarField& V = mesh.V();
     const stokesUnits& units = stokes_.units();
+
+    fvVectorMatrix relaxed(UEqn);
+    relaxed.relax();
+    const volScalarField rAU(1/relaxed.A());
+    stokes_.set(UEqn, rAU, U_, p_, phi_);
 
     const volVectorField gradP(fvc::grad(p_));
     const vectorField net
@@ -96,7 +82,7 @@ Foam::tmp<Foam::surfaceScalarField> Foam::coupledFlow::setResidual
         }
         r[celli] = fourOf
         (
-            force/units.force(), -V[celli]*continuity[celli]/units.flux()
+            force/units.force, -V[celli]*continuity[celli]/units.flux
         );
     }
 
@@ -106,19 +92,18 @@ Foam::tmp<Foam::surfaceScalarField> Foam::coupledFlow::setResidual
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::coupledFlow::coupledFlow
+Foam::coupledCorrection::coupledCorrection
 (
-    const dimensionedScalar& nu,
     volVectorField& U,
     volScalarField& p,
-    surfaceScalarField& phi
+    surfaceScalarField& phi,
+    const scalar nu
 )
 :
-    nu_(nu),
     U_(U),
     p_(p),
     phi_(phi),
-    stokes_(U.mesh(), nu.value()),
+    stokes_(p, nu),
     preconditioner_(),
     firstNorm_(0)
 {}
@@ -126,41 +111,7 @@ Foam::coupledFlow::coupledFlow
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-bool Foam::coupledFlow::handles(const volVectorField& U, const volScalarField& p)
-{
-    bool open = false;
-    for (const fvPatchVectorField& Up : U.boundaryField())
-    {
-        open = open || isOpen(Up);
-    }
-
-    // Both collective
-    const bool adjusted = p.needReference() && open;
-
-    return cellHalo::handles(U.mesh()) && !adjusted;
-}
-
-
-void Foam::coupledFlow::check
-(
-    const volVectorField& U,
-    const volScalarField& p,
-    const dictionary& dict
-)
-{
-    if (!handles(U, p))
-    {
-        const masterGate once;
-        FatalIOErrorInFunction(dict)
-            << "coupled yes does not deal with coupled patches other than"
-            << " processor, and cyclic ones that do not turn vectors, nor with"
-            << " an outflow that is adjusted to the inflow because no patch"
-            << " fixes the pressure: set coupled no" << exit(FatalIOError);
-    }
-}
-
-
-void Foam::coupledFlow::setDirections()
+void Foam::coupledCorrection::setDirections()
 {
     if (gMax(mag(phi_)()) > 0)
     {
@@ -170,14 +121,14 @@ void Foam::coupledFlow::setDirections()
     // Too short to convect anything
     const dimensionedScalar duration
     (
-        "duration", dimTime, 1e-6*stokes_.units().mobility()
+        "duration", dimTime, 1e-6*stokes_.units().mobility
     );
     phi_ = -duration*fvc::snGrad(p_)*U_.mesh().magSf();
     U_.correctBoundaryConditions();
 }
 
 
-void Foam::coupledFlow::scale
+void Foam::coupledCorrection::scale
 (
     const std::function<tmp<fvVectorMatrix>()>& momentum
 )
@@ -197,12 +148,7 @@ void Foam::coupledFlow::scale
     for (List<fourFloats>* r : {&rest, &ofU, &ofP})
     {
         set(r == &ofU, r == &ofP);
-        const tmp<fvVectorMatrix> UEqn(momentum());
-        fvVectorMatrix relaxed(UEqn());
-        relaxed.relax();
-        const volScalarField rAU(1/relaxed.A());
-        stokes_.set(UEqn(), rAU, U_, p_, phi_);
-        setResidual(UEqn(), rAU, *r);
+        linearise(momentum()(), *r);
     }
     forAll(rest, celli)
     {
@@ -229,7 +175,7 @@ void Foam::coupledFlow::scale
 }
 
 
-Foam::label Foam::coupledFlow::correct
+Foam::label Foam::coupledCorrection::correct
 (
     const fvVectorMatrix& UEqn,
     const scalar relTol
@@ -238,20 +184,15 @@ Foam::label Foam::coupledFlow::correct
     // What a correction may take; the next one goes on from there
     const label maxIterations = 80;
 
-    fvVectorMatrix relaxed(UEqn);
-    relaxed.relax();
-    const volScalarField rAU(1/relaxed.A());
-
-    stokes_.set(UEqn, rAU, U_, p_, phi_);
-    List<fourFloats> residual(U_.size());
-    phi_ = setResidual(UEqn, rAU, residual);
-    stokesGMRES gmres(stokes_);
-
-    // Of the net fluxes that GMRES leaves: cells follow the flux
+    // Of the net fluxes that GMRES leaves: what drifts follows the flux
     const scalar toConserve = 0.01;
 
     // If what is left is this small a part, the equations are nearly the same
     const scalar negligible = 0.01;
+
+    List<fourFloats> residual(U_.size());
+    phi_ = linearise(UEqn, residual);
+    stokesGMRES gmres(stokes_);
 
     const scalar norm = gmres.norm(residual);
     if (!std::isfinite(norm))
@@ -263,7 +204,10 @@ Foam::label Foam::coupledFlow::correct
         preconditioner_.clear();
         preconditioner_.reset
         (
-            new stokesPreconditioner(stokes_, !p_.needReference())
+            new stokesPreconditioner
+            (
+                stokes_, stokes_.distance(), !p_.needReference()
+            )
         );
         firstNorm_ = norm;
     }
@@ -271,17 +215,20 @@ Foam::label Foam::coupledFlow::correct
         gmres.solve(*preconditioner_, residual, relTol, maxIterations);
 
     const List<fourFloats>& found = gmres.correction();
-    stokes_.addFlux(found, gmres.pressureForce(), phi_);
-    preconditioner_->conserve
+    stokes_.addFlux(stokes_.flux(found, gmres.pressureForce()), phi_);
+    const scalarField net(fvc::surfaceIntegrate(phi_)().primitiveField()*U_.mesh().V());
+    stokes_.addFlux
     (
-        fvc::surfaceIntegrate(phi_)().primitiveField()*U_.mesh().V(),
-        toConserve,
+        preconditioner_->conserving
+        (
+            single(scalarField(-net/stokes_.units().flux)), toConserve
+        ),
         phi_
     );
     forAll(U_, celli)
     {
         U_[celli] += vectorOf(found[celli]);
-        p_[celli] += stokes_.units().pressure()*found[celli][3];
+        p_[celli] += stokes_.units().pressure*found[celli][3];
     }
     U_.correctBoundaryConditions();
     p_.correctBoundaryConditions();

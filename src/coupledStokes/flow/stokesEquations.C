@@ -6,12 +6,9 @@ License
     SPDX-License-Identifier: GPL-3.0-or-later
     See COPYING at the top of the source tree.
 
-Description
-    What a stokesOperator is made of: faces and coefficients.
-
 \*---------------------------------------------------------------------------*/
 
-#include "stokesOperator.H"
+#include "stokesEquations.H"
 #include "DynamicList.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
@@ -22,7 +19,7 @@ Description
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 template<class Type>
-Foam::Field<Type> Foam::stokesOperator::faceValues
+Foam::Field<Type> Foam::stokesEquations::ofFaces
 (
     const GeometricField<Type, fvsPatchField, surfaceMesh>& values
 ) const
@@ -40,11 +37,11 @@ Foam::Field<Type> Foam::stokesOperator::faceValues
 }
 
 
-void Foam::stokesOperator::setFaces()
+void Foam::stokesEquations::setFaces()
 {
     owner_ = mesh_.owner();
     neighbour_ = mesh_.neighbour();
-    label halo = halo_.nCells();
+    label halo = halo_.nLocal();
 
     for (const fvPatch& patch : mesh_.boundary())
     {
@@ -56,12 +53,12 @@ void Foam::stokesOperator::setFaces()
         }
     }
 
-    weight_ = single(faceValues(mesh_.weights()));
-    Sf_ = fourOf(vectorField(faceValues(mesh_.Sf())/units_.flux()));
+    weight_ = single(ofFaces(mesh_.weights()));
+    Sf_ = fourOf(vectorField(ofFaces(mesh_.Sf())/units_.flux));
 }
 
 
-void Foam::stokesOperator::setSkewFaces()
+void Foam::stokesEquations::setSkewFaces(const word& pName)
 {
     // The sine of an angle below which an explicit term changes nothing that
     // the outer iteration would notice
@@ -69,7 +66,10 @@ void Foam::stokesOperator::setSkewFaces()
 
     const tmp<fv::snGradScheme<scalar>> scheme
     (
-        fv::snGradScheme<scalar>::New(mesh_, mesh_.snGradScheme("snGrad(p)"))
+        fv::snGradScheme<scalar>::New
+        (
+            mesh_, mesh_.snGradScheme("snGrad(" + pName + ')')
+        )
     );
     if (!scheme().corrected())
     {
@@ -78,10 +78,10 @@ void Foam::stokesOperator::setSkewFaces()
 
     const vectorField correction
     (
-        faceValues(mesh_.nonOrthCorrectionVectors())
+        ofFaces(mesh_.nonOrthCorrectionVectors())
     );
 
-    // Cells whose velocity gradients are used
+    // Mesh cells whose velocity gradients are used
     boolList graded;
     graded.setSize(halo_.size(), false);
 
@@ -100,7 +100,7 @@ void Foam::stokesOperator::setSkewFaces()
     (
         vectorField
         (
-            vectorField(correction*faceValues(mesh_.magSf())/units_.flux()),
+            vectorField(correction*ofFaces(mesh_.magSf())/units_.flux),
             skewFaces_
         )
     );
@@ -110,11 +110,11 @@ void Foam::stokesOperator::setSkewFaces()
 }
 
 
-void Foam::stokesOperator::setGradients(const boolList& graded)
+void Foam::stokesEquations::setGradients(const boolList& graded)
 {
     labelList row(halo_.size(), -1);
     DynamicList<label> cells;
-    for (label celli = 0; celli < halo_.nCells(); ++celli)
+    for (label celli = 0; celli < halo_.nLocal(); ++celli)
     {
         if (graded[celli])
         {
@@ -173,7 +173,7 @@ void Foam::stokesOperator::setGradients(const boolList& graded)
 }
 
 
-void Foam::stokesOperator::setBoundary
+void Foam::stokesEquations::setBoundary
 (
     const volScalarField& rAU,
     const volVectorField& U,
@@ -202,11 +202,11 @@ void Foam::stokesOperator::setBoundary
         }
 
         boundaryCell_.append(patch.faceCells());
-        boundarySf_.append(fourOf(vectorField(patch.Sf()/units_.flux())));
+        boundarySf_.append(fourOf(vectorField(patch.Sf()/units_.flux)));
         boundaryP_.append(single(pp.valueInternalCoeffs(patch.weights())()));
 
         // Of the ratio of a flux to a pressure
-        const scalar unit = units_.flux()/units_.pressure();
+        const scalar unit = units_.flux/units_.pressure;
         const scalarField rAUp(rAU, patch.faceCells());
         boundaryPCoeff_.append
         (
@@ -227,14 +227,8 @@ void Foam::stokesOperator::setBoundary
 }
 
 
-void Foam::stokesOperator::setTurned
-(
-    const fvVectorMatrix& UEqn,
-    const surfaceScalarField& phi,
-    const volVectorField& U
-)
+void Foam::stokesEquations::setBoundaryVelocity(const volVectorField& U)
 {
-    // What boundary values take over of a velocity in each direction
     boundaryU_.setSize(boundaryCell_.size());
     for (direction d = 0; d < 3; ++d)
     {
@@ -265,9 +259,8 @@ void Foam::stokesOperator::setTurned
     DynamicList<label> faces;
     forAll(boundaryCell_, facei)
     {
-        const columns& moved = boundaryU_[facei];
         fourFloats size{};
-        for (const fourFloats& column : moved.column)
+        for (const fourFloats& column : boundaryU_[facei].column)
         {
             size += column*column;
         }
@@ -277,7 +270,16 @@ void Foam::stokesOperator::setTurned
         }
     }
     gradFaces_.transfer(faces);
+}
 
+
+void Foam::stokesEquations::setTurned
+(
+    const fvVectorMatrix& UEqn,
+    const surfaceScalarField& phi,
+    const volVectorField& U
+)
+{
     turnedFaces_.clear();
     turned_.clear();
     for (const fvPatchVectorField& Up : U.boundaryField())
@@ -303,9 +305,9 @@ void Foam::stokesOperator::setTurned
             {
                 fourFloats& column = missing.column[d];
                 column =
-                    float((phip[i] - viscous[i])/units_.force())
+                    float((phip[i] - viscous[i])/units_.force)
                    *boundaryU_[facei].column[d];
-                column[d] += (viscous[i] - internal[i][d])/units_.force();
+                column[d] += (viscous[i] - internal[i][d])/units_.force;
             }
             turnedFaces_.append(facei);
             turned_.append(missing);
@@ -314,7 +316,7 @@ void Foam::stokesOperator::setTurned
 }
 
 
-void Foam::stokesOperator::setVolumes()
+void Foam::stokesEquations::setVolumes()
 {
     const scalarField V(mesh_.V()/pow3(units_.length));
     V_ = single(V);
@@ -325,11 +327,11 @@ void Foam::stokesOperator::setVolumes()
 }
 
 
-void Foam::stokesOperator::setMomentum(const fvVectorMatrix& UEqn)
+void Foam::stokesEquations::setMomentum(const fvVectorMatrix& UEqn)
 {
     vectorField diagonal(UEqn.diag()*vector::one);
-    upper_ = single(scalarField(UEqn.upper()/units_.force()));
-    lower_ = single(scalarField(UEqn.lower()/units_.force()));
+    upper_ = single(scalarField(UEqn.upper()/units_.force));
+    lower_ = single(scalarField(UEqn.lower()/units_.force));
 
     for (const fvPatch& patch : mesh_.boundary())
     {
@@ -346,7 +348,7 @@ void Foam::stokesOperator::setMomentum(const fvVectorMatrix& UEqn)
             const scalarField beyond
             (
                 -UEqn.boundaryCoeffs()[patch.index()].component(0)
-               /units_.force()
+               /units_.force
             );
             const List<float> row(single(beyond));
             upper_.append(row);
@@ -357,7 +359,7 @@ void Foam::stokesOperator::setMomentum(const fvVectorMatrix& UEqn)
     diagonal_.setSize(diagonal.size());
     forAll(diagonal_, celli)
     {
-        const vector d(diagonal[celli]/units_.force());
+        const vector d(diagonal[celli]/units_.force);
         diagonal_[celli] = fourOf(d, d.x());
     }
 }
@@ -365,23 +367,21 @@ void Foam::stokesOperator::setMomentum(const fvVectorMatrix& UEqn)
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::stokesOperator::stokesOperator(const fvMesh& mesh, const scalar nu)
+Foam::stokesEquations::stokesEquations(const volScalarField& p, const scalar nu)
 :
-    mesh_(mesh),
-    units_(mesh, nu),
-    halo_(mesh_),
-    skew_(false),
-    velocity_(halo_.size())
+    stokesOperator(p.mesh()),
+    mesh_(p.mesh()),
+    units_(cbrt(gAverage(mesh_.V().field())), nu)
 {
     setFaces();
-    setSkewFaces();
+    setSkewFaces(p.name());
     setVolumes();
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::stokesOperator::set
+void Foam::stokesEquations::set
 (
     const fvVectorMatrix& UEqn,
     const volScalarField& rAU,
@@ -391,12 +391,13 @@ void Foam::stokesOperator::set
 )
 {
     setBoundary(rAU, U, p);
+    setBoundaryVelocity(U);
     setTurned(UEqn, phi, U);
     setMomentum(UEqn);
 
     rByV_ = single
     (
-        scalarField(rAU.primitiveField()/units_.mobility())
+        scalarField(rAU.primitiveField()/units_.mobility)
     );
     rByV_.setSize(halo_.size());
     halo_.exchange(rByV_);
@@ -408,67 +409,50 @@ void Foam::stokesOperator::set
     const surfaceScalarField rAUf(fvc::interpolate(rAU));
     skewrAU_ = single
     (
-        scalarField(faceValues(rAUf), skewFaces_)/units_.mobility()
+        scalarField(ofFaces(rAUf), skewFaces_)/units_.mobility
     );
     pCoeff_ = single
     (
         scalarField
         (
-            faceValues
-            (
-                (rAUf*mesh_.magSf()*mesh_.nonOrthDeltaCoeffs())()
-            )
-           *(units_.pressure()/units_.flux())
+            ofFaces((rAUf*mesh_.magSf()*mesh_.nonOrthDeltaCoeffs())())
+           *(units_.pressure/units_.flux)
         )
     );
 }
 
 
-Foam::faceCoefficients Foam::stokesOperator::laplacian
+Foam::scalarField Foam::stokesEquations::distance() const
+{
+    return ofFaces(mesh_.nonOrthDeltaCoeffs())*units_.length;
+}
+
+
+void Foam::stokesEquations::addFlux
 (
-    const List<fourFloats>& mobility,
-    List<float>& upper,
-    List<float>& diagonal,
-    List<float>& boundary
+    const faceValues& through,
+    surfaceScalarField& phi
 ) const
 {
-    const scalarField distance
-    (
-        faceValues(mesh_.nonOrthDeltaCoeffs())*units_.length
-    );
-
-    upper.setSize(owner_.size());
-    scalarField sums(halo_.size(), Zero);
-    forAll(owner_, facei)
+    label facei = 0;
+    for (scalar& phif : phi.primitiveFieldRef())
     {
-        const label own = owner_[facei];
-        const label nei = neighbour_[facei];
-        const float w = weight_[facei];
-        const fourFloats m = w*mobility[own] + (1 - w)*mobility[nei];
-        const fourFloats& Sf = Sf_[facei];
-        const scalar coefficient =
-            dot3(m*Sf, Sf)/sqrt(dot3(Sf, Sf))*distance[facei];
-
-        upper[facei] = -coefficient;
-        sums[own] += coefficient;
-        sums[nei] += coefficient;
+        phif += units_.flux*through.inner[facei++];
     }
-    boundary.setSize(boundaryCell_.size());
-    forAll(boundaryCell_, facei)
+    for (fvsPatchScalarField& phip : phi.boundaryFieldRef())
     {
-        // The gradient of a pressure that is fixed at the face
-        const label celli = boundaryCell_[facei];
-        const fourFloats& Sf = boundarySf_[facei];
-
-        boundary[facei] =
-           -boundaryPCoeff_[facei]/(rByV_[celli]*V_[celli])
-           *(dot3(mobility[celli]*Sf, Sf)/dot3(Sf, Sf));
-        sums[celli] += boundary[facei];
+        label i = patchStart_[phip.patch().index()];
+        for (scalar& phif : phip)
+        {
+            phif +=
+                units_.flux
+               *(
+                    phip.coupled()
+                  ? through.inner[facei++]
+                  : through.boundary[i++]
+                );
+        }
     }
-    sums.setSize(halo_.nCells());
-    diagonal = single(sums);
-
-    return {owner_, neighbour_, upper, upper};
 }
 
 

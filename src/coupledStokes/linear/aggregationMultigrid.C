@@ -9,10 +9,8 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "aggregationMultigrid.H"
-#include "globalIndex.H"
-#include "plainLists.H"
+#include "LUscalarMatrix.H"
 #include "PstreamReduceOps.H"
-#include "scalarMatrices.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -80,63 +78,43 @@ void Foam::aggregationMultigrid<Type>::invertCoarsest(const bool singular)
 {
     sparseRows<Type>& matrix = levels_.last().matrix;
     const UList<float> diagonal(flat(matrix.diagonal));
-    const globalIndex rows(matrix.size());
-    const label n = rows.size();
-    offset_ = rows.toGlobal(0);
+    coarsestRows_ = globalIndex(matrix.size());
+    const label n = coarsestRows_.size();
 
     labelList column(matrix.halo.size());
     for (label i = 0; i < matrix.size(); ++i)
     {
-        column[i] = offset_ + i;
+        column[i] = coarsestRows_.toGlobal(i);
     }
     matrix.halo.exchange(column);
 
-    inverse_.setSize(matrix.size());
-    for (List<Type>& row : inverse_)
-    {
-        row.setSize(n);
-    }
+    inverse_.setSize(matrix.size(), List<Type>(n));
 
     for (label cmpt = 0; cmpt < nValues; ++cmpt)
     {
-        // Row by row
-        List<scalar> mine(matrix.size()*n, Zero);
-
+        scalarSquareMatrix all(n, Zero);
         for (label i = 0; i < matrix.size(); ++i)
         {
-            scalar* const row = &mine[i*n];
-            row[offset_ + i] = diagonal[nValues*i + cmpt];
+            scalar* const row = all[column[i]];
+            row[column[i]] = diagonal[nValues*i + cmpt];
             for (label k = matrix.start[i]; k < matrix.start[i + 1]; ++k)
             {
                 row[column[matrix.column[k]]] += matrix.coefficient[k];
             }
         }
-
-        scalarSquareMatrix all(n);
-        scalar* next = all.data();
-        for (const List<scalar>& part : fromAllRanks(mine))
-        {
-            next = std::copy(part.begin(), part.end(), next);
-        }
+        reduce(all, sumOp<scalarSquareMatrix>());
         if (singular)
         {
-            const scalar mean = all.trace()/n/n;
-            for (scalar& value : all)
-            {
-                value += mean;
-            }
+            all += all.trace()/n/n;
         }
 
-        labelList pivots(n);
-        LUDecompose(all, pivots);
-        for (label j = 0; j < n; ++j)
+        scalarSquareMatrix inverse(n);
+        LUscalarMatrix(all).inv(inverse);
+        forAll(inverse_, i)
         {
-            List<scalar> solution(n, Zero);
-            solution[j] = 1;
-            LUBacksubstitute(all, pivots, solution);
-            forAll(inverse_, i)
+            for (label j = 0; j < n; ++j)
             {
-                flat(inverse_[i])[nValues*j + cmpt] = solution[offset_ + i];
+                flat(inverse_[i])[nValues*j + cmpt] = inverse(column[i], j);
             }
         }
     }
@@ -147,24 +125,25 @@ template<class Type>
 void Foam::aggregationMultigrid<Type>::solveCoarsest() const
 {
     level& coarsest = levels_.last();
+    const label n = coarsestRows_.size();
+    const UList<float> mine(flat(coarsest.source));
 
-    const List<List<float>> sources
+    Field<float> all(nValues*n, 0.0f);
+    std::copy
     (
-        fromAllRanks(List<float>(flat(coarsest.source)))
+        mine.begin(),
+        mine.end(),
+        all.begin() + nValues*coarsestRows_.toGlobal(0)
     );
+    reduce(all, sumOp<Field<float>>());
+    const Type* const source = reinterpret_cast<const Type*>(all.begin());
 
     forAll(inverse_, i)
     {
         Type sum{};
-        label j = 0;
-        for (const List<float>& part : sources)
+        for (label j = 0; j < n; ++j)
         {
-            const Type* const values =
-                reinterpret_cast<const Type*>(part.begin());
-            for (label k = 0; k < part.size()/nValues; ++k)
-            {
-                sum += inverse_[i][j++]*values[k];
-            }
+            sum += inverse_[i][j]*source[j];
         }
         coarsest.solution[i] = sum;
     }
@@ -248,7 +227,7 @@ void Foam::aggregationMultigrid<Type>::cycle(const label leveli) const
 template<class Type>
 Foam::aggregationMultigrid<Type>::aggregationMultigrid
 (
-    const cellHalo& halo,
+    const meshHalo& halo,
     const faceCoefficients& faces,
     const UList<Type>& diagonal,
     const bool singular,
@@ -258,7 +237,7 @@ Foam::aggregationMultigrid<Type>::aggregationMultigrid
     nCycles_(nCycles),
     levels_(),
     inverse_(),
-    offset_(0)
+    coarsestRows_()
 {
     levels_.append(new level());
     levels_[0].matrix = sparseRows<Type>(halo, faces, diagonal);

@@ -44,7 +44,7 @@ Foam::List<Foam::fourFloats> Foam::stokesPreconditioner::mobility() const
     // Enough for a few per cent, which is all that counts
     const label nSolutions = 2;
 
-    const label n = stokes_.halo().nCells();
+    const label n = stokes_.halo().nLocal();
     const faceCoefficients faces(stokes_.momentumFaces());
     UList<fourFloats>& residual = momentum_.source();
 
@@ -75,8 +75,8 @@ Foam::List<Foam::fourFloats> Foam::stokesPreconditioner::mobility() const
         stokes_.halo().exchange(m);
     }
 
-    // Convection may leave a cell with less than what it has if its neighbours
-    // are at rest
+    // Convection may leave a mesh cell with less than what it has if its
+    // neighbours are at rest
     for (label celli = 0; celli < n; ++celli)
     {
         const fourFloats least = stokes_.V()[celli]/diagonal_[celli];
@@ -93,6 +93,7 @@ Foam::List<Foam::fourFloats> Foam::stokesPreconditioner::mobility() const
 Foam::stokesPreconditioner::stokesPreconditioner
 (
     const stokesOperator& stokes,
+    const UList<scalar>& distance,
     const bool fixedPressure
 )
 :
@@ -100,13 +101,12 @@ Foam::stokesPreconditioner::stokesPreconditioner
     diagonal_(dominant(stokes)),
     momentum_(stokes.halo(), stokes.momentumFaces(), diagonal_, false, 2),
     pressure_(),
-    upper_(),
-    boundary_()
+    laplacian_()
 {
     List<float> diagonal;
     const faceCoefficients faces
     (
-        stokes.laplacian(mobility(), upper_, diagonal, boundary_)
+        stokes.laplacian(mobility(), distance, laplacian_, diagonal)
     );
 
     pressure_.reset
@@ -128,7 +128,7 @@ void Foam::stokesPreconditioner::precondition
     List<fourFloats>& pressureForce
 ) const
 {
-    // By the volume of a cell its part of the inverse: of the values tried the
+    // By the volume of a mesh cell its part of the inverse: of the values tried the
     // one that takes the fewest iterations
     const float viscous = 0.7;
 
@@ -164,18 +164,17 @@ void Foam::stokesPreconditioner::precondition
 }
 
 
-void Foam::stokesPreconditioner::conserve
+Foam::faceValues Foam::stokesPreconditioner::conserving
 (
-    const scalarField& net,
-    const scalar relTol,
-    surfaceScalarField& phi
+    List<float> net,
+    const scalar relTol
 ) const
 {
     // Enough for any factor that single precision can have
     const label maxIterations = 40;
 
-    const cellHalo& halo = stokes_.halo();
-    const label n = halo.nCells();
+    const meshHalo& halo = stokes_.halo();
+    const label n = halo.nLocal();
     const auto product = [n](const UList<float>& a, const UList<float>& b)
     {
         scalar sum = 0;
@@ -188,7 +187,7 @@ void Foam::stokesPreconditioner::conserve
 
     // Conjugate gradients; the sweeps of several ranks are not quite symmetric,
     // which the formula of Polak and Ribiere allows
-    List<float> r(single(scalarField(-net/stokes_.units().flux())));
+    List<float>& r = net;
     List<float> p(halo.size(), 0.0f), d(p), Ld(n), change(n);
     const scalar start = product(r, r);
     scalar before = 1;
@@ -224,20 +223,7 @@ void Foam::stokesPreconditioner::conserve
     }
     halo.exchange(p);
 
-    const faceCoefficients faces(stokes_.momentumFaces());
-    List<float> through(upper_.size());
-    forAll(through, facei)
-    {
-        through[facei] =
-            upper_[facei]*(p[faces.neighbour[facei]] - p[faces.owner[facei]]);
-    }
-    List<float> boundaryThrough(boundary_.size());
-    forAll(boundaryThrough, facei)
-    {
-        boundaryThrough[facei] =
-            boundary_[facei]*p[stokes_.boundaryCells()[facei]];
-    }
-    stokes_.addFlux(through, boundaryThrough, phi);
+    return stokes_.drivenFlux(p, laplacian_);
 }
 
 

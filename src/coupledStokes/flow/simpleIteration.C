@@ -7,11 +7,11 @@ License
     See COPYING at the top of the source tree.
 
 Description
-    The equations of a steadyFlow, and one iteration of SIMPLE or SIMPLEC.
+    One iteration of SIMPLE or SIMPLEC of a coupledStokes flow.
 
 \*---------------------------------------------------------------------------*/
 
-#include "steadyFlow.H"
+#include "steadyCriterion.H"
 #include "adjustPhi.H"
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
@@ -19,22 +19,10 @@ Description
 #include "fvcFlux.H"
 #include "fvcGrad.H"
 #include "fvcSnGrad.H"
-#include "fvmDiv.H"
 #include "fvmLaplacian.H"
-#include "fvmSup.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
-#include "sigFpe.H"
 #include "surfaceInterpolate.H"
-
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
-
-const Foam::word Foam::steadyFlow::transposedScheme_
-(
-    "div((nuEff*dev2(T(grad(U)))))",
-    false
-);
-
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -54,18 +42,43 @@ static void forgetSolverPerformance(const fvMesh& mesh)
     const_cast<dictionary&>(dict).clear();
 }
 
+
+// While it lives linear solvers say nothing: one line a second tells more
+class silence
+{
+    const int before_ = SolverPerformance<scalar>::debug;
+
+    static void set(const int debug)
+    {
+        SolverPerformance<scalar>::debug = debug;
+        SolverPerformance<vector>::debug = debug;
+    }
+
+public:
+
+    silence()
+    {
+        set(0);
+    }
+
+    ~silence()
+    {
+        set(before_);
+    }
+};
+
 } // End namespace Foam
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::dictionary Foam::steadyFlow::linearSolver
+Foam::dictionary Foam::coupledStokes::linearSolver
 (
     const word& fieldName,
     const bool judgeOnly
 ) const
 {
-    dictionary dict(mesh_.solverDict(fieldName));
+    dictionary dict(U_.mesh().solverDict(fieldName));
 
     if (judgeOnly)
     {
@@ -86,75 +99,27 @@ Foam::dictionary Foam::steadyFlow::linearSolver
 }
 
 
-Foam::tmp<Foam::fvVectorMatrix> Foam::steadyFlow::momentum()
-{
-    tmp<fvVectorMatrix> UEqn(fvm::div(phi_, U_) - fvm::laplacian(nu_, U_));
-
-    if (hasTransposed_)
-    {
-        UEqn.ref() -= fvc::div(nu_*dev2(T(fvc::grad(U_))), transposedScheme_);
-    }
-    if (const auto* resistance = mesh_.cfindObject<volScalarField>("resistance"))
-    {
-        UEqn.ref() += fvm::Sp(*resistance, U_);
-    }
-
-    return UEqn;
-}
-
-
-Foam::flowConvergence::forceRatios Foam::steadyFlow::forces
-(
-    const fvVectorMatrix& UEqn,
-    const volVectorField& gradP
-) const
-{
-    vectorField net
-    (
-        (UEqn & U_)().primitiveField() + gradP.primitiveField()
-    );
-    for (direction cmpt = 0; cmpt < vector::nComponents; ++cmpt)
-    {
-        if (mesh_.solutionD()[cmpt] == -1)
-        {
-            net.replace(cmpt, scalar(0));
-        }
-    }
-
-    scalar shear = 0;
-    for (const fvPatchVectorField& Up : U_.boundaryField())
-    {
-        if (!Up.coupled())
-        {
-            shear += nu_.value()*sum(mag(Up.snGrad())*Up.patch().magSf());
-        }
-    }
-    reduce(shear, sumOp<scalar>());
-
-    const scalar pressure = gSum(mag(gradP.primitiveField())*mesh_.V());
-    const scalar driving = pressure + shear + VSMALL;
-
-    return {gSum(mag(net)*mesh_.V())/driving, pressure/driving};
-}
-
-
-void Foam::steadyFlow::iterate
+void Foam::coupledStokes::iterate
 (
     const tmp<fvVectorMatrix>& equation,
     const bool judgeOnly
 )
 {
-    // A flow that diverges is reported as such, not by a signal
-    const sigFpe::ignore noTrap;
-
+    const silence noSolverLines;
     fvVectorMatrix UEqn(equation);
     const volVectorField gradP(fvc::grad(p_));
-    const flowConvergence::forceRatios forcesFound(forces(UEqn, gradP));
+    const steadyCriterion::forceRatios forces
+    (
+        criterion_->forces
+        (
+            (UEqn & U_)().primitiveField(), gradP.primitiveField()
+        )
+    );
 
     UEqn.relax();
     const SolverPerformance<vector> UPerf
     (
-        Foam::solve(UEqn == -gradP, linearSolver("U", judgeOnly))
+        Foam::solve(UEqn == -gradP, linearSolver(U_.name(), judgeOnly))
     );
 
     // Velocity without pressure gradient, and what a pressure gradient adds
@@ -164,12 +129,12 @@ void Foam::steadyFlow::iterate
     adjustPhi(phiHbyA, U_, p_);
 
     volScalarField rAtU("rAtU", rAU);
-    if (consistent_)
+    if (how_.consistent)
     {
-        // The neighbours' velocities change with the cell's own
+        // The neighbours' velocities change with the mesh cell's own
         rAtU = 1/(1/rAU - UEqn.H1());
         phiHbyA +=
-            fvc::interpolate(rAtU - rAU)*fvc::snGrad(p_)*mesh_.magSf();
+            fvc::interpolate(rAtU - rAU)*fvc::snGrad(p_)*U_.mesh().magSf();
         HbyA += (rAtU - rAU)*gradP;
     }
 
@@ -177,20 +142,23 @@ void Foam::steadyFlow::iterate
 
     p_.storePrevIter();
     solverPerformance pPerf;
-    for (label corr = 0; corr <= nNonOrthogonalCorrectors_; ++corr)
+    for (label corr = 0; corr <= how_.nNonOrthogonalCorrectors; ++corr)
     {
         fvScalarMatrix pEqn
         (
             fvm::laplacian(rAtU, p_) == fvc::div(phiHbyA)
         );
-        pEqn.setReference(pRefCell_, pRefValue_);
+        pEqn.setReference(how_.pRefCell, how_.pRefValue);
 
-        const solverPerformance perf(pEqn.solve(linearSolver("p", judgeOnly)));
+        const solverPerformance perf
+        (
+            pEqn.solve(linearSolver(p_.name(), judgeOnly))
+        );
         if (corr == 0)
         {
             pPerf = perf;
         }
-        if (corr == nNonOrthogonalCorrectors_ && !judgeOnly)
+        if (corr == how_.nNonOrthogonalCorrectors && !judgeOnly)
         {
             phi_ = phiHbyA - pEqn.flux();
         }
@@ -201,8 +169,8 @@ void Foam::steadyFlow::iterate
         U_ = HbyA - rAtU*fvc::grad(p_);
         U_.correctBoundaryConditions();
     }
-    convergence_.update(pPerf, UPerf, forcesFound, U_, phi_);
-    forgetSolverPerformance(mesh_);
+    criterion_->update(pPerf, UPerf, forces);
+    forgetSolverPerformance(U_.mesh());
 }
 
 

@@ -9,7 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "stokesGMRES.H"
-#include "foamVersions.H"
+#include "PstreamReduceOps.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -72,8 +72,7 @@ static scalarField products
         }
     }
 
-    Pstream::listCombineGather(sums, plusEqOp<scalar>());
-    broadcast(sums);
+    reduce(sums, sumOp<scalarField>());
 
     return sums;
 }
@@ -195,7 +194,7 @@ Foam::scalarField Foam::stokesGMRES::factors() const
 Foam::stokesGMRES::stokesGMRES(const stokesOperator& stokes)
 :
     stokes_(stokes),
-    scale_(stokes.halo().nCells()),
+    scale_(stokes.halo().nLocal()),
     r_(stokes.halo().size(), fourFloats{}),
     z_(stokes.halo().size(), fourFloats{}),
     pressureForce_(stokes.halo().size(), fourFloats{})

@@ -8,14 +8,14 @@ License
 
 \*---------------------------------------------------------------------------*/
 
-#include "cellHalo.H"
+#include "meshHalo.H"
 #include "UIPstream.H"
 #include "UOPstream.H"
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 template<class Type>
-void Foam::cellHalo::exchange(UList<Type>& values) const
+void Foam::meshHalo::exchange(UList<Type>& values) const
 {
     const auto mode = UPstream::commsTypes::nonBlocking;
     const label before = UPstream::nRequests();
@@ -28,10 +28,9 @@ void Foam::cellHalo::exchange(UList<Type>& values) const
 
         if (here.rank < 0)
         {
-            const labelList& from = links_[here.other].send;
-            forAll(from, i)
+            for (const label i : here.send)
             {
-                received[i] = values[from[i]];
+                *received++ = values[i];
             }
             continue;
         }

@@ -9,7 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "stokesOperator.H"
-#include "fvMesh.H"
+#include "polyMesh.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -132,7 +132,83 @@ void Foam::stokesOperator::addSkew
 }
 
 
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::stokesOperator::stokesOperator(const polyMesh& mesh)
+:
+    halo_(mesh),
+    skew_(false),
+    velocity_(halo_.size())
+{}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::faceCoefficients Foam::stokesOperator::laplacian
+(
+    const List<fourFloats>& mobility,
+    const UList<scalar>& distance,
+    faceValues& coefficients,
+    List<float>& diagonal
+) const
+{
+    List<float>& upper = coefficients.inner;
+    List<float>& boundary = coefficients.boundary;
+
+    upper.setSize(owner_.size());
+    List<scalar> sums(halo_.size(), Zero);
+    forAll(owner_, facei)
+    {
+        const label own = owner_[facei];
+        const label nei = neighbour_[facei];
+        const float w = weight_[facei];
+        const fourFloats m = w*mobility[own] + (1 - w)*mobility[nei];
+        const fourFloats& Sf = Sf_[facei];
+        const scalar coefficient =
+            dot3(m*Sf, Sf)/sqrt(dot3(Sf, Sf))*distance[facei];
+
+        upper[facei] = -coefficient;
+        sums[own] += coefficient;
+        sums[nei] += coefficient;
+    }
+    boundary.setSize(boundaryCell_.size());
+    forAll(boundaryCell_, facei)
+    {
+        // The gradient of a pressure that is fixed at the face
+        const label celli = boundaryCell_[facei];
+        const fourFloats& Sf = boundarySf_[facei];
+
+        boundary[facei] =
+           -boundaryPCoeff_[facei]/(rByV_[celli]*V_[celli])
+           *(dot3(mobility[celli]*Sf, Sf)/dot3(Sf, Sf));
+        sums[celli] += boundary[facei];
+    }
+    sums.setSize(halo_.nLocal());
+    diagonal = single(sums);
+
+    return {owner_, neighbour_, upper, upper};
+}
+
+
+Foam::faceValues Foam::stokesOperator::drivenFlux
+(
+    const List<float>& p,
+    const faceValues& coefficients
+) const
+{
+    faceValues through(coefficients);
+    forAll(owner_, facei)
+    {
+        through.inner[facei] *= p[neighbour_[facei]] - p[owner_[facei]];
+    }
+    forAll(boundaryCell_, facei)
+    {
+        through.boundary[facei] *= p[boundaryCell_[facei]];
+    }
+
+    return through;
+}
+
 
 void Foam::stokesOperator::pressureForce
 (
@@ -174,7 +250,7 @@ void Foam::stokesOperator::apply
         y[celli] = diagonal_[celli]*x[celli] + pressureForce[celli];
         y[celli][3] = 0;
     }
-    for (label celli = halo_.nCells(); celli < halo_.size(); ++celli)
+    for (label celli = halo_.nLocal(); celli < halo_.size(); ++celli)
     {
         y[celli] = fourFloats{};
     }
@@ -209,63 +285,29 @@ void Foam::stokesOperator::apply
 }
 
 
-void Foam::stokesOperator::addFlux
+Foam::faceValues Foam::stokesOperator::flux
 (
     const List<fourFloats>& x,
-    const List<fourFloats>& pressureForce,
-    surfaceScalarField& phi
+    const List<fourFloats>& pressureForce
 ) const
 {
     interpolate(x, pressureForce);
 
-    List<float> through(owner_.size());
-    forAll(through, facei)
+    faceValues through{List<float>(owner_.size()), List<float>(boundaryCell_.size())};
+    forAll(through.inner, facei)
     {
-        through[facei] = flux(facei);
+        through.inner[facei] = flux(facei);
     }
     forAll(skewFaces_, i)
     {
-        through[skewFaces_[i]] += skewFlux(i, pressureForce);
+        through.inner[skewFaces_[i]] += skewFlux(i, pressureForce);
     }
-    List<float> boundaryThrough(boundaryCell_.size());
-    forAll(boundaryThrough, facei)
+    forAll(through.boundary, facei)
     {
-        boundaryThrough[facei] = boundaryFlux(facei);
+        through.boundary[facei] = boundaryFlux(facei);
     }
 
-    addFlux(through, boundaryThrough, phi);
-}
-
-
-void Foam::stokesOperator::addFlux
-(
-    const UList<float>& through,
-    const UList<float>& boundaryThrough,
-    surfaceScalarField& phi
-) const
-{
-    label facei = 0;
-    for (scalar& phif : phi.primitiveFieldRef())
-    {
-        phif += units_.flux()*through[facei++];
-    }
-    forAll(mesh_.boundary(), patchi)
-    {
-        scalarField& phip = phi.boundaryFieldRef()[patchi];
-        const label start = patchStart_[patchi];
-        const bool coupled = mesh_.boundary()[patchi].coupled();
-
-        forAll(phip, i)
-        {
-            phip[i] +=
-                units_.flux()
-               *(
-                    coupled
-                  ? through[facei++]
-                  : boundaryThrough[start + i]
-                );
-        }
-    }
+    return through;
 }
 
 

@@ -30,9 +30,9 @@ static inline float least(const fourFloats& x)
 
 
 // The rows that each column of an interpolation has, as that of the columns
-static interpolation transposed(const interpolation& weights, const label n)
+static aggregateWeights transposed(const aggregateWeights& weights, const label n)
 {
-    interpolation result;
+    aggregateWeights result;
     result.start.setSize(n + 1, Zero);
     result.column.setSize(weights.column.size());
     result.weight.setSize(weights.column.size());
@@ -178,19 +178,19 @@ Foam::boolList Foam::sparseRows<Type>::strong(const float threshold) const
 template<class Type>
 Foam::sparseRows<Type>::sparseRows
 (
-    const cellHalo& halo,
+    const meshHalo& halo,
     const faceCoefficients& faces,
     const UList<Type>& diagonal
 )
 :
     halo(halo),
-    start(halo.nCells() + 1, Zero),
-    middle(halo.nCells(), Zero),
+    start(halo.nLocal() + 1, Zero),
+    middle(halo.nLocal(), Zero),
     column(),
     coefficient(),
     diagonal(diagonal)
 {
-    const label n = halo.nCells();
+    const label n = halo.nLocal();
     const labelUList& owner = faces.owner;
     const labelUList& neighbour = faces.neighbour;
 
@@ -214,7 +214,7 @@ Foam::sparseRows<Type>::sparseRows
     labelList below(SubList<label>(start, n));
     labelList above(middle);
 
-    // The owner of a face is the lower cell
+    // The owner of a face is the lower one
     forAll(owner, facei)
     {
         const label own = owner[facei];
@@ -235,7 +235,7 @@ template<class Type>
 Foam::sparseRows<Type>::sparseRows
 (
     const sparseRows& fine,
-    const interpolation& weights,
+    const aggregateWeights& weights,
     const label nAggregates,
     labelList& aggregates
 )
@@ -248,7 +248,7 @@ Foam::sparseRows<Type>::sparseRows
     diagonal(nAggregates, Type{})
 {
     const label n = fine.size();
-    const interpolation rowsOf(transposed(weights, nAggregates));
+    const aggregateWeights rowsOf(transposed(weights, nAggregates));
 
     // What a row has in the halo, and how the aggregates' rows go on from that
     scalarField beyond(n, Zero);
@@ -333,6 +333,20 @@ Foam::label Foam::sparseRows<Type>::aggregate
     aggregates = -1;
     label n = 0;
 
+    // One more, of a row and its free neighbours
+    const auto addAggregate = [&](const label i)
+    {
+        aggregates[i] = n;
+        for (label k = start[i]; k < start[i + 1]; ++k)
+        {
+            if (coupled[k] && aggregates[column[k]] < 0)
+            {
+                aggregates[column[k]] = n;
+            }
+        }
+        ++n;
+    };
+
     // Rows all of whose neighbours are free
     for (label i = 0; i < size(); ++i)
     {
@@ -343,15 +357,7 @@ Foam::label Foam::sparseRows<Type>::aggregate
         }
         if (free)
         {
-            aggregates[i] = n;
-            for (label k = start[i]; k < start[i + 1]; ++k)
-            {
-                if (coupled[k])
-                {
-                    aggregates[column[k]] = n;
-                }
-            }
-            ++n;
+            addAggregate(i);
         }
     }
 
@@ -376,15 +382,7 @@ Foam::label Foam::sparseRows<Type>::aggregate
     {
         if (aggregates[i] < 0)
         {
-            aggregates[i] = n;
-            for (label k = start[i]; k < start[i + 1]; ++k)
-            {
-                if (coupled[k] && aggregates[column[k]] < 0)
-                {
-                    aggregates[column[k]] = n;
-                }
-            }
-            ++n;
+            addAggregate(i);
         }
     }
 
@@ -393,7 +391,7 @@ Foam::label Foam::sparseRows<Type>::aggregate
 
 
 template<class Type>
-Foam::interpolation Foam::sparseRows<Type>::smoothed
+Foam::aggregateWeights Foam::sparseRows<Type>::smoothed
 (
     const float threshold,
     const labelUList& aggregates
@@ -403,7 +401,7 @@ Foam::interpolation Foam::sparseRows<Type>::smoothed
     const scalar damping = 4.0/3;
 
     const boolList coupled(strong(threshold));
-    interpolation result;
+    aggregateWeights result;
     result.start.setSize(size() + 1, Zero);
     DynamicList<label> columns(3*size());
     DynamicList<float> weights(3*size());

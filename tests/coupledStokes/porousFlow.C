@@ -1,0 +1,95 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+Application
+    porousFlow
+
+Description
+    A solver around libcoupledStokes, as another program would have it: the
+    steady flow through a porous medium,
+
+        div(U U) - nu laplacian(U) + k U = -grad(p)
+
+\*---------------------------------------------------------------------------*/
+
+#include "fvCFD.H"
+#include "coupledStokes.H"
+
+// * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
+
+int main(int argc, char *argv[])
+{
+    argList::addOption("resistance", "number", "k [1/s]");
+    argList::addOption("maxIterations", "count", "Give up after so many");
+    argList::addBoolOption("simplec", "By SIMPLEC");
+
+    #include "setRootCase.H"
+    #include "createTime.H"
+    #include "createMesh.H"
+
+    const auto stored = [&](const word& name)
+    {
+        return IOobject
+        (
+            name,
+            runTime.timeName(),
+            mesh,
+            IOobject::MUST_READ,
+            IOobject::AUTO_WRITE
+        );
+    };
+    volVectorField U(stored("U"), mesh);
+    volScalarField p(stored("p"), mesh);
+    surfaceScalarField phi("phi", fvc::flux(U));
+
+    const dimensionedScalar nu("nu", dimViscosity, 1e-6);
+    const dimensionedScalar k
+    (
+        "k", dimless/dimTime, args.getOrDefault<scalar>("resistance", 0)
+    );
+
+    const string refusal(coupledStokes::refusal(U, p));
+    if (!refusal.empty())
+    {
+        Info<< "not together: " << refusal.c_str() << endl;
+    }
+
+    coupledStokes::settings how;
+    how.coupled = refusal.empty() && !args.found("simplec");
+    how.maxIterations =
+        args.getOrDefault<label>("maxIterations", how.maxIterations);
+    how.pResidual = how.UResidual = how.fluxTolerance = 1e-8;
+
+    coupledStokes flow
+    (
+        U,
+        p,
+        phi,
+        nu,
+        [&]
+        {
+            return
+                fvm::div(phi, U) - fvm::laplacian(nu, U) + fvm::Sp(k, U);
+        },
+        how
+    );
+
+    Info<< "steady: " << flow.isSteady() << endl;
+    const coupledStokes::outcome end = flow.solve();
+    Info<< "outcome: " << end << nl << flow.shortcomings().c_str()
+        << "steady: " << flow.isSteady() << endl;
+
+    const label outlet = mesh.boundaryMesh().findPatchID("outlet");
+    Info<< "outflow: " << gSum(phi.boundaryField()[outlet]) << nl
+        << "End" << nl << endl;
+
+    return 0;
+}
+
+
+// ************************************************************************* //
