@@ -490,10 +490,8 @@ typedef struct ellipsoid_statistics
 /*
     An accepted step, for dense output: see ellipsoid_step_state(). It begins
     where the last one ended but for INERTIAL Brownian motion in long noise
-    intervals, and where INTEGRATOR_SLOW_MANIFOLD begins or goes on after
-    Rosenbrock steps: there u and omega have jumped and x and q moved by what
-    they do in a relaxation time (docs/theory.md, "Brownian force and torque",
-    "Slow manifold").
+    intervals: there u and omega have jumped and x and q moved by what they do
+    in a relaxation time (docs/theory.md, "Brownian force and torque").
 */
 typedef struct ellipsoid_step
 {
@@ -505,8 +503,8 @@ typedef struct ellipsoid_step
 
 /* The state at time start <= t <= end: of third order, or fourth in x and q
    where the step was explicit and no velocity is `piecewise`; u and omega of
-   INERTIALESS motion and of the slow manifold one less, linear in time where
-   such a step was not explicit and the velocity is `piecewise`. */
+   INERTIALESS motion one less, linear in time where such a step was not
+   explicit and the velocity is `piecewise`. */
 void ellipsoid_step_state(const ellipsoid_step *step, double t,
                           ellipsoid_state *state);
 

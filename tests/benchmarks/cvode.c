@@ -135,7 +135,6 @@ static int best_setup(const benchmark_journey *journey,
 enum
 {
     CORE_THIRTEEN,
-    CORE_MANIFOLD,
     PEER_THIRTEEN,
     CORE_SEVEN,
     PEER_SEVEN,
@@ -146,9 +145,9 @@ enum
 static void print_ratios(const benchmark_series series[METHODS],
                          double model_error)
 {
-    printf("\n  At equal error %9s %9s %11s %7s %11s %7s %9s %11s %7s %13s\n",
-           "error q", "CVODE us", "thirteen us", "ratio", "manifold us",
-           "ratio", "Adams us", "inertialess", "ratio", "model error q");
+    printf("\n  At equal error %9s %9s %11s %7s %9s %11s %7s %13s\n", "error q",
+           "CVODE us", "thirteen us", "ratio", "Adams us", "inertialess",
+           "ratio", "model error q");
     for (int t = 0; t < TARGETS; t++)
     {
         double us[METHODS];
@@ -157,11 +156,9 @@ static void print_ratios(const benchmark_series series[METHODS],
         {
             us[m] = 1e6 * benchmark_time_at(&series[m], targets[t]);
         }
-        printf("  %14s %9.1e %9.1f %11.1f %7.1f %11.1f %7.1f %9.1f %11.1f "
-               "%7.1f %13.1e\n",
+        printf("  %14s %9.1e %9.1f %11.1f %7.1f %9.1f %11.1f %7.1f %13.1e\n",
                "", targets[t], us[PEER_THIRTEEN], us[CORE_THIRTEEN],
-               us[PEER_THIRTEEN] / us[CORE_THIRTEEN], us[CORE_MANIFOLD],
-               us[PEER_THIRTEEN] / us[CORE_MANIFOLD], us[PEER_SEVEN],
+               us[PEER_THIRTEEN] / us[CORE_THIRTEEN], us[PEER_SEVEN],
                us[CORE_SEVEN], us[PEER_SEVEN] / us[CORE_SEVEN], model_error);
     }
 }
@@ -173,9 +170,6 @@ static void compare_on(int which, int repeats)
     static ellipsoid_state inertialess[BENCHMARK_TRAJECTORIES];
     static benchmark_series series[METHODS];
     benchmark_core thirteen = {.motion = ELLIPSOID_MOTION_INERTIAL,
-                               .advance = ellipsoid_advance};
-    benchmark_core manifold = {.motion = ELLIPSOID_MOTION_INERTIAL,
-                               .integrator = ELLIPSOID_INTEGRATOR_SLOW_MANIFOLD,
                                .advance = ellipsoid_advance};
     benchmark_core seven = {.motion = ELLIPSOID_MOTION_INERTIALESS,
                             .advance = ellipsoid_advance};
@@ -199,9 +193,6 @@ static void compare_on(int which, int repeats)
     series[CORE_THIRTEEN] = (benchmark_series){
         .method = benchmark_core_method("core, thirteen equations", &thirteen),
         .reference = inertial};
-    series[CORE_MANIFOLD] = (benchmark_series){
-        .method = benchmark_core_method("core, slow manifold", &manifold),
-        .reference = inertial};
     series[PEER_THIRTEEN] = (benchmark_series){
         .method = benchmark_peer_method(setup_name[best], &bdf),
         .reference = inertial};
@@ -213,8 +204,7 @@ static void compare_on(int which, int repeats)
         .reference = inertialess};
     for (int m = 0; m < METHODS; m++)
     {
-        const int ours = m == CORE_THIRTEEN || m == CORE_MANIFOLD
-                      || m == CORE_SEVEN;
+        const int ours = m == CORE_THIRTEEN || m == CORE_SEVEN;
 
         series[m].first = ours ? 1e-1 : 1e-3;
         series[m].last = ours ? 1e-9 : 1e-11;

@@ -23,12 +23,12 @@ from sideBySideCases import OursCase, StockCase, first_cells
 
 # Errors are those of the position so long after cells have entered [s]
 FLIGHT = 0.03
-# Ours: name, interpolation, motion, integrator, the tolerance in use. The first is the default; the velocity of the
+# Ours: name, interpolation, motion, the tolerance in use. The first is the default; the velocity of the
 # stock tool between mesh points is that of cellPoint
 WAYS = (
-    ("thirteen equations, `divergenceFree`", "divergenceFree", "inertial", "rosenbrock", "1e-5"),
-    ("thirteen equations, `cellPoint`", "cellPoint", "inertial", "rosenbrock", "1e-5"),
-    ("`inertialess`, `cellPoint`", "cellPoint", "inertialess", "rosenbrock", "1e-3"),
+    ("thirteen equations, `divergenceFree`", "divergenceFree", "inertial", "1e-5"),
+    ("thirteen equations, `cellPoint`", "cellPoint", "inertial", "1e-5"),
+    ("`inertialess`, `cellPoint`", "cellPoint", "inertialess", "1e-3"),
 )
 # So few cells are for a test of this benchmark: it leaves out most of the runs
 FEW = 1000
@@ -61,7 +61,7 @@ class Bench:
     def trap(self, name, way, tolerance, number, duration=1.0, end=1.2):
         """Cells through the whole inlet of the circular trap."""
         case = OursCase(self.folder, name, "trap")
-        case.choose(*way[1:4], tolerance)
+        case.choose(*way[1:3], tolerance)
         case.inject(f"inlet {{ type patch; patch inlet; number {number}; duration {duration}; }}")
         case.span(end)
         return case
@@ -98,14 +98,14 @@ def tracks(bench):
     for way in (WAYS[0], WAYS[2]) if bench.few else WAYS:
         for tolerance in tolerances:
             sets.append({"tool": "ours", "name": way[0], "setting": tolerance, "reference": REFERENCE,
-                         "way": way, "usual": way[4] == tolerance})
+                         "way": way, "usual": way[3] == tolerance})
 
     def made(row, setting, name, listed, bursts, end):
         if row["tool"] == "stock":
             case = StockCase(bench.folder, name, "trap", setting)
         else:
             case = OursCase(bench.folder, name, "trap")
-            case.choose(*row["way"][1:4], setting)
+            case.choose(*row["way"][1:3], setting)
             # As the stock tool does, ours takes the flow as it is read
             case.options = ["-frozenFlow"]
         case.inject_listed(listed, bursts)

@@ -100,10 +100,10 @@ class OursCase(Case):
         shutil.copy(self.source / "constant" / "transportProperties", self.path / "constant")
         self.settings = ""
 
-    def choose(self, interpolation, motion, integrator, tolerance):
+    def choose(self, interpolation, motion, tolerance):
         """The settings to compare."""
         self.settings = (f"interpolation {interpolation}; motion {motion};\ncontact {{ cells off; }}\n"
-                         f"integration {{ tolerance {tolerance}; integrator {integrator}; }}\n"
+                         f"integration {{ tolerance {tolerance}; }}\n"
                          'capture { sieves ("S[1-8]"); displacement 4e-6; holdTime 1; }\n')
 
     def inject(self, injections):

@@ -105,7 +105,6 @@ static int core_prepare(void *context, const benchmark_journey *journey,
 
     core->journey = journey;
     core->model = benchmark_model(journey, core->motion, tolerance);
-    core->model.options.integrator = core->integrator;
     return 0;
 }
 

@@ -62,7 +62,6 @@ typedef struct benchmark_method
 typedef struct benchmark_core
 {
     ellipsoid_motion motion;
-    ellipsoid_integrator integrator;
     ellipsoid_status (*advance)(const ellipsoid_member *, double *, double,
                                 ellipsoid_observer);
     const benchmark_journey *journey;

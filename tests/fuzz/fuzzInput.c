@@ -135,8 +135,6 @@ static void read_integrator(fuzz_input *in, ellipsoid_options *o)
     o->initial_step = o->minimum_step
                     * pow(o->maximum_step / o->minimum_step,
                           fuzz_between(in, 0, 0.999));
-    o->integrator = fuzz_choice(in, 2) ? ELLIPSOID_INTEGRATOR_SLOW_MANIFOLD
-                                       : ELLIPSOID_INTEGRATOR_ROSENBROCK;
 }
 
 ellipsoid_options fuzz_options(fuzz_input *in)

@@ -112,16 +112,13 @@ static void check_dense_output(const ellipsoid_step *step)
 }
 
 /* A step begins where the last one ended; but where the random force jumps, so
-   do u and omega, and with inertia the pose by what they relax in; likewise
-   where the slow manifold is entered. */
+   do u and omega, and with inertia the pose by what they relax in. */
 static int is_continued(const run *r, const ellipsoid_step *step)
 {
     const ellipsoid_options *o = &r->model->options;
     const ellipsoid_state *a = &r->last, *b = &step->before;
 
-    if (!o->brownian
-        && (o->motion == ELLIPSOID_MOTION_INERTIALESS
-            || o->integrator == ELLIPSOID_INTEGRATOR_ROSENBROCK))
+    if (!o->brownian)
     {
         return memcmp(a, b, sizeof *a) == 0;
     }

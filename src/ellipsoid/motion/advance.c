@@ -252,13 +252,11 @@ static int is_one_touching(const ellipsoid_group *g)
     return 0;
 }
 
-/* May a step of h be explicit? Not where a cell touches something, is turned by
-   a dipole or under an external force: these may be stiff. With inertia only on
-   the slow manifold. */
-static int may_be_explicit(const ellipsoid_group *g, double h)
+/* May a step be explicit? Not with inertia, nor where a cell touches something,
+   is turned by a dipole or under an external force: these may be stiff. */
+static int may_be_explicit(const ellipsoid_group *g)
 {
-    return g->inertial ? g->on_manifold && ellipsoid_manifold_is_near(g, h)
-                       : !g->stiff && !is_one_touching(g);
+    return !g->inertial && !g->stiff && !is_one_touching(g);
 }
 
 /* One attempt at a step. Sets next; *error is above 1 if it is too large. */
@@ -266,7 +264,7 @@ static ellipsoid_status try_step(ellipsoid_group *g,
                                  const ellipsoid_plan *planned, double *error,
                                  int *explicitly)
 {
-    *explicitly = may_be_explicit(g, planned->h);
+    *explicitly = may_be_explicit(g);
     if (*explicitly)
     {
         int touched;
@@ -275,15 +273,6 @@ static ellipsoid_status try_step(ellipsoid_group *g,
         if (status == ELLIPSOID_OK && !touched)
         {
             status = ellipsoid_judge_step(g, planned->h, error);
-        }
-        if (status != ELLIPSOID_OK || *error > 1)
-        {
-            return status;
-        }
-        if (!touched && g->inertial)
-        {
-            status = ellipsoid_manifold_complete(g, planned, error);
-            touched = g->left_manifold;
         }
         if (status != ELLIPSOID_OK || *error > 1)
         {
@@ -410,7 +399,6 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
         {
             accept_step(g, &planned, explicitly, error, largest_factor,
                         controller);
-            g->on_manifold = g->inertial && explicitly;
             return ELLIPSOID_OK;
         }
         if (status != ELLIPSOID_OK && !ellipsoid_may_recover(status))
@@ -457,10 +445,10 @@ static ellipsoid_status set_start(int inertial, const ellipsoid_state *state,
     return ELLIPSOID_OK;
 }
 
-/* Where the run begins, probably with a step of h. */
+/* Where the run begins. */
 static ellipsoid_status begin(ellipsoid_group *g,
                               const ellipsoid_member members[], double t,
-                              double end, double h)
+                              double end)
 {
     ellipsoid_status status = ELLIPSOID_OK;
 
@@ -473,14 +461,7 @@ static ellipsoid_status begin(ellipsoid_group *g,
     {
         status = ellipsoid_noise_layer(g, t, end);
     }
-    g->from = t;
-    g->until = end;
-    g->on_manifold = 0;
-    if (status == ELLIPSOID_OK && g->manifold)
-    {
-        status = ellipsoid_manifold_enter(g, t, h);
-    }
-    if (status == ELLIPSOID_OK && !g->on_manifold)
+    if (status == ELLIPSOID_OK)
     {
         g->has_blocks = g->inertial;
         status = ellipsoid_group_evaluate(g, t, g->start, !g->inertial,
@@ -542,7 +523,7 @@ ellipsoid_status ellipsoid_group_advance(ellipsoid_group *g,
                                          long *attempts)
 {
     ellipsoid_controller controller = common(g, members);
-    ellipsoid_status status = begin(g, members, *t, end, controller.step);
+    ellipsoid_status status = begin(g, members, *t, end);
 
     while (status == ELLIPSOID_OK && *t < end)
     {
@@ -559,11 +540,6 @@ ellipsoid_status ellipsoid_group_advance(ellipsoid_group *g,
             g->start = g->next;
             g->next = finished;
             g->has_blocks = g->next_has_blocks;
-        }
-        if (status == ELLIPSOID_OK && *t < end && g->manifold
-            && !g->on_manifold && !is_one_touching(g))
-        {
-            status = ellipsoid_manifold_enter(g, *t, controller.step);
         }
     }
     return status;

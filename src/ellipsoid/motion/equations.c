@@ -504,7 +504,7 @@ INLINED void add_free_drag(evaluation *e, ellipsoid_state *state,
    out; e has no address taken, so that it stays in registers. */
 INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
                                   ellipsoid_evaluation *at, int balanced,
-                                  int with_blocks, int with_contact)
+                                  int with_blocks)
 {
     const ellipsoid_model *model = cell->model;
     const ellipsoid_surroundings *surroundings = &cell->surroundings;
@@ -549,8 +549,7 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
     {
         status = set_forces(&e, surroundings, cell->noise, d, blocks);
     }
-    if (status == ELLIPSOID_OK && with_contact
-        && ellipsoid_has_walls(model, surroundings))
+    if (status == ELLIPSOID_OK && ellipsoid_has_walls(model, surroundings))
     {
         status = add_contact(&e, cell, &at->contact, blocks);
     }
@@ -587,14 +586,8 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
                                     int with_blocks)
 {
     return with_blocks == ELLIPSOID_KEEPING
-             ? evaluate(cell, at, balanced, ELLIPSOID_KEEPING, 1)
-         : with_blocks ? evaluate(cell, at, balanced, 1, 1)
-         : balanced    ? evaluate(cell, at, 1, 0, 1)
-                       : evaluate(cell, at, 0, 0, 1);
-}
-
-ellipsoid_status ellipsoid_evaluate_untouched(const ellipsoid_cell *cell,
-                                              ellipsoid_evaluation *at)
-{
-    return evaluate(cell, at, 1, 0, 0);
+             ? evaluate(cell, at, balanced, ELLIPSOID_KEEPING)
+         : with_blocks ? evaluate(cell, at, balanced, 1)
+         : balanced    ? evaluate(cell, at, 1, 0)
+                       : evaluate(cell, at, 0, 0);
 }

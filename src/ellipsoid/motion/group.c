@@ -69,14 +69,6 @@ static void set_kind(ellipsoid_group *g, const ellipsoid_model *model,
                   || ellipsoid_force_is_dissipative(surroundings);
 }
 
-/* Has it a slow manifold that slowManifold.c knows, and is that asked for? */
-static int has_manifold(const ellipsoid_cell *p)
-{
-    return p->model->options.integrator == ELLIPSOID_INTEGRATOR_SLOW_MANIFOLD
-        && p->rate > 0
-        && !ellipsoid_has_near_walls(p->model, &p->surroundings);
-}
-
 static int is_complete(const ellipsoid_member *m)
 {
     return m->model && m->surroundings && m->state && m->controller
@@ -114,14 +106,12 @@ static ellipsoid_status advance(ellipsoid_group *g,
     g->failed = -1;
     g->stiff = g->dissipative = g->unsteady = g->piecewise = 0;
     g->averages = 0;
-    g->manifold = 1;
     g->observed = observer != NULL;
     for (int cell = 0; cell < g->count; cell++)
     {
         g->cell[cell] = problem_of(&members[cell], &noise[cell]);
         set_kind(g, members[cell].model, members[cell].surroundings);
         g->averages = g->averages || ellipsoid_has_average(&g->cell[cell]);
-        g->manifold = g->manifold && has_manifold(&g->cell[cell]);
         g->start[cell].contact = g->next[cell].contact = nothing;
     }
     g->inertial = g->cell[0].inertial;
@@ -130,7 +120,6 @@ static ellipsoid_status advance(ellipsoid_group *g,
             && ellipsoid_has_near_walls(g->cell[0].model,
                                         &g->cell[0].surroundings);
     g->cell[0].keeps = g->kept_last = g->keeps;
-    g->manifold = g->manifold && g->inertial && !g->stiff;
     status = check(g);
     while (status == ELLIPSOID_OK && *t < end)
     {

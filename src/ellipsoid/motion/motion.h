@@ -123,7 +123,6 @@ typedef struct ellipsoid_evaluation
     };
     ellipsoid_jacobian_blocks blocks;
     ellipsoid_contact contact; /* left as it is where there are no walls */
-    double inertia[6]; /* on the slow manifold: u_b - u, omega_b - omega */
     ellipsoid_kept_resistance resistance; /* of ELLIPSOID_KEEPING */
     ellipsoid_average average; /* of FLOW_BODY, set with the blocks */
     ellipsoid_linear_planes planes; /* as found there, if it `keeps` */
@@ -163,10 +162,6 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
                                     ellipsoid_evaluation *at, int balanced,
                                     int with_blocks);
 
-/* Likewise, balanced and without any contact. */
-ellipsoid_status ellipsoid_evaluate_untouched(const ellipsoid_cell *cell,
-                                              ellipsoid_evaluation *at);
-
 /* Has it Faxen's average that may be linear over a step (flowAverage.c)? */
 int ellipsoid_has_average(const ellipsoid_cell *cell);
 
@@ -187,8 +182,6 @@ typedef struct ellipsoid_stages
     const int *in_time;
     double x[ELLIPSOID_MAX_STAGES][3], q[ELLIPSOID_MAX_STAGES][4];
     double gap[ELLIPSOID_MAX_STAGES];
-    /* On the slow manifold (rungeKutta.c): u_b - u, omega_b - omega */
-    double inertia[2][6], stage_inertia[6];
 } ellipsoid_stages;
 
 /* What solves the linear system of a stage (stageMatrix.c). */
@@ -288,11 +281,7 @@ typedef struct ellipsoid_group
     int averages;    /* may that of the flow be taken for linear in a step? */
     int dissipative; /* do forces other than drag depend on velocities? */
     int observed; /* is the whole of ellipsoid_step asked for? */
-    int manifold; /* may it be advanced on the slow manifold? */
     int piecewise; /* does the gradient of a flow jump? */
-    int on_manifold;   /* is the start there? */
-    int left_manifold; /* has the last evaluation not been there? */
-    double from, until; /* [s] the run, in one noise interval */
     ellipsoid_cell *cell;
     ellipsoid_evaluation *start, *next; /* next serves the stages, too */
     ellipsoid_stages *stages;
@@ -467,8 +456,7 @@ ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *group,
                                            const ellipsoid_plan *plan);
 
 /*
-    One explicit step of inertialess motion, or on the slow manifold
-    (rungeKutta.c). Its last stage is `next`, the end of the step. *touched is
+    One explicit step of inertialess motion (rungeKutta.c). Its last stage is `next`, the end of the step. *touched is
     set, and the step not finished, where a stage touches something: the
     equations are stiff there.
 */
@@ -491,49 +479,7 @@ ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *group, double t,
 void ellipsoid_displace(const ellipsoid_model *model, const double u[3],
                         const double omega[3], ellipsoid_state *state);
 
-/* --------------------------------------------------- slow manifold */
-
-/*
-    Evaluates the equations at the time t where the points' poses are, u and
-    omega set to those on the slow manifold (slowManifold.c). Where one touches
-    something or a derivative cannot be had, left_manifold is set and points are
-    of no use.
-*/
-ellipsoid_status ellipsoid_manifold_evaluate(ellipsoid_group *group, double t,
-                                             ellipsoid_evaluation *points);
-
-/* Likewise for a stage: points keep u and omega that balance the forces, and
-   only if look_up is set what inertia takes from them is set. */
-ellipsoid_status ellipsoid_manifold_stage(ellipsoid_group *group, double t,
-                                          ellipsoid_evaluation *points,
-                                          int look_up);
-
-/* Completes the end of a step that has been found good enough, and adds to
-   *error what the course of inertia's part has made. Sets left_manifold where
-   the manifold is too inaccurate. */
-ellipsoid_status ellipsoid_manifold_complete(ellipsoid_group *group,
-                                             const ellipsoid_plan *plan,
-                                             double *error);
-
-/*
-    Takes a start at the time t, of which the state is known, to the manifold if
-    what it passes over on the way is small against the tolerance and a step of
-    h is likely to stay there; else it is left as it is. Sets on_manifold. Uses
-    `next` and stages.
-*/
-ellipsoid_status ellipsoid_manifold_enter(ellipsoid_group *group, double t,
-                                          double h);
-
-/* Is a step of h from a start on the manifold likely to make no more? */
-int ellipsoid_manifold_is_near(const ellipsoid_group *group, double h);
-
-/* The slopes of an explicit step. */
-static inline ellipsoid_status
-ellipsoid_group_slopes(ellipsoid_group *g, double t, ellipsoid_evaluation *at)
-{
-    return g->inertial ? ellipsoid_manifold_evaluate(g, t, at)
-                       : ellipsoid_group_evaluate(g, t, at, 1, 0);
-}
+/* ---------------------------------------- what is linear over a step */
 
 /* Has cells take that of these points for linear from now on; none if NULL
    (flowAverage.c). */

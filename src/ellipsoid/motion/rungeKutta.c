@@ -3,8 +3,7 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    rungeKutta.c - one explicit step of inertialess motion, or on the slow
-    manifold, and its dense output.
+    rungeKutta.c - one explicit step of inertialess motion, and its dense output.
 
     Tsitouras, Comput. Math. Appl. 62, 770 (2011): order 5(4), the last stage
     is the first of the next step, with a continuous extension of order 4. Its
@@ -27,7 +26,6 @@ enum
 typedef struct method
 {
     int stages, order;
-    int looked_up[2]; /* stages at which the effect of inertia is; or 0 */
     double a[MOST][MOST - 1];
     double error[MOST]; /* of the result less that of lower order */
     double dense[MOST]; /* of the fourth power of time in the continuous
@@ -38,7 +36,6 @@ typedef struct method
 static const method tsitouras = {
     .stages = 7,
     .order = 5,
-    .looked_up = {2, 3},
     .a = {{0},
           {0.161},
           {-0.008480655492356989, 0.335480655492357},
@@ -59,7 +56,6 @@ static const method tsitouras = {
 static const method kutta = {
     .stages = 5,
     .order = 4,
-    .looked_up = {2},
     .a = {{0},
           {1.0 / 3},
           {-1.0 / 3, 1},
@@ -128,71 +124,6 @@ static inline void keep_slopes(const ellipsoid_state *state,
     memcpy(k + AT_Q, derivative->q, sizeof(derivative->q));
 }
 
-/* Takes a part of what inertia does to u and omega from the slopes at q. */
-static inline void take_inertia(const double inertia[6], double part,
-                                const double q[4], double k[UNKNOWNS])
-{
-    double spin[3], turn[4];
-
-    ellipsoid_set(spin, -part * inertia[3], -part * inertia[4],
-                  -part * inertia[5]);
-    ellipsoid_spin(spin, q, turn);
-    for (int i = 0; i < 3; i++)
-    {
-        k[AT_X + i] -= part * inertia[i];
-        k[AT_OMEGA + i] += spin[i];
-    }
-    for (int n = 0; n < 4; n++)
-    {
-        k[AT_Q + n] += 0.5 * turn[n];
-    }
-}
-
-/*
-    What inertia does on the slow manifold is known at the start and looked up
-    at one or two stages. Elsewhere it is taken from Newton's polynomial in time
-    through these,
-        c(s) = c_0 + s c_1 + s (s - s_1) c_2,
-    by which the slopes of earlier stages are corrected as it grows.
-*/
-static void take_inertia_at(const method *m, int stage,
-                            const ellipsoid_evaluation *start,
-                            const ellipsoid_evaluation *at, ellipsoid_stages *s)
-{
-    const double time = m->time[stage], first = m->time[m->looked_up[0]];
-    double(*c)[6] = s->inertia;
-
-    memcpy(s->q[stage], at->state.q, sizeof(at->state.q));
-    if (stage == 1)
-    {
-        memset(s->inertia, 0, sizeof(s->inertia));
-    }
-    for (int l = 0; l < 2; l++)
-    {
-        if (stage != m->looked_up[l])
-        {
-            continue;
-        }
-        for (int n = 0; n < 6; n++)
-        {
-            const double slope = (at->inertia[n] - start->inertia[n]) / time;
-
-            c[l][n] = l ? (slope - c[0][n]) / (time - first) : slope;
-        }
-        for (int j = 1; j < stage; j++)
-        {
-            take_inertia(c[l], m->time[j] * (l ? m->time[j] - first : 1),
-                         s->q[j], s->k[j]);
-        }
-    }
-    for (int n = 0; n < 6; n++)
-    {
-        s->stage_inertia[n] = start->inertia[n]
-                            + time * (c[0][n] + (time - first) * c[1][n]);
-    }
-    take_inertia(s->stage_inertia, 1, at->state.q, s->k[stage]);
-}
-
 /* Sets the state of a stage; the last one is the result. */
 static inline int set_stage(const method *m, const ellipsoid_evaluation *start,
                             int stage, double h, ellipsoid_stages *s,
@@ -214,18 +145,6 @@ static inline int set_stage(const method *m, const ellipsoid_evaluation *start,
         ellipsoid_normalise(at->state.q);
     }
     return 1;
-}
-
-/* Evaluates a stage's slopes. */
-static inline ellipsoid_status evaluate(ellipsoid_group *g, const method *m,
-                                        int stage, double t)
-{
-    if (!g->inertial)
-    {
-        return ellipsoid_group_evaluate(g, t, g->next, 1, 0);
-    }
-    return ellipsoid_manifold_stage(g, t, g->next, stage == m->looked_up[0]
-                                        || stage == m->looked_up[1]);
 }
 
 /* All of the step for `count` cells; inlined for one and for several. */
@@ -263,12 +182,12 @@ static inline ellipsoid_status take(ellipsoid_group *g, const method *m,
                 return ELLIPSOID_STEP_UNDERFLOW;
             }
         }
-        status = evaluate(g, m, i, ellipsoid_stage_time(plan, m->time[i]));
+        status = ellipsoid_group_evaluate(
+            g, ellipsoid_stage_time(plan, m->time[i]), g->next, 1, 0);
         if (status != ELLIPSOID_OK)
         {
             return status;
         }
-        *touched = g->inertial && g->left_manifold;
         for (int cell = 0; cell < count; cell++)
         {
             const ellipsoid_evaluation *at = &g->next[cell];
@@ -280,10 +199,6 @@ static inline ellipsoid_status take(ellipsoid_group *g, const method *m,
                 ellipsoid_stages_sample(s, i, at);
             }
             keep_slopes(&at->state, &at->derivative, s->k[i]);
-            if (g->inertial)
-            {
-                take_inertia_at(m, i, &g->start[cell], at, s);
-            }
         }
         if (*touched)
         {

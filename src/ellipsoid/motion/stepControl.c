@@ -233,15 +233,13 @@ static double longest_step(const ellipsoid_cell *p,
 
 /*
     Sets *step to a first step. With inertia it resolves the relaxation.
-    Without, or on the slow manifold, the times in which q turns and in which the
-    slopes change say how long it may be; the latter from a short way along the
-    slopes.
+    Without, the times in which q turns and in which the slopes change say how
+    long it may be; the latter from a short way along the slopes.
 */
 ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double t, double end,
                                       double *step)
 {
     const ellipsoid_options *o = &g->cell[0].model->options;
-    const int relaxes = g->inertial && !g->on_manifold;
     double pace = 0, ahead;
     ellipsoid_status status;
 
@@ -251,7 +249,7 @@ ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double t, double end,
         return ELLIPSOID_OK;
     }
     *step = o->maximum_step;
-    for (int cell = 0; relaxes && cell < g->count; cell++)
+    for (int cell = 0; g->inertial && cell < g->count; cell++)
     {
         const ellipsoid_model *m = g->cell[cell].model;
 
@@ -267,7 +265,7 @@ ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double t, double end,
             fmax(pace, fmax(sqrt(ellipsoid_square4(slope->q)),
                             ellipsoid_length(slope->x) / g->cell[cell].length));
     }
-    if (relaxes || !(pace > 0))
+    if (g->inertial || !(pace > 0))
     {
         return ELLIPSOID_OK;
     }
@@ -287,7 +285,7 @@ ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double t, double end,
             at->q[n] += ahead * slope->q[n];
         }
     }
-    status = ellipsoid_group_slopes(g, fmin(t + ahead, end), g->next);
+    status = ellipsoid_group_evaluate(g, fmin(t + ahead, end), g->next, 1, 0);
     if (status != ELLIPSOID_OK)
     {
         *step = ahead;
