@@ -30,21 +30,6 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
                                  ellipsoid_frame *frame,
                                  ellipsoid_free_motion *free);
 
-/* Adds to u and omega what a displacement of x and q changes in them. */
-void ellipsoid_add_change(const ellipsoid_free_motion *free, const double x[3],
-                          const double q[4], double u[3], double omega[3]);
-
-/* The same about a pose. */
-typedef struct ellipsoid_average
-{
-    double x[3], q[4];
-    ellipsoid_free_motion free;
-} ellipsoid_average;
-
-/* As it is at another pose if it is linear in the pose. */
-void ellipsoid_average_at(const ellipsoid_average *average, const double x[3],
-                          const double q[4], ellipsoid_free_motion *free);
-
 /* The random force and torque of a noise interval (brownian.c). */
 typedef struct ellipsoid_noise
 {

@@ -240,32 +240,3 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
     set_spin(a, &sums, frame, free);
     return ELLIPSOID_OK;
 }
-
-void ellipsoid_add_change(const ellipsoid_free_motion *free, const double x[3],
-                          const double q[4], double u[3], double omega[3])
-{
-    for (int i = 0; i < 3; i++)
-    {
-        u[i] += ellipsoid_dot(free->u_x[i], x);
-        omega[i] += ellipsoid_dot(free->omega_x[i], x);
-        for (int n = 0; n < 4; n++)
-        {
-            u[i] += free->u_q[i][n] * q[n];
-            omega[i] += free->omega_q[i][n] * q[n];
-        }
-    }
-}
-
-void ellipsoid_average_at(const ellipsoid_average *average, const double x[3],
-                          const double q[4], ellipsoid_free_motion *free)
-{
-    double way[3], turn[4];
-
-    ellipsoid_difference(x, average->x, way);
-    for (int n = 0; n < 4; n++)
-    {
-        turn[n] = q[n] - average->q[n];
-    }
-    *free = average->free;
-    ellipsoid_add_change(&average->free, way, turn, free->u, free->omega);
-}

@@ -106,35 +106,28 @@ static ellipsoid_status keep_or_not(ellipsoid_group *g,
    matter of one tolerance. */
 static const double longer = 2;
 
-/* What stages may take for linear in the pose. */
-typedef struct linear_parts
-{
-    int averages, planes;
-} linear_parts;
-
-/* A step from blocks that are there, to where the next states are. */
+/* A step from blocks that are there, to where the next states are; over it
+   planes are linear in the pose, if they may be. */
 static ellipsoid_status solve_step(ellipsoid_group *g,
-                                   const ellipsoid_plan *planned,
-                                   linear_parts *linear, double *error)
+                                   const ellipsoid_plan *planned, int *linear,
+                                   double *error)
 {
     const ellipsoid_linear_planes *planes = &g->start[0].planes;
     ellipsoid_status status;
 
     *error = 0;
-    ellipsoid_take_averages(g, linear->averages ? g->start : NULL);
     status = g->keeps ? keep_or_not(g, planned) : ELLIPSOID_OK;
-    linear->planes =
-        linear->planes && !g->kept_last && planes->count >= 0
+    *linear =
+        *linear && !g->kept_last && planes->count >= 0
         && (ellipsoid_in_contact(&g->start[0].contact)
             || planned->h <= longer * g->start[0].resistance.longest);
-    g->cell[0].planes = linear->planes ? planes : NULL;
+    g->cell[0].planes = *linear ? planes : NULL;
     if (status == ELLIPSOID_OK)
     {
         status = ellipsoid_rosenbrock_step(g, planned);
     }
     g->cell[0].kept = NULL;
     g->cell[0].planes = NULL;
-    ellipsoid_take_averages(g, NULL);
     if (status == ELLIPSOID_OK)
     {
         status = ellipsoid_judge_step(g, planned->h, error);
@@ -151,12 +144,11 @@ static ellipsoid_status solve_step(ellipsoid_group *g,
 }
 
 /* Evaluates the equations where a step ends; with derivatives if the next step
-   needs them, or averages that were linear. */
+   needs them. */
 static ellipsoid_status evaluate_end(ellipsoid_group *g,
-                                     const ellipsoid_plan *planned,
-                                     int averaged)
+                                     const ellipsoid_plan *planned)
 {
-    const int with_blocks = averaged || !planned->last;
+    const int with_blocks = !planned->last;
     const ellipsoid_status status =
         ellipsoid_group_evaluate(g, planned->end, g->next, !g->inertial,
                                  with_blocks ? blocks_kind(g) : 0);
@@ -167,14 +159,12 @@ static ellipsoid_status evaluate_end(ellipsoid_group *g,
     return status;
 }
 
-/* To the end of a step, which is to be taken again if something was linear that
+/* To the end of a step, which is to be taken again if planes were linear that
    may not be. */
 static ellipsoid_status take_to_end(ellipsoid_group *g,
-                                    const ellipsoid_plan *planned,
-                                    linear_parts *linear, double *error,
-                                    int *again)
+                                    const ellipsoid_plan *planned, int *linear,
+                                    double *error, int *again)
 {
-    const linear_parts taken = *linear;
     ellipsoid_status status = solve_step(g, planned, linear, error);
 
     *again = 0;
@@ -182,25 +172,12 @@ static ellipsoid_status take_to_end(ellipsoid_group *g,
     {
         return status;
     }
-    if (taken.averages)
+    status = evaluate_end(g, planned);
+    if (status == ELLIPSOID_OK && *linear)
     {
-        status = ellipsoid_correct_poses(g, planned->h);
+        *linear = ellipsoid_planes_are_linear(g, planned->h);
+        *again = !*linear;
     }
-    if (status == ELLIPSOID_OK)
-    {
-        status = evaluate_end(g, planned, taken.averages);
-    }
-    if (status == ELLIPSOID_OK && taken.averages)
-    {
-        linear->averages = ellipsoid_judge_averages(g, planned->h, error);
-    }
-    ellipsoid_forget_corrections(g);
-    if (status == ELLIPSOID_OK && *error <= 1 && linear->planes)
-    {
-        linear->planes = ellipsoid_planes_are_linear(g, planned->h);
-        *again = !linear->planes;
-    }
-    *again = *again || linear->averages != taken.averages;
     return status;
 }
 
@@ -211,8 +188,7 @@ static ellipsoid_status take_to_end(ellipsoid_group *g,
 static ellipsoid_status
 try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
 {
-    linear_parts linear = {g->averages, g->keeps};
-    int again = 1;
+    int linear = g->keeps, again = 1;
     ellipsoid_status status = ELLIPSOID_OK;
 
     while (status == ELLIPSOID_OK && again)

@@ -354,36 +354,21 @@ INLINED ellipsoid_status finish(const ellipsoid_state *state,
 
 /* The motion that the flow would give a free body; copies as above. */
 INLINED ellipsoid_status
-set_free(evaluation *e, const ellipsoid_cell *cell, ellipsoid_evaluation *at,
-         double d[4][3][3], int derivatives)
+set_free(evaluation *e, const ellipsoid_cell *cell, double d[4][3][3],
+         int derivatives)
 {
     if (e->model->flow_points > 0)
     {
         ellipsoid_frame frame = {.by_q = derivatives ? d : NULL};
         ellipsoid_free_motion motion;
-        ellipsoid_status status = ELLIPSOID_OK;
+        ellipsoid_status status;
 
-        if (cell->average)
-        {
-            ellipsoid_average_at(cell->average, e->state->x, e->state->q,
-                                 &motion);
-        }
-        else
-        {
-            memcpy(frame.axis, e->axis, sizeof(frame.axis));
-            status = ellipsoid_faxen(e->model, &cell->surroundings, e->state->x,
-                                     e->flow->velocity, &frame, &motion);
-        }
+        memcpy(frame.axis, e->axis, sizeof(frame.axis));
+        status = ellipsoid_faxen(e->model, &cell->surroundings, e->state->x,
+                                 e->flow->velocity, &frame, &motion);
         if (status == ELLIPSOID_OK)
         {
             e->free = motion;
-        }
-        if (derivatives && !cell->average)
-        {
-            ellipsoid_copy(e->state->x, at->average.x);
-            memcpy(at->average.q, e->state->q, sizeof(at->average.q));
-            at->average.free = e->free;
-            ellipsoid_correct_rates(cell, at);
         }
         return status;
     }
@@ -543,7 +528,7 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
     ellipsoid_rotation_inline(opposite, e.axis);
     if (status == ELLIPSOID_OK && drag)
     {
-        status = set_free(&e, cell, at, d, with_blocks);
+        status = set_free(&e, cell, d, with_blocks);
     }
     if (status == ELLIPSOID_OK)
     {

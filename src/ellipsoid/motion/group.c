@@ -105,13 +105,11 @@ static ellipsoid_status advance(ellipsoid_group *g,
     }
     g->failed = -1;
     g->stiff = g->dissipative = g->unsteady = g->piecewise = 0;
-    g->averages = 0;
     g->observed = observer != NULL;
     for (int cell = 0; cell < g->count; cell++)
     {
         g->cell[cell] = problem_of(&members[cell], &noise[cell]);
         set_kind(g, members[cell].model, members[cell].surroundings);
-        g->averages = g->averages || ellipsoid_has_average(&g->cell[cell]);
         g->start[cell].contact = g->next[cell].contact = nothing;
     }
     g->inertial = g->cell[0].inertial;

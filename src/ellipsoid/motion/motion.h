@@ -74,16 +74,6 @@ ellipsoid_add_body_forces(const ellipsoid_model *model,
 
 /* --------------------------------------------------------------- a cell */
 
-/* How the end of a step is corrected by what a linear average leaves out
-   (flowAverage.c); velocities (u, omega) of a free body. */
-typedef struct ellipsoid_correction
-{
-    const ellipsoid_average *start; /* NULL: it is not */
-    double h;           /* [s] the step */
-    double mean[6];     /* of what was left out, over the step */
-    double followed[6]; /* that the end follows as yet */
-} ellipsoid_correction;
-
 /* One cell's surroundings, and what an advance does not change. */
 typedef struct ellipsoid_cell
 {
@@ -100,9 +90,6 @@ typedef struct ellipsoid_cell
     int keeps; /* may it be kept over a step at all? */
     const ellipsoid_linear_planes *planes; /* of the walls, linear about a pose;
                                               NULL: those of each pose */
-    const ellipsoid_average *average; /* of FLOW_BODY, linear about a pose;
-                                         NULL: that of each pose */
-    ellipsoid_correction correction;  /* of the end that is evaluated */
     int inertial;
     int walls;
 } ellipsoid_cell;
@@ -124,7 +111,6 @@ typedef struct ellipsoid_evaluation
     ellipsoid_jacobian_blocks blocks;
     ellipsoid_contact contact; /* left as it is where there are no walls */
     ellipsoid_kept_resistance resistance; /* of ELLIPSOID_KEEPING */
-    ellipsoid_average average; /* of FLOW_BODY, set with the blocks */
     ellipsoid_linear_planes planes; /* as found there, if it `keeps` */
 } ellipsoid_evaluation;
 
@@ -161,9 +147,6 @@ ellipsoid_status ellipsoid_add_near_drag(const ellipsoid_cell *cell,
 ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
                                     ellipsoid_evaluation *at, int balanced,
                                     int with_blocks);
-
-/* Has it Faxen's average that may be linear over a step (flowAverage.c)? */
-int ellipsoid_has_average(const ellipsoid_cell *cell);
 
 #define ELLIPSOID_MAX_STAGES 7
 
@@ -278,7 +261,6 @@ typedef struct ellipsoid_group
     int unsteady; /* do the surroundings of one depend on time? */
     int keeps;       /* may the resistance near walls be kept over a step? */
     int kept_last;   /* was it, in the last step? */
-    int averages;    /* may that of the flow be taken for linear in a step? */
     int dissipative; /* do forces other than drag depend on velocities? */
     int observed; /* is the whole of ellipsoid_step asked for? */
     int piecewise; /* does the gradient of a flow jump? */
@@ -479,34 +461,9 @@ ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *group, double t,
 void ellipsoid_displace(const ellipsoid_model *model, const double u[3],
                         const double omega[3], ellipsoid_state *state);
 
-/* ---------------------------------------- what is linear over a step */
-
-/* Has cells take that of these points for linear from now on; none if NULL
-   (flowAverage.c). */
-void ellipsoid_take_averages(ellipsoid_group *group,
-                             ellipsoid_evaluation *points);
-
-/* Is what velocities make small that grow in a step of h with the square of
-   time, to this defect at the end? */
-int ellipsoid_is_slight(const ellipsoid_cell *cell, double h,
-                        const double defect[6]);
-
 /* Were planes of walls that were linear over a step of h good enough, by those
    at its end (nearDrag.c)? */
 int ellipsoid_planes_are_linear(const ellipsoid_group *group, double h);
-
-/* Displaces the poses where a step of h ends that was taken so, unless they
-   touch something; what is then evaluated there corrects u and omega. */
-ellipsoid_status ellipsoid_correct_poses(ellipsoid_group *group, double h);
-
-/* Corrects u and omega by the average there, if a correction is under way. */
-void ellipsoid_correct_rates(const ellipsoid_cell *cell,
-                             ellipsoid_evaluation *end);
-
-/* Raises *error to what that may lack. 0: the step may not be taken so. */
-int ellipsoid_judge_averages(ellipsoid_group *group, double h, double *error);
-
-void ellipsoid_forget_corrections(ellipsoid_group *group);
 
 /* -------------------------------------------------------- step control */
 

@@ -135,6 +135,20 @@ ellipsoid_status ellipsoid_add_near_drag(const ellipsoid_cell *cell,
     return status;
 }
 
+/* The part of the tolerance that a defect may take up that is not corrected. */
+static const double slight = 0.2;
+
+/* Is what velocities make small that grow in a step of h with the square of
+   time, to this defect at the end? */
+static int is_slight(const ellipsoid_cell *p, double h, const double defect[6])
+{
+    return h
+             * fmax(ellipsoid_length(defect) / p->length,
+                    0.5 * ellipsoid_length(defect + 3))
+             / p->model->options.tolerance
+        <= 3 * slight;
+}
+
 int ellipsoid_planes_are_linear(const ellipsoid_group *g, double h)
 {
     const ellipsoid_evaluation *next = &g->next[0];
@@ -146,5 +160,5 @@ int ellipsoid_planes_are_linear(const ellipsoid_group *g, double h)
     }
     ellipsoid_linear_planes_defect(g->cell[0].model, &g->start[0].planes,
                                    &next->planes, &next->state, defect);
-    return ellipsoid_is_slight(&g->cell[0], h, defect);
+    return is_slight(&g->cell[0], h, defect);
 }
