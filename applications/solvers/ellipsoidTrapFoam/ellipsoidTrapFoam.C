@@ -35,14 +35,11 @@ Usage
     ellipsoidProperties.H (ellipsoids).
 
 SourceFiles
-    apertureFlow.C
     ellipsoidTrapFoam.C
     flowFields.C
     occupiedFlow.C
-    partMesh.C
     solidBodies.C
     steadyFlow.C
-    superposedFlow.C
 
 \*---------------------------------------------------------------------------*/
 

@@ -52,28 +52,21 @@ Foam::List<Foam::heldWrench> Foam::occupiedFlow::solve
     const List<heldBody>& bodies
 )
 {
-    List<heldWrench> wrenches;
-
     Info<< "occupancy: " << bodies.size() << " cells held" << endl;
-    if (superposed_.valid())
+    solids_->set(bodies);
+    if (bodies.empty())
     {
-        wrenches =
-            superposed_->superpose(bodies, cells_.fluidDensity(), *flow_);
+        flow_->restore(*empty_);
     }
     else
     {
-        solids_->set(bodies);
-        if (bodies.empty())
-        {
-            flow_->restore(*empty_);
-        }
-        else
-        {
-            flow_->solveFrom(*empty_, cells_.occupied()->settings().tolerance);
-        }
-        wrenches = solids_->wrenches(flow_->U(), cells_.fluidDensity());
+        flow_->solveFrom(*empty_, cells_.occupied()->settings().tolerance);
     }
 
+    const List<heldWrench> wrenches
+    (
+        solids_->wrenches(flow_->U(), cells_.fluidDensity())
+    );
     forAll(bodies, i)
     {
         Info<< "occupancy: cell " << bodies[i].id << ": force "
@@ -139,15 +132,6 @@ Foam::occupiedFlow::occupiedFlow(flowFields& empty, ellipsoidCloud& cells)
 
         const fvMesh& mesh = flow_->U().mesh();
         solids_.reset(new solidBodies(mesh, readViscosity(mesh)));
-
-        const occupancy::setting& how = cells.occupied()->settings();
-        if (how.flow == occupancy::SUPERPOSED)
-        {
-            superposed_.reset
-            (
-                new superposedFlow(how, *empty_, *flow_, *solids_)
-            );
-        }
     }
 }
 
@@ -156,7 +140,6 @@ Foam::occupiedFlow::~occupiedFlow()
 {
     const undecomposedFlow::serialScope serial;
 
-    superposed_.clear();
     solids_.clear();
     empty_.clear();
     own_.clear();

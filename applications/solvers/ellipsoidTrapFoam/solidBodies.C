@@ -193,22 +193,6 @@ void Foam::solidBodies::set(const List<heldBody>& bodies)
         }
     }
 
-    setResistance();
-}
-
-
-void Foam::solidBodies::set(const labelUList& cells)
-{
-    bodies_.clear();
-    parts_.clear();
-    solid_ = 0;
-    UIndirectList<scalar>(solid_, cells) = 1;
-    setResistance();
-}
-
-
-void Foam::solidBodies::setResistance()
-{
     forAll(solid_, celli)
     {
         const scalar f = min(solid_[celli], scalar(1));

@@ -207,19 +207,6 @@ void Foam::steadyFlow::restore(const flow& kept)
 }
 
 
-void Foam::steadyFlow::add
-(
-    const scalar part,
-    const flow& one,
-    const flow& other
-)
-{
-    U_ == U_ + part*(one.U - other.U);
-    p_ == p_ + part*(one.p - other.p);
-    phi_ == phi_ + part*(one.phi - other.phi);
-}
-
-
 Foam::tmp<Foam::fvVectorMatrix> Foam::steadyFlow::momentum()
 {
     tmp<fvVectorMatrix> UEqn(fvm::div(phi_, U_) - fvm::laplacian(nu_, U_));

@@ -14,11 +14,8 @@ Description
     optimised once, which takes a third of the time that a unit for each file takes.
 
 \*---------------------------------------------------------------------------*/
-#include "apertureFlow.C"
 #include "flowFields.C"
 #include "occupiedFlow.C"
-#include "partMesh.C"
 #include "solidBodies.C"
 #include "steadyFlow.C"
-#include "superposedFlow.C"
 #include "ellipsoidTrapFoam.C"

@@ -16,8 +16,7 @@ License
 const Foam::Enum<Foam::occupancy::flowType> Foam::occupancy::flowNames
 ({
     {flowType::UNCHANGED, "unchanged"},
-    {flowType::SOLVED, "solved"},
-    {flowType::SUPERPOSED, "superposed"}
+    {flowType::SOLVED, "solved"}
 });
 
 
@@ -74,18 +73,6 @@ Foam::occupancy::setting::setting
         }
 
         apertures.append(aperture{e.keyword(), patchi, box, normal});
-    }
-
-    if
-    (
-        flow == SUPERPOSED
-     && (apertures.empty() || fates.found(cellState::stalled))
-    )
-    {
-        FatalIOErrorInFunction(dict)
-            << "flow superposed knows of cells that sieves hold, by the fluxes"
-            << " of their apertures: give apertures, and no fate but caught"
-            << exit(FatalIOError);
     }
 }
 
@@ -184,13 +171,14 @@ void Foam::occupancy::letGo
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::DynamicList<Foam::label> Foam::occupancy::aperture::faces
+Foam::scalar Foam::occupancy::aperture::flux
 (
-    const fvMesh& mesh
+    const surfaceScalarField& phi
 ) const
 {
+    const fvMesh& mesh = phi.mesh();
     const point middle(box.centre());
-    DynamicList<label> found;
+    scalar sum = 0;
 
     // Mesh faces between centres on either side of the plane in the middle
     for (label facei = 0; facei < mesh.nInternalFaces(); ++facei)
@@ -202,26 +190,8 @@ Foam::DynamicList<Foam::label> Foam::occupancy::aperture::faces
 
         if (before == after && box.contains(mesh.Cf()[facei]))
         {
-            found.append(facei);
+            sum += before ? phi[facei] : -phi[facei];
         }
-    }
-
-    return found;
-}
-
-
-Foam::scalar Foam::occupancy::aperture::flux
-(
-    const surfaceScalarField& phi
-) const
-{
-    const fvMesh& mesh = phi.mesh();
-    scalar sum = 0;
-
-    for (const label facei : faces(mesh))
-    {
-        const point& from = mesh.C()[mesh.owner()[facei]];
-        sum += phi[facei]*(((from - box.centre()) & normal) < 0 ? 1 : -1);
     }
 
     return sum;
