@@ -55,7 +55,6 @@ Description
 #include "flow/frozenFlowVertices.C"
 #include "flow/inletFlux.C"
 #include "flow/mirrorsAtVertices.C"
-#include "flow/possibleInflow.C"
 #include "flow/readViscosity.C"
 #include "flow/sharedMemory.C"
 #include "flow/undecomposedFlow.C"

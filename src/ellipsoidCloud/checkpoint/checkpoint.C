@@ -173,14 +173,6 @@ namespace Foam
     }
 
 
-    //- Is there a state in a time directory that earlier versions of this program
-    //  wrote?
-    static bool earlierVersion(const fileName& path)
-    {
-        return isFile(path/"uniform/ellipsoidCloudFiles");
-    }
-
-
     //- End the run if there is a state of the present time under another name
     static void checkNames(const Time& time)
     {
@@ -230,12 +222,7 @@ Foam::checkpoint::checkpoint(const Time& time)
         (
             text.size()
           ? file + " is damaged: it is not what was written"
-          : "time " + time.timeName()
-          + (
-                earlierVersion(path_)
-              ? " has cells of an earlier version of this program"
-              : " was not written to its end"
-            )
+          : "time " + time.timeName() + " was not written to its end"
         );
         FatalErrorInFunction
             << complaint.c_str() << nl
@@ -333,9 +320,7 @@ Foam::word Foam::checkpoint::setAsideIncomplete
         const word& name = time->second;
         const fileName path(args.path()/name);
         const bool other = isFile(path/"U") || isDir(path/"polyMesh");
-        const bool kept =
-            (Pstream::parRun() && isDir(sharedTime(path)))
-         || earlierVersion(path);
+        const bool kept = Pstream::parRun() && isDir(sharedTime(path));
         const bool complete =
             isDir(path) && (isFile(path/stateFile) || !Pstream::master());
 

@@ -12,7 +12,6 @@ License
 #include "electricField.H"
 #include "masterGate.H"
 #include "inletFlux.H"
-#include "possibleInflow.H"
 #include "clockTime.H"
 #include "surfaceFields.H"
 #include "volFields.H"
@@ -337,8 +336,7 @@ Foam::ellipsoidCloud::~ellipsoidCloud() = default;
 
 void Foam::ellipsoidCloud::checkInjections(const solverFields& flow)
 {
-    const tmp<volVectorField> inflow(possibleInflow(flow.U, flow.p));
-    undecomposed_->gather({inflow(), flow.p, flow.phi});
+    undecomposed_->gather(flow);
 
     makeDomain();
     makeInjections(false);

@@ -12,6 +12,7 @@ License
 #include "triPointRef.H"
 #include "undecomposedFlow.H"
 #include "volFields.H"
+#include "wallPolyPatch.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -19,7 +20,7 @@ Foam::patchInflow::patchInflow
 (
     const dictionary& dict,
     const undecomposedFlow& undecomposed,
-    const bool unsteady
+    const bool mayCome
 )
 {
     const word name(dict.get<word>("patch"));
@@ -62,7 +63,9 @@ Foam::patchInflow::patchInflow
 
         corners.transfer(vertices);
         behind.transfer(centres);
-        upTo.transfer(unsteady && sum <= 0 ? areas : sums);
+
+        const bool open = mayCome && !isA<wallPolyPatch>(pp);
+        upTo.transfer(open && sum <= 0 ? areas : sums);
     }
     broadcast(corners);
     broadcast(behind);

@@ -81,7 +81,12 @@ public:
         explicit patchInjection(const setting& from)
         :
             cellInjection(from),
-            inflow_(from_.dict, from.undecomposed, from.domain.flow.unsteady())
+            inflow_
+            (
+                from_.dict,
+                from.undecomposed,
+                !from.hasFlow || from.domain.flow.unsteady()
+            )
         {
             const bool steady = !from.domain.flow.unsteady();
 
