@@ -14,6 +14,7 @@ License
 #include "OSspecific.H"
 #include "vtkPolyData.H"
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -31,51 +32,38 @@ namespace Foam
         std::ostringstream os;
         os.precision(9);
 
-        const auto numbers = [&os](const scalar* v, const int n)
-        {
-            for (int i = 0; i < n; ++i)
-            {
-                os << (i ? " " : "") << v[i];
-            }
-        };
+        List<vtkArray> arrays
+        ({
+            {"Float64", "x", 3, {}},
+            {"Int32", "id", 1, {}},
+            {"Int32", "fate", 1, {}},
+            {"Int32", "patch", 1, {}},
+            {"Float64", "U", 3, {}},
+            {"Float64", "omega", 3, {}},
+            {"Float64", "axes", 9, {}}
+        });
+        const labelList points(identity(cells.size()));
+        labelList ends(points);
 
-        labelList ends(cells.size());
-        forAll(ends, i)
+        forAll(cells, i)
         {
-            ends[i] = i + 1;
+            const cellState& cell = cells[i];
+            const ellipsoid_state& body = cell.body;
+            scalar row[21];
+            scalar* at = std::copy_n(body.x, 3, row);
+            for (const label n : {cell.id, cell.fate, cell.patch})
+            {
+                *at++ = n;
+            }
+            at = std::copy_n(body.u, 3, at);
+            at = std::copy_n(body.omega, 3, at);
+            std::copy_n(fullAxes(cell, set.population).v_, 9, at);
+
+            appendPoint(arrays, row);
+            ++ends[i];
         }
 
-        vtkPolyData file(os, "Verts", ends);
-        const auto labels =
-            [&](const char* name, const label cellState::* of)
-            {
-                const auto row = [&](const label i) { os << cells[i].*of; };
-                file.array("Int32", name, 1, row);
-            };
-        const auto vectors =
-            [&](const char* name, const double (ellipsoid_state::* of)[3])
-            {
-                const auto row =
-                    [&](const label i) { numbers(cells[i].body.*of, 3); };
-                file.array("Float64", name, 3, row);
-            };
-
-        vectors("x", &ellipsoid_state::x);
-        file.pointData();
-        labels("id", &cellState::id);
-        labels("fate", &cellState::fate);
-        labels("patch", &cellState::patch);
-        vectors("U", &ellipsoid_state::u);
-        vectors("omega", &ellipsoid_state::omega);
-        file.array
-        (
-            "Float64", "axes", 9,
-            [&](const label i)
-            {
-                numbers(fullAxes(cells[i], set.population).v_, 9);
-            }
-        );
-        file.cells();
+        writePolyData(os, arrays, "Verts", points, ends);
 
         return os.str();
     }
@@ -99,7 +87,7 @@ namespace Foam
         }
 
         std::ostringstream os;
-        os  << vtkPolyData::prolog
+        os  << vtkProlog
             << "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
         for (const auto& time : times)
         {

@@ -12,10 +12,11 @@ License
 #include "stringOps.H"
 #include "vtkPolyData.H"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <numeric>
-#include <vector>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -211,78 +212,66 @@ void Foam::cellTracks::writeVTP
     const std::function<cellSize(const label)>& sizeOf
 ) const
 {
-    // Also those of the runs that this one continues, by cell
-    std::map<label, std::vector<std::string>> rowsOf;
+    List<vtkArray> arrays
+    ({
+        {"Float64", "x", 3, {}},
+        {"Float64", "t", 1, {}},
+        {"Int32", "id", 1, {}},
+        {"Float64", "U", 3, {}},
+        {"Float64", "quaternion", 4, {}},
+        {"Float64", "omega", 3, {}},
+        {"Float64", "O", 3, {}},
+        {"Int32", "fate", 1, {}},
+        {"Float64", "semiAxes", 3, {}},
+        {"Float64", "unfolded", 3, {}}
+    });
+    if (!set_.unfolds)
+    {
+        arrays.setSize(9);
+    }
+
+    // Of each cell, in the rows of the runs that this one continues, too
+    std::map<label, DynamicList<label>> pointsOf;
+    label nPoints = 0;
     std::ifstream is(file.name());
     std::string line;
     std::getline(is, line);
     while (std::getline(is, line))
     {
-        rowsOf[std::stol(line.substr(line.find(',') + 1))].push_back(line);
+        const auto fields = stringOps::split(line, ',');
+        scalar row[25];
+        for (label i = 0; i < 18; ++i)
+        {
+            row[i] = std::strtod(fields[i].str().c_str(), nullptr);
+        }
+        row[18] = cellState::fateNames[fields[18].str()];
+
+        const label id = row[1];
+        const auto options = set_.population.optionsOf(sizeOf(id));
+        std::copy_n(options.semi_axes, 3, row + 19);
+        for (label i = 0; set_.unfolds && i < 3; ++i)
+        {
+            row[22 + i] = std::strtod(fields[20 + i].str().c_str(), nullptr);
+        }
+
+        // Positions come first
+        std::rotate(row, row + 2, row + 5);
+        appendPoint(arrays, row);
+        pointsOf[id].append(nPoints++);
     }
 
+    DynamicList<label> points;
     DynamicList<label> ends;
-    std::vector<std::string> rows;
-    for (const auto& cell : rowsOf)
+    for (const auto& cell : pointsOf)
     {
-        rows.insert(rows.end(), cell.second.begin(), cell.second.end());
-        ends.append(rows.size());
+        points.append(cell.second);
+        ends.append(points.size());
     }
 
     const fileName vtp(set_.folder/"tracks.vtp");
     std::ofstream os(vtp);
     os.precision(9);
-    vtkPolyData polyData(os, "Lines", ends);
-
-    // Columns of tracks.csv as an array
-    const auto copy =
-        [&](const char* type, const char* name, const label n, const label from)
-        {
-            const auto fields =
-                [&](const label i)
-                {
-                    const auto all = stringOps::split(rows[i], ',');
-                    for (label d = 0; d < n; ++d)
-                    {
-                        os  << (d ? " " : "") << all[from + d].str();
-                    }
-                };
-            polyData.array(type, name, n, fields);
-        };
-
-    copy("Float64", "x", 3, 2);
-    polyData.pointData();
-    copy("Float64", "t", 1, 0);
-    copy("Int32", "id", 1, 1);
-    copy("Float64", "U", 3, 5);
-    copy("Float64", "quaternion", 4, 8);
-    copy("Float64", "omega", 3, 12);
-    copy("Float64", "O", 3, 15);
-    polyData.array
-    (
-        "Int32", "fate", 1,
-        [&](const label i)
-        {
-            const word name(stringOps::split(rows[i], ',')[18].str());
-            os << label(cellState::fateNames[name]);
-        }
-    );
-    if (set_.unfolds)
-    {
-        copy("Float64", "unfolded", 3, 20);
-    }
-    polyData.array
-    (
-        "Float64", "semiAxes", 3,
-        [&](const label i)
-        {
-            const label id = std::stol(stringOps::split(rows[i], ',')[1].str());
-            const auto options = set_.population.optionsOf(sizeOf(id));
-            const scalar* a = options.semi_axes;
-            os << a[0] << ' ' << a[1] << ' ' << a[2];
-        }
-    );
-    polyData.cells();
+    writePolyData(os, arrays, "Lines", points, ends);
 
     if (!os.flush())
     {

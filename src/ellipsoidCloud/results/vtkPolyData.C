@@ -11,79 +11,81 @@ License
 #include "vtkPolyData.H"
 #include "ellipsoid.h"
 
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * Global Constants  * * * * * * * * * * * * * //
 
-const char* const Foam::vtkPolyData::prolog =
+const char* const Foam::vtkProlog =
     "<?xml version=\"1.0\"?>\n"
     "<!-- ellipsoidTrapFoam " ELLIPSOID_VERSION " -->\n";
 
 
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
-Foam::vtkPolyData::vtkPolyData
+namespace Foam
+{
+    template<class Type>
+    static void writeArray
+    (
+        std::ostream& os,
+        const char* type,
+        const char* name,
+        const label nComponents,
+        const UList<Type>& values
+    )
+    {
+        os  << "<DataArray type=\"" << type << "\" Name=\"" << name
+            << "\" NumberOfComponents=\"" << nComponents
+            << "\" format=\"ascii\">\n";
+        forAll(values, i)
+        {
+            os << values[i] << ((i + 1) % nComponents ? ' ' : '\n');
+        }
+        os << "</DataArray>\n";
+    }
+
+    static void writeArray(std::ostream& os, const vtkArray& of)
+    {
+        writeArray(os, of.type, of.name, of.nComponents, of.values);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+void Foam::appendPoint(UList<vtkArray>& arrays, const scalar* row)
+{
+    for (vtkArray& to : arrays)
+    {
+        for (label i = 0; i < to.nComponents; ++i)
+        {
+            to.values.append(*row++);
+        }
+    }
+}
+
+
+void Foam::writePolyData
 (
     std::ostream& os,
+    const UList<vtkArray>& arrays,
     const char* kind,
+    const labelUList& points,
     const labelUList& ends
 )
-:
-    os_(os),
-    kind_(kind),
-    ends_(ends)
 {
-    os_ << prolog
+    os  << vtkProlog
         << "<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
-        << "<Piece NumberOfPoints=\"" << (ends.empty() ? 0 : ends.last())
-        << "\" NumberOf" << kind_ << "=\"" << ends.size()
-        << "\">\n<Points>\n";
-}
-
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-void Foam::vtkPolyData::array
-(
-    const char* type,
-    const char* name,
-    const label nComponents,
-    const std::function<void(const label)>& row
-)
-{
-    const label n = ends_.empty() ? 0 : ends_.last();
-
-    os_ << "<DataArray type=\"" << type << "\" Name=\"" << name
-        << "\" NumberOfComponents=\"" << nComponents
-        << "\" format=\"ascii\">\n";
-    for (label i = 0; i < n; ++i)
+        << "<Piece NumberOfPoints=\"" << points.size() << "\" NumberOf" << kind
+        << "=\"" << ends.size() << "\">\n<Points>\n";
+    writeArray(os, arrays[0]);
+    os << "</Points>\n<PointData>\n";
+    for (label i = 1; i < arrays.size(); ++i)
     {
-        row(i);
-        os_ << '\n';
+        writeArray(os, arrays[i]);
     }
-    os_ << "</DataArray>\n";
-}
-
-
-void Foam::vtkPolyData::pointData()
-{
-    os_ << "</Points>\n<PointData>\n";
-}
-
-
-void Foam::vtkPolyData::cells()
-{
-    os_ << "</PointData>\n<" << kind_ << ">\n";
-    array
-    (
-        "Int64", "connectivity", 1, [this](const label i) { os_ << i; }
-    );
-
-    os_ << "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
-    for (const label end : ends_)
-    {
-        os_ << end << '\n';
-    }
-    os_ << "</DataArray>\n</" << kind_
-        << ">\n</Piece>\n</PolyData>\n</VTKFile>\n";
+    os << "</PointData>\n<" << kind << ">\n";
+    writeArray(os, "Int64", "connectivity", 1, points);
+    writeArray(os, "Int64", "offsets", 1, ends);
+    os  << "</" << kind << ">\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
 
