@@ -28,7 +28,7 @@
 
     Sources: Kim et al., Lab Chip 11, 1089 (2011), supplement ("paper");
     Oberbeck (1876), Jeffery (1922), Brenner (1964); Hairer & Wanner,
-    Solving ODEs II (1996). Equations are listed in docs/theory.md.
+    Solving ODEs II (1996). Equations are listed in docs/theory.
 */
 #ifndef ELLIPSOID_H
 #define ELLIPSOID_H
@@ -126,7 +126,7 @@ typedef struct ellipsoid_facet
                     own mirror image: the elastic force is a wall's (half the
                     radius, half the modulus, twice the overlap), damping is of
                     twice the speed, and there is neither friction nor adhesion,
-                    nor a wall's resistance. docs/theory.md, "Contact" */
+                    nor a wall's resistance. docs/theory/contact.md */
 } ellipsoid_facet;
 
 /*
@@ -491,7 +491,8 @@ typedef struct ellipsoid_statistics
     An accepted step, for dense output: see ellipsoid_step_state(). It begins
     where the last one ended but for INERTIAL Brownian motion in long noise
     intervals: there u and omega have jumped and x and q moved by what they do
-    in a relaxation time (docs/theory.md, "Brownian force and torque").
+    in a relaxation time (docs/theory/forces.md, "Brownian force and
+    torque").
 */
 typedef struct ellipsoid_step
 {

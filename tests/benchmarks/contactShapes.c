@@ -4,7 +4,7 @@
     SPDX-License-Identifier: GPL-3.0-or-later
 
     contactShapes.c - beads against the ellipsoid itself: force, torque, place
-    at rest and cost (docs/contact.md).
+    at rest and cost (docs/validation.md).
 
     All sets of beads have the stiffness 4/3 E* sqrt(r_b) of the default cell.
 */

@@ -217,7 +217,7 @@ def numbers_of_cells(bench):
     numbers = [10**i for i in range(2, 9) if 10**i <= bench.largest] or [bench.largest]
     lines = [medians(bench), "",
              "| cells | way | tolerance | processor time [s] | less that before the first cell [s] "
-             "| of it, a cell [ms] | grows as the power |", "|---|---|---|---|---|---|---|"]
+             "| of it, per cell [ms] | grows as the power |", "|---|---|---|---|---|---|---|"]
     for way in bench.growing:
         few = [bench.trap(f"cells{n}", way, way[4], n) for n in numbers if n <= 10000]
         many = [bench.trap(f"cells{n}", way, way[4], n) for n in numbers if n > 10000]

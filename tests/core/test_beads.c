@@ -4,7 +4,7 @@
     SPDX-License-Identifier: GPL-3.0-or-later
 
     test_beads.c - the envelope of the bead layouts against the figures that
-    docs/theory.md gives for them, and what is refused.
+    docs/validation.md gives for them, and what is refused.
 */
 #include "coreTest.h"
 

@@ -59,7 +59,7 @@ static void test_hertz(void **unused)
 }
 
 /*
-    docs/theory.md, "Contact": in full where surfaces overlap, a smoothstep
+    docs/theory/contact.md: in full where surfaces overlap, a smoothstep
     1 - 3 t^2 + 2 t^3 from there to the range. Its integral over the range is
     half of it: the work against the pull from a gap of 0.
 */

@@ -303,7 +303,7 @@ static void test_jacobian_in_contact(void **unused)
 }
 
 /*
-    docs/theory.md, the thirteen equations and the hydrodynamic force and torque,
+    docs/theory, the thirteen equations and the hydrodynamic force and torque,
     term by term with matrices: an independent writing of the same. Rounding.
 */
 static void test_written_out(void **unused)

@@ -10,7 +10,7 @@
     The contacts of a body, at heights h along the normals n, add up as
         F = sum w_i f_i n_i,   w_i = g_i / sum_j g_j max(0, r_ij),
     r_ij = n_i.n_j: contacts along one normal count once, and those along
-    perpendicular normals count fully (docs/theory.md, "Contact").
+    perpendicular normals count fully (docs/theory/contact.md).
     g_i = f_i phi_i. The share phi_i is 1 where normals differ by more than 60
     degrees. Between contacts less than 37 degrees apart it is
         phi_i = e_i f_i / (e_i f_i + e_j f_j),   e_i = max(0, elevation_ij)

@@ -85,7 +85,7 @@ ellipsoid_hertz_at_wall(const ellipsoid_options *o)
     With t = gap/range and the pull-off force A, the smoothstep
         F = -A (1 - t)^2 (1 + 2 t),   E = -A range/2 (1 - t)^3 (1 + t)
     for 0 <= t <= 1; F = -A where surfaces overlap. F and its slope are
-    continuous. docs/theory.md, "Contact".
+    continuous. docs/theory/contact.md.
 */
 static inline ellipsoid_normal_force
 ellipsoid_adhesion_force(const ellipsoid_contact_law *law, double gap)
