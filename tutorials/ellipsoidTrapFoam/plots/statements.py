@@ -82,8 +82,6 @@ def of_flow(case):
     number = len(case.fates)
     wanted = number / case.loading / 2e7 * 1e-6
     reynolds = [speed * one * 1e-3 for one in (length, case.depth[1] - case.depth[0])]
-    times = [MILLI * (fate.t - case.tracks[cell].t[0])
-             for cell, fate in case.fates.items() if fate.name == "escaped"]
     return [
         ("cells come at about 4 mm/s", f"the flow enters at {speed:.2f} mm/s on average", CHOSEN),
         ("Reynolds' number is about 1e-2",
@@ -91,9 +89,6 @@ def of_flow(case):
          of_number(reynolds[0], 1e-2)),
         (f"{number} cells in {case.loading:g} s, of 2e7 per ml: {wanted:.3g} m³/s",
          f"{flux:.3g} m³/s", CHOSEN if abs(flux / wanted - 1) < 0.05 else of_number(flux, wanted)),
-        ("trajectories take some 60 ms",
-         f"{middle(times)} ms from inlet to outlet, median and tenths",
-         of_number(np.median(times), 60)),
     ]
 
 
@@ -176,10 +171,11 @@ def of_figure2(case):
         return [("a cell flips after it has detoured S8 (Figure 2)", str(reason), DIFFERS)]
     best, usual = told[0], told[len(told) // 2]
     good = sum(one.score > 0.8 for one in told)
+    late = np.mean([one.time > 50 for one in told])
     return [
         ("a cell detours S8, then flips, after t = 50 ms (Figure 2)",
          f"cell {best.cell} at {best.time:.0f} ms, the best of {len(told)}: fit {best.score:.2f}, "
-         f"{good} above 0.8; the one in the middle at {usual.time:.0f} ms, {usual.score:.2f}",
+         f"{good} above 0.8; the one in the middle at {usual.time:.0f} ms, {usual.score:.2f}; {late:.0%} flip after 50 ms",
          of_best(best.time > 50, usual.time > 50)),
         ("at 55 ms u_x2 rises", f"by {best.rise:+.2f} mm/s about the flip; {usual.rise:+.2f} for the one in the middle",
          of_best(best.rise > 0, usual.rise > 0)),
@@ -253,8 +249,8 @@ def of_figure1(case, members):
         (f"{count:.0f} cells have come in {thirds[0]:.3g} s", str(entered),
          verdict(abs(entered - count) < 2 * sqrt(2 / 3 * count), of_number(entered, count) == AGREES)),
         (f"within {thirds[0]:.3g} s single cells at S1, S2, S3 and S7", in_sieves(at[0]) + f"; expected {mean10}; numbers as "
-         "unlikely as the paper's: " + said.format(fit) + f"; these alone: {just:.1%}, of 1.8% at most",
-         verdict(fit >= CHANCE, fit >= CHANCE / 5)),
+         "unlikely as the paper's: " + said.format(fit) + f", a test of little power; these alone: {just:.1%}, of 1.8% at most",
+         verdict(False, fit >= CHANCE)),
         ("it names no other sieve", f"{sum(at[2][name] for name in others)} of {total} in the others at {thirds[2]:.3g} s",
          verdict(sum(at[2][name] for name in others) == 0)),
         ("in all 4 of 333, 1.2 %", f"{sum(at[0].values())} of {entered} ({low:.1f} to {high:.1f} %); expected {in_all:.2g}",
