@@ -299,6 +299,8 @@ setup_build_tree()      # WORK VERSION: WORK/tree becomes a tree that wmake can 
         --exclude='*/tutorials' --exclude='*/doc' || return
     rm -rf "$work"/{sources,lists,archives,download}
 
+    # gcc 14 and newer would say it of these headers with every file
+    echo 'c++WARN += -Wno-template-id-cdtor' >> "$work/tree/wmake/rules/General/Gcc/c++" || return
     # Settings would ask mpicc for it, which may be another MPI's
     echo "export MPI_ARCH_PATH=$(setup_debian_mpi)" > "$work/tree/etc/config.sh/openmpi-system" || return
 
