@@ -95,11 +95,6 @@ typedef struct ellipsoid_cell
     double rate;                  /* [1/s] 1/tau of u, 0 in vacuum */
     double rotation_rate;         /* [1/s] 1/tau of omega, 0 in vacuum */
     const ellipsoid_noise *noise; /* NULL: none */
-    const ellipsoid_kept_resistance *kept; /* that of a step; NULL: of each
-                                              pose */
-    int keeps; /* may it be kept over a step at all? */
-    const ellipsoid_linear_planes *planes; /* of the walls, linear about a pose;
-                                              NULL: those of each pose */
     const ellipsoid_average *average; /* of FLOW_BODY, linear about a pose;
                                          NULL: that of each pose */
     ellipsoid_correction correction;  /* of the end that is evaluated */
@@ -124,34 +119,8 @@ typedef struct ellipsoid_evaluation
     ellipsoid_jacobian_blocks blocks;
     ellipsoid_contact contact; /* left as it is where there are no walls */
     double inertia[6]; /* on the slow manifold: u_b - u, omega_b - omega */
-    ellipsoid_kept_resistance resistance; /* of ELLIPSOID_KEEPING */
     ellipsoid_average average; /* of FLOW_BODY, set with the blocks */
-    ellipsoid_linear_planes planes; /* as found there, if it `keeps` */
 } ellipsoid_evaluation;
-
-/* Are derivatives wanted? With KEEPING those of the resistance near walls are
-   left out where that may be kept over a step (equations.c). */
-enum
-{
-    ELLIPSOID_PLAIN,
-    ELLIPSOID_BLOCKS,
-    ELLIPSOID_KEEPING
-};
-
-/* What is asked of the drag near walls, and whether any is near. */
-typedef struct ellipsoid_near_drag
-{
-    int balanced, with_blocks, acted;
-} ellipsoid_near_drag;
-
-/* Adds it to the wrench and, if wanted, to the blocks, or balances the wrench
-   (nearDrag.c). */
-ellipsoid_status ellipsoid_add_near_drag(const ellipsoid_cell *cell,
-                                         ellipsoid_evaluation *at,
-                                         ellipsoid_frame *frame,
-                                         const ellipsoid_free_motion *free,
-                                         ellipsoid_body_wrench *wrench,
-                                         ellipsoid_near_drag *asked);
 
 /*
     The equations of one cell in the state of `at`, without contact with other
@@ -283,8 +252,6 @@ typedef struct ellipsoid_group
     int third_order; /* are Rosenbrock steps those of Rodas3? */
     int stiff;       /* is one a dipole in a field or under a given force? */
     int unsteady; /* do the surroundings of one depend on time? */
-    int keeps;       /* may the resistance near walls be kept over a step? */
-    int kept_last;   /* was it, in the last step? */
     int averages;    /* may that of the flow be taken for linear in a step? */
     int dissipative; /* do forces other than drag depend on velocities? */
     int observed; /* is the whole of ellipsoid_step asked for? */
@@ -544,10 +511,6 @@ void ellipsoid_take_averages(ellipsoid_group *group,
    time, to this defect at the end? */
 int ellipsoid_is_slight(const ellipsoid_cell *cell, double h,
                         const double defect[6]);
-
-/* Were planes of walls that were linear over a step of h good enough, by those
-   at its end (nearDrag.c)? */
-int ellipsoid_planes_are_linear(const ellipsoid_group *group, double h);
 
 /* Displaces the poses where a step of h ends that was taken so, unless they
    touch something; what is then evaluated there corrects u and omega. */
