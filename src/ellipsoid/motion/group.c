@@ -33,6 +33,7 @@ static ellipsoid_cell problem_of(const ellipsoid_member *member,
         .rotation_rate = drag ? 1 / m->rotation_relaxation_time : 0,
         .noise = m->options.brownian && drag ? noise : NULL,
         .inertial = m->options.motion == ELLIPSOID_MOTION_INERTIAL,
+        .fixed = member->surroundings->fixed,
         .walls = ellipsoid_has_walls(m, member->surroundings),
     };
 }
@@ -115,6 +116,7 @@ static ellipsoid_status advance(ellipsoid_group *g,
     g->inertial = g->cell[0].inertial;
     g->third_order = !g->inertial && g->piecewise;
     g->keeps = g->inertial && g->count == 1
+            && !g->cell[0].fixed
             && ellipsoid_has_near_walls(g->cell[0].model,
                                         &g->cell[0].surroundings);
     g->cell[0].keeps = g->kept_last = g->keeps;

@@ -91,6 +91,7 @@ typedef struct ellipsoid_cell
     const ellipsoid_linear_planes *planes; /* of the walls, linear about a pose;
                                               NULL: those of each pose */
     int inertial;
+    int fixed;
     int walls;
 } ellipsoid_cell;
 
@@ -405,8 +406,9 @@ ellipsoid_rosenbrock_set_of(const ellipsoid_group *g)
 static inline int ellipsoid_group_prepare(ellipsoid_group *g, double per_g)
 {
     return g->pairs ? ellipsoid_group_matrix_prepare(g, per_g)
-                    : ellipsoid_stage_matrix_prepare(g->system, g->start,
-                                                     g->inertial, per_g);
+                    : ellipsoid_stage_matrix_prepare(
+                          g->system, g->start,
+                          g->inertial || g->cell[0].fixed, per_g);
 }
 
 static inline void ellipsoid_group_solve(const ellipsoid_group *g, int stage)
