@@ -22,6 +22,10 @@
 setup_folder=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 setup_needed="an ESI OpenFOAM (openfoam.com), v1912 or newer, with headers and wmake, such as \
 the packages openfoamNNNN-default of openfoam.com, which are found in /usr/lib/openfoam"
+# Numbers have a point and messages are in English, whatever the user's language
+export LC_ALL=C.UTF-8
+# Of a user to whom none was given, that of the system's list of users
+export HOME=${HOME:-~}
 
 setup_say() { echo "[set-up] $*"; }
 
@@ -37,9 +41,7 @@ setup_fail()
 
 setup_seconds_since()   # START in $EPOCHREALTIME's format
 {
-    # Locales with a decimal comma write it into EPOCHREALTIME
-    local now=${EPOCHREALTIME/,/.} start=${1/,/.}
-    local ms=$(( (${now/./} - ${start/./}) / 1000 ))
+    local ms=$(( (${EPOCHREALTIME/./} - ${1/./}) / 1000 ))
     printf '%d.%d s' $((ms / 1000)) $((ms % 1000 / 100))
 }
 

@@ -308,6 +308,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
             reportCapture(whole, mesh.time(), images, width, criterion_);
         }
     }
+    reportApertures(false);
     if (earlier_.found())
     {
         const masterGate once;
@@ -376,6 +377,11 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow)
         properties_.options().kinematic_viscosity,
         criterion_.slowSpeed()
     );
+
+    if (flowType_ != UNSTEADY)
+    {
+        reportApertures(true);
+    }
 
     const label nCells = makeInjections(true);
     const scalar end = mesh_.time().endTime().value();

@@ -14,6 +14,7 @@ Description
 
 #include "ellipsoidCloud.H"
 #include "cellPoses.H"
+#include "inletFlux.H"
 #include "masterGate.H"
 #include "atomicWrite.H"
 #include "cpuTime.H"
@@ -63,6 +64,39 @@ void Foam::ellipsoidCloud::makeTables()
         (
             new occupancy(from, criterion_, set, earlier_.notes())
         );
+    }
+}
+
+
+void Foam::ellipsoidCloud::reportApertures(const bool hasFlow) const
+{
+    const masterGate once;
+
+    if (Pstream::master())
+    {
+        const undecomposedFlow::serialScope serial;
+        const occupancy::setting from
+        (
+            properties_.section("occupancy"), mesh_.boundaryMesh()
+        );
+
+        for (const occupancy::aperture& a : from.apertures)
+        {
+            const scalar area = a.area(undecomposed_->mesh());
+
+            if (hasFlow)
+            {
+                const scalar flux = a.flux(undecomposed_->phi());
+                const inletFlux through
+                (
+                    undecomposed_->U(), undecomposed_->phi()
+                );
+
+                Info<< "flow: aperture " << a.name << ": " << flux << " m3/s, "
+                    << flux/max(through.inflow, VSMALL) << " of the inflow, "
+                    << 1e12*area << " um2" << endl;
+            }
+        }
     }
 }
 

@@ -59,20 +59,22 @@ Foam::occupancy::setting::setting
     for (const entry& e : dict.subOrEmptyDict("apertures"))
     {
         const dictionary& of = e.dict();
-        checkKeywords(of, {"min", "max", "normal"});
+        checkKeywords(of, {"min", "max", "normal", "area"});
 
         const boundBox box(of.get<point>("min"), of.get<point>("max"));
         const vector normal(of.get<vector>("normal"));
         const label patchi = patches.findPatchID(e.keyword());
 
-        if (patchi < 0 || box.empty() || mag(normal) < SMALL)
+        if ((active && patchi < 0) || box.empty() || mag(normal) < SMALL)
         {
             FatalIOErrorInFunction(of)
                 << "aperture " << e.keyword() << " needs the name of a patch,"
                 << " min below max and a normal" << exit(FatalIOError);
         }
 
-        apertures.append(aperture{e.keyword(), patchi, box, normal});
+        const scalar area = checkedNumber(of, "area", above(0), scalar(0));
+
+        apertures.append(aperture{e.keyword(), patchi, box, normal, area});
     }
 }
 
@@ -171,27 +173,90 @@ void Foam::occupancy::letGo
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+bool Foam::occupancy::aperture::isBefore
+(
+    const fvMesh& mesh,
+    const label facei
+) const
+{
+    return ((mesh.C()[mesh.owner()[facei]] - box.centre()) & normal) < 0;
+}
+
+
+Foam::DynamicList<Foam::label> Foam::occupancy::aperture::faces
+(
+    const fvMesh& mesh
+) const
+{
+    const point middle(box.centre());
+    DynamicList<label> found;
+
+    // Mesh faces between centres on either side of the plane in the middle
+    for (label facei = 0; facei < mesh.nInternalFaces(); ++facei)
+    {
+        const point& to = mesh.C()[mesh.neighbour()[facei]];
+        const bool after = ((to - middle) & normal) >= 0;
+
+        if
+        (
+            isBefore(mesh, facei) == after
+         && box.contains(mesh.Cf()[facei])
+        )
+        {
+            found.append(facei);
+        }
+    }
+
+    return found;
+}
+
+
 Foam::scalar Foam::occupancy::aperture::flux
 (
     const surfaceScalarField& phi
 ) const
 {
     const fvMesh& mesh = phi.mesh();
-    const point middle(box.centre());
     scalar sum = 0;
 
-    // Mesh faces between centres on either side of the plane in the middle
-    for (label facei = 0; facei < mesh.nInternalFaces(); ++facei)
+    for (const label facei : faces(mesh))
     {
-        const point& from = mesh.C()[mesh.owner()[facei]];
-        const point& to = mesh.C()[mesh.neighbour()[facei]];
-        const bool before = ((from - middle) & normal) < 0;
-        const bool after = ((to - middle) & normal) >= 0;
+        sum += phi[facei]*(isBefore(mesh, facei) ? 1 : -1);
+    }
 
-        if (before == after && box.contains(mesh.Cf()[facei]))
+    return sum;
+}
+
+
+Foam::scalar Foam::occupancy::aperture::area(const fvMesh& mesh) const
+{
+    // Of a mesh that rounds the corners of the device
+    const scalar tolerance = 0.1;
+
+    scalar sum = 0;
+    for (const label facei : faces(mesh))
+    {
+        const scalar across = (mesh.Sf()[facei] & normal)/mag(normal);
+        sum += isBefore(mesh, facei) ? across : -across;
+    }
+
+    const bool given = givenArea > 0;
+
+    if (!(sum > 0) || (given && mag(sum/givenArea - 1) > tolerance))
+    {
+        FatalErrorInFunction
+            << "aperture " << name << " of occupancy is a section of "
+            << shortText(1e12*sum).c_str() << " um2 of the mesh";
+        if (given)
         {
-            sum += before ? phi[facei] : -phi[facei];
+            FatalError
+                << ", and not of " << shortText(1e12*givenArea).c_str();
         }
+        FatalError
+            << nl << "    Correct min, max and normal"
+            << (given ? " or area: " : ": ")
+            << "the box must reach across it, from wall to wall"
+            << exit(FatalError);
     }
 
     return sum;

@@ -10,11 +10,10 @@
 nested lists, with checked look-up. What is wrong ends the script with one line."""
 
 import math
-import os
-import re
 import sys
 
-from foamDictionary import parse, spelled, without_comments
+import foamDictionary
+from foamDictionary import spelled
 
 
 def chosen(usage, names):
@@ -29,40 +28,17 @@ def chosen(usage, names):
 
 def read(file):
     """The entries of a parameter file."""
-    return Entries(_parse(_text(file, file), file), "", file)
+    try:
+        entries = foamDictionary.read(file)
+    except ValueError as error:
+        fail(file, error)
+    _check(entries, file)
+    return Entries(entries, "", file)
 
 
 def fail(file, message):
     """End the script."""
     sys.exit(f"makeGeometry: {file}: {message}")
-
-
-def _text(file, top, above=()):
-    """Text of a file without comments, what it includes put in."""
-    if os.path.realpath(file) in above:
-        fail(top, f"{file} includes itself")
-    above += (os.path.realpath(file),)
-    try:
-        with open(file, encoding="utf-8") as source:
-            text = source.read()
-    except (OSError, UnicodeDecodeError) as error:
-        fail(top, f"cannot read {file}: {getattr(error, 'strerror', None) or error}")
-    text = without_comments(text)
-
-    def included(match):
-        return _text(os.path.join(os.path.dirname(file), match.group(1)), top, above)
-
-    return re.sub(r'#include\s+"([^"]*)"', included, text)
-
-
-def _parse(text, file):
-    """Nested dict of a parameter file, in which values are words, numbers or lists."""
-    try:
-        entries = parse(text)
-    except ValueError as error:
-        fail(file, error)
-    _check(entries, file)
-    return entries
 
 
 def _check(entries, file):

@@ -1,20 +1,62 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
-"""OpenFOAM's dictionaries as nested dicts, for the scripts that make geometries and pictures."""
+"""OpenFOAM's dictionaries as nested dicts, for the scripts that make geometries and pictures.
 
+#include and $ are resolved. No code is run, as a case may be another's: what #calc, #codeStream and
+the like would give stays as it is written.
+"""
+
+import os
 import re
+
+TOKENS = re.compile(r'"[^"]*"|#\{.*?#\}|[{}();]|\[[^\]]*\]|\$\{[^}]*\}|[^\s{}();"]+', re.S)
+# Directives without which a dictionary has the same entries of our programs
+PASSED_OVER = ("#includeFunc", "#includeEtc", "#inputMode", "#message")
+FOLDERS = {
+    "<case>": "", "$FOAM_CASE": "", "${FOAM_CASE}": "", "<constant>": "constant", "<system>": "system",
+}
+
+
+def text_of(file, above=()):
+    """Text of a file without header and comments, what it includes put in. A ValueError says what
+    is wrong."""
+    if os.path.realpath(file) in above:
+        raise ValueError(f"{file} includes itself")
+    try:
+        with open(file, encoding="utf-8", errors="replace") as source:
+            text = re.sub(r"\bFoamFile\s*\{[^}]*\}", " ", without_comments(source.read()))
+    except OSError as error:
+        raise ValueError(f"cannot read {file}: {error.strerror}") from None
+
+    def included(match):
+        optional, name = match[1] or match[2], match[3]
+        for tag, folder in FOLDERS.items():
+            if name.startswith(tag):
+                name = os.path.join(_case_of(file), folder, name[len(tag):].lstrip("/"))
+        name = os.path.join(os.path.dirname(file), name)
+        if optional and not os.path.exists(name):
+            return ""
+        return text_of(name, (*above, os.path.realpath(file)))
+
+    return re.sub(r'#(s)?include(IfPresent)?\s+"([^"]*)"', included, text)
+
+
+def read(file):
+    """The entries of a file, as of parse(). A ValueError says what is wrong."""
+    return parse(text_of(file))
 
 
 def without_comments(text):
     """Text of an OpenFOAM file without its comments."""
-    return re.sub(r"/\*.*?\*/|//[^\n]*", " ", text, flags=re.S)
+    return re.sub(r'("[^"]*")|/\*.*?\*/|//[^\n]*', lambda found: found[1] or " ", text, flags=re.S)
 
 
 def parse(text):
-    """The entries of a dictionary without comments and directives; lists as nested lists of words,
+    """The entries of a dictionary without comments and #include; lists as nested lists of words,
     other values as strings. What cannot be read is a ValueError."""
-    entries, at = _entries(re.findall(r'"[^"]*"|[{}();]|[^\s{}();"]+', text), 0, nested=False)
+    entries = {}
+    _entries(TOKENS.findall(text), 0, [entries])
     return entries
 
 
@@ -23,20 +65,74 @@ def spelled(value):
     return value if isinstance(value, str) else "(" + " ".join(map(spelled, value)) + ")"
 
 
-def _entries(tokens, at, nested):
-    """The entries from a token on, and the token behind them."""
-    entries = {}
+def _case_of(file):
+    """The case that a file belongs to: the folder that has a system, or the file's own."""
+    folder = os.path.dirname(os.path.abspath(file))
+    while not os.path.isdir(os.path.join(folder, "system")):
+        if folder == os.path.dirname(folder):
+            return os.path.dirname(os.path.abspath(file))
+        folder = os.path.dirname(folder)
+    return folder
+
+
+def _entries(tokens, at, scopes):
+    """Read entries from a token on into the last of the scopes; the token behind them."""
+    entries = scopes[-1]
     while at < len(tokens) and tokens[at] != "}":
         key = tokens[at]
-        if tokens[at + 1:at + 2] == ["{"]:
-            entries[key], at = _entries(tokens, at + 2, nested=True)
+        following = tokens[at + 1:at + 2]
+        if key in PASSED_OVER:
+            at += 2
+        elif key.startswith("#"):
+            raise ValueError(f"'{key}' is not resolved here: write what it stands for")
+        elif key.startswith("$") and following == [";"]:
+            _merge(entries, _found(key, scopes) or {})
+            at += 2
+        elif following == ["{"]:
+            before = entries.get(key)
+            # A dictionary that is there already is added to
+            entries[key] = before if isinstance(before, dict) else {}
+            at = _entries(tokens, at + 2, [*scopes, entries[key]])
         else:
             end = _end(tokens, at + 1, key)
-            entries[key] = _value(tokens[at + 1:end], key)
+            words = [part for word in tokens[at + 1:end] for part in _resolved(word, scopes)]
+            entries[key] = _value(words, key)
             at = end + 1
-    if nested != (at < len(tokens)):
+    if (len(scopes) > 1) != (at < len(tokens)):
         raise ValueError("'{' and '}' do not match")
-    return entries, at + 1
+    return at + 1
+
+
+def _merge(entries, others):
+    """Add the entries of another dictionary."""
+    for key, value in others.items():
+        if isinstance(value, dict):
+            before = entries.get(key)
+            entries[key] = before if isinstance(before, dict) else {}
+            _merge(entries[key], value)
+        else:
+            entries[key] = value
+
+
+def _found(word, scopes):
+    """What a macro stands for, by OpenFOAM's rules of scopes; None if it is not there."""
+    name = word.lstrip("$").strip("{}")
+    chain = scopes[:1] if name.startswith(":") else scopes
+    up = len(name) - len(name.lstrip("."))
+    if up:
+        chain = scopes[:len(scopes) + 1 - up][-1:]
+    for value in reversed(chain):
+        for part in name.strip(":.").split("."):
+            value = value.get(part) if isinstance(value, dict) else None
+        if value is not None:
+            return value
+    return None
+
+
+def _resolved(word, scopes):
+    """The words that a word of a value stands for."""
+    value = _found(word, scopes) if word.startswith("$") else None
+    return [word] if value is None or isinstance(value, dict) else TOKENS.findall(spelled(value))
 
 
 def _end(tokens, at, key):
@@ -53,6 +149,12 @@ def _end(tokens, at, key):
 
 def _value(words, key):
     """Nested lists if the words are in brackets, else one string."""
+    # Dimensions, the type of a list and its size are OpenFOAM's
+    if re.fullmatch(r"\[[^\]]*\]", words[0] if words[1:] else ""):
+        words = words[1:]
+    at = words.index("(") if "(" in words[:3] else 0
+    if re.fullmatch(r"(List<\w+> ?)?(\d+ ?)?", " ".join(words[:at])):
+        words = words[at:]
     if words[:1] != ["("] or words[-1] != ")":
         return " ".join(words)
     stack = [[]]

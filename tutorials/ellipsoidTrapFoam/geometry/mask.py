@@ -16,7 +16,7 @@ import re
 import rings
 from entries import read
 from rings import TOUCH, Ring
-from surfaces import Output, curtain, flux_entry, patch_flux_entry, slab, through
+from surfaces import Output, aperture_entry, curtain, slab, through
 
 PARAMETERS = "constant/chip"
 WALLS = "walls.stl"
@@ -34,7 +34,7 @@ def at(point):
 
 def patch_name(d, name):
     """A name that a patch may have."""
-    if not re.fullmatch(r"[A-Za-z]\w*", name) or name in RESERVED:
+    if not re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII) or name in RESERVED:
         d.fail(f"'{d.name}{name}': {name} is no name for a patch: letters, digits and _, "
                f"beginning with a letter, and none of {' '.join(RESERVED)}")
     return name
@@ -333,25 +333,31 @@ def walls_of(plan, base):
     return walls
 
 
-def sections_of(top, depth):
-    """Function objects of the sections."""
+def sections_of(top, plan, depth, base):
+    """The sections, as apertures."""
     sections, text = top.sub_if("sections"), ""
     for name in sections.entries:
-        if OPENING.fullmatch(patch_name(sections, name)):
-            sections.fail(f"'{sections.name}{name}': names of openings are taken: another name")
+        patch_name(sections, name)
         ends = [sections.numbers(value, 2, key, "a point (x y)") for value, key in sections.items(name)]
         same = [axis for axis in (0, 1) if len(ends) == 2 and abs(ends[0][axis] - ends[1][axis]) < TOUCH]
         if len(same) != 1:
             sections.fail(f"'{sections.name}{name}' must be two ends of a line along x or y")
-        text += flux_entry(name, ends, same[0], depth)
+        area = depth*rings.length_between(plan, *ends)
+        if not area > 0:
+            sections.fail(f"'{sections.name}{name}' lies nowhere in the fluid")
+        # Across the line up to mesh cells on either side, over the depth beyond floor and ceiling
+        low, high = ([end(*pair) for pair in zip(*ends)] for end in (min, max))
+        low[same[0]] -= base
+        high[same[0]] += base
+        text += aperture_entry(name, (*low, -base), (*high, depth + base), same[0], area)
     return text
 
 
 def make_mask(resolution):
     """Everything, in the case folder; what there is, in one line."""
     top = read(PARAMETERS)
-    top.only("FoamFile", "resolution", "depth", "inletPressure", "outline", "obstacles", "stl",
-             "stlScale", "boxes", "sections", "resolutions")
+    top.only("resolution", "depth", "inletPressure", "outline", "obstacles", "stl", "stlScale",
+             "boxes", "sections", "resolutions")
     resolution = resolution or top.get("resolution")
     plan = plan_of(top)
     check_rings(top, plan)
@@ -359,7 +365,7 @@ def make_mask(resolution):
     narrowest = check_gaps(top, plan, mesh)
     inside = inside_point(top, plan, mesh)
     depth, pressure = top.number("depth"), top.number("inletPressure")
-    sections = sections_of(top, depth)
+    sections = sections_of(top, plan, depth, mesh.base)
     area = abs(rings.area(plan[0].points)) - sum(abs(rings.area(ring.points)) for ring in plan[1:])
 
     out = Output(PARAMETERS)
@@ -386,8 +392,7 @@ def make_mask(resolution):
     out.text("boxLevels", "".join(
         f"box_{name} {{ mode inside; levels ((1e15 {level})); }}\n" for name, (*_, level) in mesh.boxes.items()
     ))
-    inlets = [name for name in mesh.levels if name.startswith("inlet")]
-    out.text("sectionFluxes", "".join(map(patch_flux_entry, inlets)) + sections)
+    out.text("sections", sections)
     facts = {"obstacles": len(plan) - 1, "area": area, "depth": depth, "finestCell": mesh.finest()}
     if narrowest:
         facts["narrowestGap"] = narrowest.width

@@ -72,6 +72,25 @@ def nearest(a, b, c, d):
     return min((math.dist(p, q), p, q) for p, q in pairs)
 
 
+def length_between(rings, start, end):
+    """Length of what of a line lies in the first ring and in no other."""
+    (x0, y0), (dx, dy) = start, (end[0] - start[0], end[1] - start[1])
+    cuts = [0.0, 1.0]
+    for ring in rings:
+        sides = [dx*(y - y0) - dy*(x - x0) for x, y in ring.points]
+        along = [((x - x0)*dx + (y - y0)*dy)/(dx*dx + dy*dy) for x, y in ring.points]
+        for i, (a, b) in enumerate(zip(sides, sides[1:] + sides[:1])):
+            if (a < 0) != (b < 0):
+                cuts.append(along[i] + a/(a - b)*(along[(i + 1) % len(along)] - along[i]))
+    cuts = sorted(s for s in cuts if 0 <= s <= 1)
+    length = 0.0
+    for a, b in zip(cuts, cuts[1:]):
+        middle = x0 + 0.5*(a + b)*dx, y0 + 0.5*(a + b)*dy
+        if contains(rings[0].points, *middle) and not any(contains(one.points, *middle) for one in rings[1:]):
+            length += (b - a)*math.hypot(dx, dy)
+    return length
+
+
 def neighbours(rings, reach):
     """Pairs of edges that share no corner and whose bounding boxes are not farther apart."""
     boxed = sorted(

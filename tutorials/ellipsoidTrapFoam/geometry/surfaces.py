@@ -47,60 +47,12 @@ def slab(bounds, base):
     return entries
 
 
-def flux_entry(name, ends, axis, depth):
-    """Function object: the volume flux [m3/s] through the section between two ends, a line
-    (x0 y0) (x1 y1) across the axis 0 or 1."""
-    reach = 1e-6
-    depth *= 1e-6
-    lows, highs = ([1e-6*v for v in pair] for pair in ends)
-    along = 1 - axis
-    if lows[along] > highs[along]:
-        lows, highs = highs, lows
-    point, normal = [0, 0, 0], [0, 0, 0]
-    point[axis], normal[axis] = lows[axis], 1
-    least, most = lows + [-reach], highs + [depth + reach]
-    least[axis] -= reach
-    most[axis] += reach
-    point, normal, least, most = (
-        "({:.9g} {:.9g} {:.9g})".format(*v) for v in (point, normal, least, most)
-    )
-    return f"""
-{name}
-{{
-    $flux;
-    regionType      sampledSurface;
-    name            {name};
-    operation       areaNormalIntegrate;
-    fields          (U);
-
-    sampledSurfaceDict
-    {{
-        type        plane;
-        planeType   pointAndNormal;
-        pointAndNormalDict
-        {{
-            point   {point};
-            normal  {normal};
-        }}
-        bounds      {least} {most};
-        interpolate false;
-    }}
-}}
-"""
-
-
-def patch_flux_entry(name):
-    """The same through a patch."""
-    return f"""
-{name}
-{{
-    $flux;
-    regionType      patch;
-    name            {name};
-    operation       sum;
-    fields          (phi);
-}}
-"""
+def aperture_entry(name, low, high, axis, area):
+    """Of occupancy in ellipsoidCloudProperties: the section across an axis in the middle of a box
+    with these corners, through which the flux is told."""
+    corners = ("({:.9g} {:.9g} {:.9g})".format(*(1e-6*v for v in corner)) for corner in (low, high))
+    normal = ("(1 0 0)", "(0 1 0)")[axis]
+    return "{} {{ min {}; max {}; normal {}; area {:.9g}; }}\n".format(name, *corners, normal, 1e-12*area)
 
 
 class Output:

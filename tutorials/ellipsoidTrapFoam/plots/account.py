@@ -111,10 +111,10 @@ def detour(case, cell, sieve=SIEVE):
         return None
     rows = case.tracks[cell]
     # Most never come near: find that out from their rows
-    corners = case.plane.outlines[sieve].reshape(-1, 2)
+    low, high = case.box(sieve)
     reach = 2 * NEAR + np.abs(np.diff(rows.x[:, :2], axis=0)).max(initial=0)
     x = rows.x[:, :2]
-    if not ((x > corners.min(axis=0) - reach) & (x < corners.max(axis=0) + reach)).all(1).any():
+    if not ((x > low - reach) & (x < high + reach)).all(1).any():
         return None
     track = finer_track(case, cell)
     gaps = walls.distance(case, [sieve], track.x, within=2 * NEAR)

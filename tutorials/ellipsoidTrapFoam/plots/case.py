@@ -20,15 +20,12 @@ from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkCleanPolyData, vtkCu
 from vtkmodules.vtkIOParallel import vtkPOpenFOAMReader
 from vtkmodules.vtkParallelCore import vtkDummyController
 
-import poses
 from files import (
-    CaseError, number_folders, read_csv, read_dictionary, read_text, without_header,
+    CaseError, number, number_folders, read_csv, read_dictionary, read_text, without_comments,
 )
 from plane import Plane, coincide
 from shares import PUSHING_DISPERSION, in_words, wilson
-
-MICRO = 1e6   # m to micrometres
-MILLI = 1e3   # m/s to mm/s, s to ms
+from track import MICRO, MILLI, Track  # noqa: F401  (others take the units from here)
 
 # That of ellipsoid_options_default() in src/ellipsoid
 DEFAULT_SEMI_AXES = (0.5e-6, 2e-6, 0.5e-6)
@@ -50,101 +47,6 @@ class NotApplicable(Exception):
     """The case has nothing that this picture could show."""
 
 
-STEEPEST = 3   # tangents of a cubic in chords: above, it turns back (Fritsch & Carlson 1980)
-
-
-def cubic(start, end, tangents, s):
-    """Place and d/ds at 0 <= s <= 1 on cubics, and whether the rates are those of a smooth
-    motion: rows of a cell at rest may lie far apart, and their tangents are then shortened."""
-    limited = [poses.at_most(one, end - start, STEEPEST) for one in tangents]
-    smooth = np.all([one == kept for one, kept in zip(limited, tangents)], axis=(0, 2))[:, None]
-    return (
-        poses.hermite(start, end, *limited, s), poses.hermite_rate(start, end, *limited, s), smooth
-    )
-
-
-def between(values, first, s):
-    """On the straight line between two rows."""
-    return values[first] + s * (values[first + 1] - values[first])
-
-
-class Track(namedtuple("Track", "t x u q omega axis")):
-    """The rows of one cell by time, in arrays."""
-
-    __slots__ = ()
-
-    def at(self, times):
-        """The track at other times: x and q on cubics that have the velocity and spin of its
-        rows, and u and omega as the rates of these."""
-        if len(self.t) < 2:
-            return Track(*(np.repeat(part[:1], len(times), axis=0) for part in self))
-        first = np.searchsorted(self.t, times, side="right") - 1
-        first = np.clip(first, 0, len(self.t) - 2)
-        last = first + 1
-        dt = np.maximum(self.t[last] - self.t[first], 1e-30)[:, None]
-        s = np.clip((np.asarray(times)[:, None] - self.t[first][:, None]) / dt, 0, 1)
-        # A row is written as a cell enters and one as it leaves: not yet, or no more, at its ease
-        inner = ((first > 0) & (last < len(self.t) - 1))[:, None]
-
-        tangents = [self.u[row] * dt * MICRO / MILLI for row in (first, last)]
-        x, rate, smooth = cubic(self.x[first], self.x[last], tangents, s)
-        u = np.where(smooth & inner, rate / dt * MILLI / MICRO, between(self.u, first, s))
-        # q and -q are the same pose
-        start, end = self.q[first], self.q[last]
-        near = np.where((start * end).sum(axis=1, keepdims=True) < 0, -1, 1)
-        tangents = [
-            poses.quaternion_rate(start, self.omega[first]) * dt,
-            near * poses.quaternion_rate(end, self.omega[last]) * dt,
-        ]
-        q, rate, smooth = cubic(start, near * end, tangents, s)
-        omega = np.where(smooth & inner, poses.spin(q, rate / dt), between(self.omega, first, s))
-        q /= np.linalg.norm(q, axis=1, keepdims=True)
-        return Track(np.asarray(times), x, u, q, omega, poses.long_axis(q))
-
-    def spin_at(self, times):
-        """omega at other times without the corners that at() leaves at the rows: quartics with
-        the mean of at() over every interval, and at a row the mean of its slopes on both sides."""
-        if len(self.t) < 3:
-            return self.at(times).omega
-        dt = np.diff(self.t)[:, None]
-        start, end = self.omega[:-1], self.omega[1:]
-        middle = self.at((self.t[1:] + self.t[:-1]) / 2).omega
-        # The parabolas through these three
-        first = (4 * middle - 3 * start - end) / dt
-        last = (3 * end + start - 4 * middle) / dt
-        slopes = np.concatenate((
-            first[:1], (last[:-1] * dt[1:] + first[1:] * dt[:-1]) / (dt[1:] + dt[:-1]), last[-1:]
-        ))
-        lacking = (start + 4 * middle + end) / 6 - (start + end) / 2
-        lacking -= (slopes[:-1] - slopes[1:]) * dt / 12
-        row = np.clip(np.searchsorted(self.t, times, side="right") - 1, 0, len(dt) - 1)
-        dt = dt[row]
-        s = np.clip((np.asarray(times) - self.t[row])[:, None] / dt, 0, 1)
-        a, b = slopes[row] * dt, slopes[row + 1] * dt
-        # s^2 (1 - s)^2 has the mean 1/30
-        return poses.hermite(start[row], end[row], a, b, s) + 30 * lacking[row] * (s - s * s) ** 2
-
-    def finer(self, parts=6):
-        """The track with every interval between rows divided."""
-        steps = np.diff(self.t)[:, None] * np.arange(parts) / parts
-        return self.at(np.append((self.t[:-1, None] + steps).ravel(), self.t[-1]))
-
-    @property
-    def travelled(self):
-        """Length of the path up to every row."""
-        return np.append(0, np.linalg.norm(np.diff(self.x, axis=0), axis=1).cumsum())
-
-    @property
-    def turned(self):
-        """Angle turned through, back and forth, up to every row."""
-        half = np.abs((self.q[1:] * self.q[:-1]).sum(axis=1))
-        return np.append(0, 2 * np.arccos(np.minimum(half, 1)).cumsum())
-
-    def until(self, t):
-        """The rows up to a time."""
-        return Track(*(part[self.t <= t] for part in self))
-
-
 class Case:
     """A case folder; everything is read when first asked for."""
 
@@ -157,12 +59,23 @@ class Case:
         """Path of something in the case."""
         return os.path.join(self.folder, *parts)
 
+    def target(self, *parts):
+        """Path of something to be written: links of a case of another's must not lead out of it."""
+        path, folder = self.path(*parts), os.path.realpath(self.folder)
+        if not os.path.realpath(path).startswith(os.path.join(folder, "")):
+            raise CaseError(f"{path}: leads out of the case: nothing is written there")
+        return path
+
     # -- dictionaries --------------------------------------------------------
 
     @cached_property
     def properties(self):
         """constant/ellipsoidCloudProperties as nested dicts of strings and lists."""
         return read_dictionary(self.path("constant", "ellipsoidCloudProperties"))
+
+    def number(self, default, *keys):
+        """A number of the properties."""
+        return number(self.path("constant", "ellipsoidCloudProperties"), self.properties, default, *keys)
 
     @property
     def independent(self):
@@ -181,15 +94,17 @@ class Case:
     def dispersion(self):
         """Variance of a number of cells caught by that of independent cells: of cells that push what
         constant/modelBand tells of this design, or else the most that has been seen."""
-        measured = self._of_model.get("dispersion", {}).get(self.design, PUSHING_DISPERSION)
-        return 1.0 if self.independent else float(measured)
+        if self.independent:
+            return 1.0
+        file = self.path("constant", "modelBand")
+        return number(file, self._of_model, PUSHING_DISPERSION, "dispersion", self.design)
 
     @property
     def band(self):
         """(least, most) of a number of cells caught with other choices of the model, by that
         with the choices made: constant/modelBand, or None."""
-        given = self._of_model
-        return (float(given["least"]), float(given["most"])) if given else None
+        file, given = self.path("constant", "modelBand"), self._of_model
+        return (number(file, given, 1, "least"), number(file, given, 1, "most")) if given else None
 
     def share_in_words(self, held, trials):
         """A share with the interval of chance and, where known, the band of the model."""
@@ -243,14 +158,17 @@ class Case:
         if not os.path.isfile(file):
             return None
         chamber = read_dictionary(file)
-        radius, width = float(chamber["radius"]), float(chamber["channelWidth"])
+        radius, width = (number(file, chamber, np.nan, key) for key in ("radius", "channelWidth"))
+        if not radius >= width / 2 > 0:
+            raise CaseError(f"{file}: radius and channelWidth are not those of a chamber")
         return radius, float(np.sqrt(radius**2 - width**2 / 4))
 
     @cached_property
     def loading(self):
         """How long cells enter [s]: the last duration of the injections, or as it was."""
         durations = [
-            float(one["duration"]) for one in self.properties.get("injection", {}).values()
+            self.number(0, "injection", name, "duration")
+            for name, one in self.properties.get("injection", {}).items()
             if isinstance(one, dict) and "duration" in one
         ]
         return max(durations, default=self.last_injection)
@@ -264,7 +182,7 @@ class Case:
     def patches(self):
         """Patch name to type, in the order of the mesh."""
         file = self.path("constant", "polyMesh", "boundary")
-        text = without_header(read_text(file))
+        text = without_comments(read_text(file))
         found = re.findall(r"([^\s(){};]+)\s*\{[^{}]*?\btype\s+(\w+)\s*;", text)
         if not found:
             raise CaseError(f"{file}: no patches found")
@@ -278,10 +196,20 @@ class Case:
         names = []
         for pattern in patterns:
             if pattern.startswith('"'):
-                names += [name for name in walls if re.fullmatch(pattern[1:-1], name)]
+                names += [name for name in walls if self._matches(pattern[1:-1], name)]
             else:
                 names += [name for name in walls if name == pattern]
         return list(dict.fromkeys(names))
+
+    def _matches(self, pattern, name):
+        """Is a name one of a regular expression's, as OpenFOAM understands it?"""
+        for posix, own in (("[:alpha:]", "a-zA-Z"), ("[:digit:]", "0-9"), ("[:alnum:]", "a-zA-Z0-9")):
+            pattern = pattern.replace(posix, own)
+        try:
+            return re.fullmatch(pattern, name)
+        except re.error as error:
+            file = self.path("constant", "ellipsoidCloudProperties")
+            raise CaseError(f"{file}: capture/sieves: \"{pattern}\": {error}") from None
 
     # -- times ---------------------------------------------------------------
 
@@ -446,6 +374,19 @@ class Case:
         """The pieces of a patch, VTK's polygons in metres."""
         return self._vtk[1].get(name, [])
 
+    def box(self, name):
+        """(low, high) corners in the plan of a patch: of where the plane at half depth cuts it or, of a
+        floor, of all of it."""
+        if name in self.plane.outlines:
+            corners = self.plane.outlines[name].reshape(-1, 2)
+        else:
+            bounds = np.array([piece.GetBounds() for piece in self.patch_surfaces(name)
+                               if piece.GetNumberOfCells()])
+            corners = bounds.reshape(-1, 3, 2)[:, :2].swapaxes(1, 2).reshape(-1, 2) * MICRO
+        if not len(corners):
+            raise CaseError(f"{self.path('constant', 'polyMesh', 'boundary')}: patch {name} has no faces")
+        return corners.min(axis=0), corners.max(axis=0)
+
     @cached_property
     def depth(self):
         """(lowest, highest) z of the mesh."""
@@ -459,14 +400,15 @@ class Case:
 
     @property
     def fluxes(self):
-        """Flux [m3/s] through inlets, sieves or sections, as postProcess logged it."""
-        file = self.path("log.postProcess")
-        found = {}
-        for block in (read_text(file) if os.path.isfile(file) else "").split("surfaceFieldValue "):
-            value = re.search(r"\) of \w+ = (\S+)", block)
-            if value:
-                found[block.split()[0]] = abs(float(value.group(1)))
-        return found
+        """(name, flux [m3/s], part of the inflow) of the apertures of the device without cells, as the
+        solver logged them last."""
+        file = self.path("log.ellipsoidTrapFoam")
+        rows = re.findall(
+            r"flow: aperture (\S+): (\S+) m3/s, (\S+) of the inflow",
+            read_text(file) if os.path.isfile(file) else "",
+        )
+        last = {name: (name, float(flux), float(part)) for name, flux, part in rows}
+        return list(last.values())
 
     @property
     def mesh_size(self):
@@ -505,6 +447,8 @@ class Case:
             return clean.GetOutput()
 
         section = cut(meshes)
+        if not section.GetNumberOfPolys():
+            raise CaseError(f"{self.folder}: no fluid at half depth, z = {plane.GetOrigin()[2]:.3g} m")
         points = vtk_to_numpy(section.GetPoints().GetData())[:, :2] * MICRO
         polygons = section.GetPolys()
         U = vtk_to_numpy(section.GetCellData().GetArray("U"))

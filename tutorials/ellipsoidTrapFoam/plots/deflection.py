@@ -82,7 +82,7 @@ def draw(case):
         others = draw_tracks(ax, Case(case.path("uncharged")), UNCHARGED)
         keys.append(Line2D([], [], label=f"without charge ({len(others)})", **UNCHARGED))
     paths = draw_tracks(ax, case, CHARGED)
-    charge = float(case.properties["forces"].get("charge", 0))
+    charge = case.number(0, "forces", "charge")
     keys.append(Line2D([], [], label=f"charge {charge:g} C ({len(paths)})", **CHARGED))
     style.legend_below(ax, keys)
 

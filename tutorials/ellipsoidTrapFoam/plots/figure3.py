@@ -13,7 +13,6 @@ import poses
 import style
 from case import MICRO
 from figure2 import RESTING, cell_or_best, find
-from files import CaseError
 
 # A view and a pose in which no two axes fall together
 VIEW = bodies.camera(70, 30)
@@ -125,13 +124,8 @@ def contact_of(case):
     if contact.get("shape", "beads") == "ellipsoid":
         return None
     layout = contact.get("beadLayout", "staggered")
-    try:
-        count = int(contact.get("beads", 32))
-        radius = float(contact.get("beadRadius", 0.285e-6)) * MICRO
-    except ValueError:
-        file = case.path("constant", "ellipsoidCloudProperties")
-        raise CaseError(f"{file}: contact/beads or beadRadius is no number") from None
-    return layout, count, radius
+    count = int(case.number(32, "contact", "beads"))
+    return layout, count, case.number(0.285e-6, "contact", "beadRadius") * MICRO
 
 
 def draw_surface(ax, case, scale):

@@ -19,6 +19,8 @@ from files import CaseError
 
 
 HEIGHT = 6.6      # of the plan, in inches
+WIDEST = 12.0
+MOST_CELLS = 80   # across a close-up
 SIEVE_COLOUR = style.VERMILLION
 
 OPTIONS = {
@@ -30,19 +32,19 @@ OPTIONS = {
 }
 
 
-def finest(plane, name):
-    """Square window (xlim, ylim) about the smallest mesh cells at a sieve."""
-    corners = plane.outlines[name].reshape(-1, 2)
-    low, high = corners.min(axis=0), corners.max(axis=0)
+def finest(plane, low, high):
+    """Square window (xlim, ylim) about the smallest mesh cells at a sieve, which lies in a box."""
     middles = np.array([polygon.mean(axis=0) for polygon in plane.polygons])
     inside = ((middles > low) & (middles < high)).all(axis=1)
-    # A sieve may fill its box
+    # A sieve may fill its box, or be one straight edge
     while not inside.any():
-        low, high = low - 0.1 * (high - low), high + 0.1 * (high - low)
+        more = 0.1 * (high - low).max()
+        low, high = low - more, high + more
         inside = ((middles > low) & (middles < high)).all(axis=1)
-    small = inside & (plane.areas < 2 * plane.areas[inside].min())
-    low, high = middles[small].min(axis=0), middles[small].max(axis=0)
-    half = 0.6 * max(high - low)
+    small = np.flatnonzero(inside & (plane.areas < 2 * plane.areas[inside].min()))
+    corners = np.concatenate([plane.polygons[k] for k in small])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    half = min(0.55 * max(high - low), MOST_CELLS / 2 * np.sqrt(plane.areas[small].min()))
     return np.add.outer((low + high) / 2, [-half, half])
 
 
@@ -56,7 +58,7 @@ def draw_mesh(ax, case, linewidth):
 
 def draw_close_up(close, case, name, title):
     """The window about a sieve's finest mesh cells; its limits."""
-    window = finest(case.plane, name)
+    window = finest(case.plane, *case.box(name))
     style.plan_axes(close, *window)
     draw_mesh(close, case, 0.3)
     close.yaxis.tick_right()
@@ -91,8 +93,7 @@ def close_ups(case, sieve, designs):
         return [(case, sieve, sieve)]
     alike = {}
     for name in case.sieves:
-        corners = case.plane.outlines[name].reshape(-1, 2)
-        alike.setdefault(tuple(np.ptp(corners, axis=0).round(1)), []).append(name)
+        alike.setdefault(tuple(np.subtract(*case.box(name)).round(1)), []).append(name)
     return [
         (case, names[0], names[0] + (f" (all {len(names)} alike)" if names[1:] else ""))
         for names in alike.values()
@@ -127,10 +128,9 @@ def draw(case, sieve=None, designs=()):
     rows = math.ceil(len(panels) / max(columns, 1))
     # One close-up alone leaves room for more of the plan
     side = HEIGHT / max(rows, 2)
-    plan = HEIGHT * width / height
-    figure = plt.figure(
-        figsize=(plan + columns * (side + 0.35) + 0.9, HEIGHT + 1), layout="constrained"
-    )
+    plan = min(HEIGHT * width / height, WIDEST)
+    high = max(plan * height / width, rows * side)
+    figure = plt.figure(figsize=(plan + columns * (side + 0.35) + 0.9, high + 1), layout="constrained")
     grid = figure.add_gridspec(
         max(rows, 1), 1 + columns, width_ratios=[plan] + [side] * columns
     )

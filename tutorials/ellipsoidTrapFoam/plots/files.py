@@ -7,7 +7,6 @@ import csv
 import gzip
 import os
 import re
-import subprocess
 import sys
 import warnings
 
@@ -15,7 +14,11 @@ import numpy as np
 
 sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), "../geometry"))
 
-from foamDictionary import parse, spelled, without_comments  # noqa: E402  (found by the path above)
+import foamDictionary  # noqa: E402  (found by the path above)
+from foamDictionary import spelled, without_comments  # noqa: E402, F401
+
+# Of names with a comma; an older NumPy reads tables without
+QUOTES = {"quotechar": '"'} if np.lib.NumpyVersion(np.__version__) >= "1.23.0" else {}
 
 
 class CaseError(Exception):
@@ -31,28 +34,25 @@ def read_text(file):
         raise CaseError(f"{file}: {error.strerror or error}") from None
 
 
-def without_header(text):
-    """Text of an OpenFOAM file without its comments and header."""
-    return re.sub(r"\bFoamFile\s*\{[^}]*\}", " ", without_comments(text))
-
-
 def read_dictionary(file):
     """An OpenFOAM dictionary as nested dicts; lists as lists, other values as strings."""
-    text = without_header(read_text(file))
-    if re.search(r"[#$]", text):
-        # Directives and macros are OpenFOAM's to resolve
-        try:
-            text = subprocess.run(
-                ["foamDictionary", "-expand", file],
-                check=True, capture_output=True, text=True, encoding="latin-1",
-            ).stdout
-        except (OSError, subprocess.CalledProcessError):
-            raise CaseError(f"{file}: its # and $ need OpenFOAM's foamDictionary") from None
-        text = without_header(text)
     try:
-        return parse(text)
+        return foamDictionary.read(file)
     except ValueError as error:
         raise CaseError(f"{file}: {error}") from None
+
+
+def number(file, entries, default, *keys):
+    """A number of a dictionary, by the keys that lead to it; the default where it is left out."""
+    for key in keys:
+        entries = entries.get(key) if isinstance(entries, dict) else None
+    if entries is None:
+        return default
+    try:
+        return float(entries)
+    except (TypeError, ValueError):
+        words = "a dictionary" if isinstance(entries, dict) else spelled(entries)
+        raise CaseError(f"{file}: {'/'.join(keys)} is no number: {words}") from None
 
 
 def read_csv(file, types):
@@ -68,8 +68,8 @@ def read_csv(file, types):
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", "loadtxt: input contained no data")
             rows = np.loadtxt(
-                file, dtype=types, delimiter=",", skiprows=1, ndmin=1,
-                usecols=[header.index(name) for name, _ in types],
+                file, dtype=types, delimiter=",", skiprows=1, ndmin=1, comments=None,
+                usecols=[header.index(name) for name, _ in types], **QUOTES,
             )
     except (ValueError, IndexError) as error:
         raise CaseError(f"{file}: {error}") from None
@@ -111,12 +111,24 @@ def write_csv(file, names, rows):
     def word_of(value):
         if isinstance(value, float):
             return "" if np.isnan(value) else f"{value:.9g}"
-        return value
+        return no_formula(value)
 
     with open(file, "w", newline="", encoding="utf-8") as f:
         table = csv.writer(f, lineterminator="\n")
         table.writerow(names)
         table.writerows([word_of(value) for value in row] for row in rows)
+
+
+def no_formula(word):
+    """What spreadsheets would run stands behind a quotation mark: words that begin as a formula."""
+    text = str(word)
+    if len(text) < 2 or text[0] not in "=+-@":
+        return word
+    try:
+        float(text)
+    except ValueError:
+        return "'" + text
+    return word
 
 
 def number_folders(root):

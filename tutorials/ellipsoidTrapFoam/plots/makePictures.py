@@ -89,12 +89,12 @@ def main(words):
                  f"{' '.join(sorted((*PICTURES, *BY_ITSELF)))}")
     try:
         case = case_of(folder)
+        if not rest:
+            parser = argparse.ArgumentParser(prog="makePictures CASE")
+            style.add_format(parser)
+            return make_all(folder, parser.parse_args(options).format)
     except CaseError as error:
         sys.exit(f"{rest[0] if rest else 'makePictures'}: {error}")
-    if not rest:
-        parser = argparse.ArgumentParser(prog="makePictures CASE")
-        style.add_format(parser)
-        return make_all(folder, parser.parse_args(options).format)
     if rest == ["report"]:
         return report.make(case)
     return style.command(importlib.import_module(rest[0]), case, rest[1:])

@@ -26,6 +26,8 @@ from case import MILLI, NotApplicable
 from files import CaseError
 
 MARGIN = 9.0        # shown about the sieve, in micrometres
+LONG = 60.0         # of a sieve at most
+WIDEST = 8000       # pixels
 LINES = 1080        # of the MP4 at least; the WebP has half as many
 LEFT, RIGHT, BELOW, ABOVE = 116, 156, 232, 64   # pixels about the window
 STEP = 0.5e-3       # s between frames
@@ -132,6 +134,17 @@ def busiest(case):
     return max(case.sieves, key=lambda name: case.count("caught", name))
 
 
+def in_view(case, sieve):
+    """(low, high) corners of a sieve, of a long one about the first cell that it caught."""
+    low, high = case.box(sieve)
+    held = [(one.t, cell) for cell, one in case.fates.items()
+            if one.name == "caught" and one.patch == sieve and cell in case.tracks]
+    at = case.tracks[min(held)[1]].x[-1, :2] if held else (low + high) / 2
+    half = np.minimum(LONG, high - low) / 2
+    middle = np.clip(at, low + half, high - half)
+    return middle - half, middle + half
+
+
 def draw_stage(case, sieve, window, scale, caption):
     """What does not move, as an image, with LEFT and ABOVE pixels before its axes."""
     (x0, x1), (y0, y1) = window
@@ -204,8 +217,7 @@ def rows_of(times, actors):
 
 def draw_device(case):
     """The film of all cells."""
-    corners = np.vstack([lines.reshape(-1, 2) for lines in case.plane.outlines.values()])
-    window = tuple(zip(corners.min(axis=0) - 1, corners.max(axis=0) + 1))
+    window = tuple((low - 1, high + 1) for low, high in case.plane.bounds)
     times, actors = follow_all(case)
     factor = FRAME / (MILLI * times[1])
     caption = f"""All cells of the run, true ellipsoids seen from above,
@@ -224,8 +236,8 @@ def draw(case, sieve=None, device=False):
     if device:
         return draw_device(case)
     sieve = sieve or busiest(case)
-    corners = case.plane.outlines[sieve].reshape(-1, 2)
-    window = tuple(zip(corners.min(axis=0) - MARGIN, corners.max(axis=0) + MARGIN))
+    low, high = in_view(case, sieve)
+    window = tuple(zip(low - MARGIN, high + MARGIN))
     shown = cast(case, sieve, window)
     if not shown:
         raise NotApplicable(f"no cell comes near {sieve}")
@@ -241,7 +253,7 @@ def draw(case, sieve=None, device=False):
 
 def film_of(case, sieve, window, times, actors, caption):
     """The frames of actors in a window, and their data."""
-    scale = -(-(LINES - BELOW - ABOVE + 1) // np.ptp(window[1]))
+    scale = min(-(-(LINES - BELOW - ABOVE + 1) // np.ptp(window[1])), WIDEST / np.ptp(window[0]))
     stage = draw_stage(case, sieve, window, scale, caption)
     font = ImageFont.truetype(font_manager.findfont("DejaVu Sans"), 30)
 

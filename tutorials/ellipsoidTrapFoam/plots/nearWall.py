@@ -29,7 +29,7 @@ Rows = namedtuple("Rows", "distance spin middle passing")
 def moving_rows(case):
     """Distance [µm] from the sieves, spin rate [rad/s], and whether in the middle of the
     depth and of a cell that escapes, of all rows in the chamber at which it is not slow."""
-    share = float(case.properties.get("capture", {}).get("speedFraction", 0.01))
+    share = case.number(0.01, "capture", "speedFraction")
     slow = share * case.entry_speed
     low, high = case.depth
     parts = []

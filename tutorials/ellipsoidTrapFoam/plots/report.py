@@ -20,7 +20,7 @@ from PIL import Image
 from vtkmodules.vtkCommonCore import vtkVersion
 
 from case import MILLI
-from files import CaseError, read_dictionary, read_text, spelled
+from files import CaseError, number, read_dictionary, read_text, spelled
 from shares import wilson
 from style import SUFFIXES
 
@@ -131,11 +131,12 @@ def picture_of(case, name, title, number):
     try:
         with open(stem + ".json", encoding="utf-8") as f:
             note = json.load(f)
+        caption, table = note["caption"], note["table"]
         with open(file, "rb") as f:
             data = base64.b64encode(f.read()).decode("ascii")
         with Image.open(file) as image:
             width, height = image.size
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, KeyError, TypeError) as error:
         raise CaseError(f"{file}: {error}") from None
     beside = [
         (suffix, f"pictures/{name}.{suffix}") for suffix in SUFFIXES
@@ -150,11 +151,10 @@ def picture_of(case, name, title, number):
         "<figure>",
         f'<a href="{largest}"><img width="{shown}" height="{round(shown * height / width)}" '
         f'alt="{text_of(title)}" src="data:image/{file[-4:].strip(".")};base64,{data}"></a>',
-        f"<figcaption><b>{number}.</b> {text_of(note['caption'])} "
+        f"<figcaption><b>{number}.</b> {text_of(caption)} "
         f"In full: {links}.</figcaption>",
         "</figure>",
     ]
-    table = note["table"]
     if table:
         parts.append(table_of(table, kind="words" if len(table[0]) == 2 else ""))
     return "\n".join(parts)
@@ -214,12 +214,10 @@ def device(case):
     file = case.path("constant", "generated", "plan")
     if os.path.isfile(file):
         given = read_dictionary(file)
-        rows += [(told, f"{float(given[key]):.4g}") for key, told in PLAN.items() if key in given]
+        rows += [(told, f"{number(file, given, 0, key):.4g}") for key, told in PLAN.items() if key in given]
     if case.sieves:
-        middles = (case.plane.outlines[name].reshape(-1, 2) for name in case.sieves)
         rows.append(("sieves, middle (x y) [µm]", "; ".join(
-            "{} ({:.3g} {:.3g})".format(name, *((m.min(axis=0) + m.max(axis=0)) / 2))
-            for name, m in zip(case.sieves, middles)
+            "{} ({:.3g} {:.3g})".format(name, *np.mean(case.box(name), axis=0)) for name in case.sieves
         )))
     return words_table(rows, "Lengths of a design are in µm, its inlet pressure is kinematic "
                        "[m²/s²]." if case.design else "")
@@ -237,20 +235,19 @@ def flow(case):
         if value is not None:
             rows.append((name, f"{scale * float(value):.4g} {unit}"))
     # A chip may have several inlets
-    for patch, value in dict(all_logged(case, r"flow: (\w+): (\S+) m3/s in,")).items():
+    for patch, value in dict(all_logged(case, r"flow: (\S+): (\S+) m3/s in,")).items():
         rows.append((f"flux through the patch {patch}", f"{1e12 * float(value):.4g} 10⁻¹² m³/s"))
     found = logged(case, r"flow: (converged in \d+ iterations|already converged[^\n]*)")
     if found:
         rows.append(("steady state", found))
     rows.append(("mesh", f"{case.mesh_size:,} mesh cells"))
     parts = [words_table(rows)]
-    shares = case.fluxes
-    total = sum(shares.pop(name) for name in list(shares) if name.startswith("inlet"))
-    if total and shares:
-        parts.append(table_of(
-            [["through", *shares], ["share of what enters"]
-             + [f"{value / total:.2%}" for value in shares.values()]]
-        ))
+    if case.fluxes:
+        names, fluxes, shares = zip(*case.fluxes)
+        parts.append(table_of([
+            ["through", *names], ["flux [10⁻¹² m³/s]", *(f"{1e12 * abs(one):.4g}" for one in fluxes)],
+            ["share of what enters", *(f"{abs(one):.2%}" for one in shares)],
+        ]))
     return "\n".join(parts)
 
 
@@ -306,12 +303,12 @@ def parameters(case):
         ("constant", "transportProperties", ("nu",)),
         ("system", "controlDict", ("endTime", "deltaT", "writeInterval")),
     ):
-        given = read_dictionary(case.path(folder, name))
-        for key in wanted:
-            if key in given:
-                value = given[key]
-                words = spelled(value)
-                rows.append((f"{folder}/{name}: {key}", words))
+        try:
+            given = read_dictionary(case.path(folder, name))
+        except CaseError as error:
+            rows.append((f"{folder}/{name}", f"not read: {error}"))
+            continue
+        rows += [(f"{folder}/{name}: {key}", spelled(given[key])) for key in wanted if key in given]
     parts.append(words_table(rows))
     return "\n".join(parts)
 
@@ -383,8 +380,8 @@ def page(case):
 
 def make(case):
     """Write the report and say what came of it; whether it went well."""
-    file = case.path("report.html")
     try:
+        file = case.target("report.html")
         text = page(case)
         with open(file, "w", encoding="utf-8") as f:
             f.write(text)

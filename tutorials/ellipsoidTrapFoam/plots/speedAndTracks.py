@@ -69,10 +69,9 @@ def draw(case):
             )
 
     for name in case.sieves:
-        corners = plane.outlines[name].reshape(-1, 2)
+        (left, _), (right, top) = case.box(name)
         ax.annotate(
-            f"{name}: {case.count('caught', name)}",
-            (corners[:, 0].mean(), corners[:, 1].max()),
+            f"{name}: {case.count('caught', name)}", ((left + right) / 2, top),
             xytext=(0, 3), textcoords="offset points", ha="center", va="bottom",
             fontsize=8, fontweight="bold", path_effects=style.framed("white", 2),
         )

@@ -15,7 +15,7 @@ import sys
 
 def cells_of(path):
     """The rows of cells.csv, by id."""
-    with open(path, newline="", encoding="ascii") as file:
+    with open(path, newline="", encoding="utf-8") as file:
         return sorted(csv.DictReader(file), key=lambda row: int(row["id"]))
 
 

@@ -28,6 +28,8 @@ from files import CaseError, write_csv
 FORMATS = ("png", "pdf", "svg")
 # So that the same data leave the same bytes
 UNDATED = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
+# A side of a picture: matplotlib draws up to 65 536
+MOST_DOTS = 30000
 # What may lie beside one another under the name of a picture
 SUFFIXES = (*FORMATS, "webp", "mp4", "json", "csv")
 
@@ -105,7 +107,7 @@ def plan_figure(xlim, ylim, beside=1.4, below=0.9):
     width, height = xlim[1] - xlim[0], ylim[1] - ylim[0]
     scale = min(5 / width, 7 / height)
     figure, ax = plt.subplots(
-        figsize=(width * scale + beside, height * scale + below), layout="compressed"
+        figsize=(max(width * scale, 1) + beside, max(height * scale, 1) + below), layout="compressed"
     )
     plan_axes(ax, xlim, ylim)
     return figure, ax
@@ -193,21 +195,19 @@ def print_table(table):
 def save(figure, case, name, formats):
     """Write a picture and what describe() said of it to the case's pictures; the paths."""
     name = getattr(figure, "name", name)
-    stem = case.path("pictures", name)
-    made = [f"{stem}.{suffix}" for suffix in getattr(figure, "suffixes", formats)]
-    file = stem
+    suffixes = getattr(figure, "suffixes", formats)
+    *made, note, data = (case.target("pictures", f"{name}.{one}") for one in (*suffixes, "json", "csv"))
+    file = case.path("pictures")
     try:
-        os.makedirs(os.path.dirname(stem), exist_ok=True)
-        for file in made:
-            suffix = file.rsplit(".", 1)[-1]
+        os.makedirs(file, exist_ok=True)
+        for file, suffix in zip(made, suffixes):
             # What is drawn as pixels within a page of lines is to stand print
-            figure.savefig(
-                file, dpi=200 if suffix == "png" else 400, metadata=UNDATED.get(suffix)
-            )
-        file = stem + ".json"
+            dots = resolution(figure, 200 if suffix == "png" else 400)
+            figure.savefig(file, dpi=dots, metadata=UNDATED.get(suffix))
+        file = note
         with open(file, "w", encoding="utf-8") as f:
             json.dump(figure.note, f, ensure_ascii=False, indent=1)
-        file = stem + ".csv"
+        file = data
         write_csv(file, *figure.data)
     except OSError as error:
         raise CaseError(f"{file}: {error.strerror or error}") from None
@@ -216,10 +216,18 @@ def save(figure, case, name, formats):
     return made
 
 
+def resolution(figure, wanted):
+    """Dots an inch: fewer of a page that would be larger than can be drawn."""
+    if not isinstance(figure, plt.Figure):
+        return wanted
+    width, height = figure.get_size_inches()
+    return min(wanted, MOST_DOTS / max(width, height))
+
+
 def remove(case, name):
     """Take away a picture made before."""
     for suffix in SUFFIXES:
-        file = case.path("pictures", f"{name}.{suffix}")
+        file = case.target("pictures", f"{name}.{suffix}")
         if os.path.isfile(file):
             os.remove(file)
 

@@ -17,7 +17,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 import style  # the look, by being read
-from files import CaseError, read_csv
+from files import CaseError, no_formula, read_csv
 from shares import mcnemar, wilson
 
 RESULTS = ("postProcessing", "ellipsoidCloud", "0")
@@ -119,12 +119,13 @@ def write_csv(file, members, names, sieves, first):
     header += [*OTHER_FATES, *comparison(first), "wall time [s]"]
     with open(file, "w", newline="", encoding="utf-8") as f:
         table = csv.writer(f)
-        table.writerow(header)
+        table.writerow(map(no_formula, header))
         for one in members:
+            values = map(no_formula, one.values)
             if not one.done:
-                table.writerow([one.name, *one.values] + ["failed"] + [""] * (len(header) - len(names) - 2))
+                table.writerow([one.name, *values] + ["failed"] + [""] * (len(header) - len(names) - 2))
                 continue
-            row = [one.name, *one.values, one.injected, one.caught()]
+            row = [one.name, *values, one.injected, one.caught()]
             row += [one.caught(name) for name in sieves]
             for held in (one.caught(), *(one.caught(name) for name in sieves)):
                 share = held / one.drawn if one.drawn else float("nan")
@@ -248,7 +249,8 @@ def main(folder):
     first = done[0] if done else None
     sieves = list(dict.fromkeys(name for one in done for name in one.sieves))
     write_csv(os.path.join(folder, "table.csv"), members, names, sieves, first)
-    lines = ["| " + " | ".join(map(str, row)) + " |" for row in markdown(members, names, sieves, first)]
+    lines = ["| " + " | ".join(str(word).replace("|", "\\|") for word in row) + " |"
+             for row in markdown(members, names, sieves, first)]
     with open(os.path.join(folder, "table.md"), "w", encoding="utf-8") as f:
         f.write("\n".join(lines) + "\n")
     print("\n".join(lines))

@@ -20,6 +20,8 @@ from poses import rotation
 
 MARGIN = 2.0     # about a sieve, in micrometres
 COLUMNS = 4
+LONG, ABOUT = 60.0, 10.0   # a longer sieve is shown so far about the cells that it holds
+LOWEST, TALLEST = 3.4, 40  # inches
 ABOVE, MOUTH = (0, 1), (0, 2)   # directions across a view from above, and along y
 DASHES = {"caught": "-", "stalled": (0, (2, 1))}   # of a cell's rim
 FLOW_MAP = ListedColormap(plt.get_cmap("Blues")(np.linspace(0, 0.6, 256)), "paleBlues")
@@ -34,6 +36,16 @@ def shadow(x, q, semi_axes, across):
     angle = np.linspace(0, 2 * np.pi, 97)
     circle = np.array([np.cos(angle), np.sin(angle)])
     return x[list(across)] + (directions @ (np.sqrt(squares)[:, None] * circle)).T
+
+
+def in_view(case, name):
+    """(low, high) corners of a sieve that holds cells or, if it is long, of where they are."""
+    low, high = case.box(name)
+    held = [case.tracks[cell].x[-1, :2] for cell, fate in case.fates.items()
+            if fate.name == "caught" and fate.patch == name and cell in case.tracks]
+    if held and (high - low).max() > LONG:
+        low, high = np.maximum(low, np.min(held, axis=0) - ABOUT), np.minimum(high, np.max(held, axis=0) + ABOUT)
+    return low, high
 
 
 def draw_cells(ax, case, cells, across, colour_of):
@@ -56,7 +68,7 @@ def draw_cells(ax, case, cells, across, colour_of):
 def draw_mouth(ax, case, name, xlim):
     """What a sieve's side view shows besides cells: its upright edges."""
     low, high = case.depth
-    corners = case.plane.outlines[name].reshape(-1, 2)
+    corners = case.plane.outlines.get(name, np.empty(0)).reshape(-1, 2)
     # Corners of the plan are the ends of long runs of one x
     xs, counts = np.unique(corners[:, 0].round(2), return_counts=True)
     ax.vlines(xs[counts > 4], low, high, color="0.75", linewidth=0.6, zorder=0)
@@ -95,10 +107,8 @@ def draw(case):
     rows = math.ceil(len(holding) / columns)
     windows = {}
     for name in holding:
-        corners = plane.outlines[name].reshape(-1, 2)
-        windows[name] = np.array(
-            [corners.min(axis=0) - MARGIN, corners.max(axis=0) + MARGIN]
-        ).T
+        low, high = in_view(case, name)
+        windows[name] = np.transpose([low - MARGIN, high + MARGIN])
 
     fastest = 0
     for (x0, x1), (y0, y1) in windows.values():
@@ -112,7 +122,7 @@ def draw(case):
     sizes = [max(np.ptp(ylim) for _, ylim in windows.values()), np.ptp(case.depth)] * rows
     figure, axes = plt.subplots(
         2 * rows, columns, squeeze=False, layout="compressed", height_ratios=sizes,
-        figsize=(1.9 + 2.3 * columns, 0.7 * len(sizes) + 2.2 * sum(sizes) / width),
+        figsize=(1.9 + 2.3 * columns, np.clip(0.7 * len(sizes) + 2.2 * sum(sizes) / width, LOWEST, TALLEST)),
     )
     for ax in axes.T.reshape(columns, rows, 2).swapaxes(0, 1).reshape(-1, 2)[len(holding):].flat:
         ax.set_axis_off()
