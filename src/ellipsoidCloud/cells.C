@@ -22,12 +22,14 @@ Description
 #include "injection/patchInjection.C"
 #include "injection/positionsInjection.C"
 
+#include "cloud/caseFiles.C"
 #include "cloud/caseSummary.C"
 #include "cloud/cellParticles.C"
 #include "cloud/cellState.C"
 #include "cloud/checkedEntries.C"
 #include "cloud/ellipsoidCloud.C"
 #include "cloud/ellipsoidCloudFiles.C"
+#include "cloud/ellipsoidCloudInjections.C"
 #include "cloud/ellipsoidCloudRun.C"
 #include "cloud/ellipsoidOptions.C"
 #include "cloud/ellipsoidProperties.C"
@@ -42,6 +44,7 @@ Description
 #include "results/cellEvent.C"
 #include "results/cellPoses.C"
 #include "results/cellTracks.C"
+#include "results/csvFields.C"
 #include "results/vtkPolyData.C"
 
 #include "checkpoint/atomicWrite.C"

@@ -46,6 +46,7 @@ SourceFiles
 #include "argList.H"
 #include "Time.H"
 #include "fvMesh.H"
+#include "caseFiles.H"
 #include "ellipsoidCloud.H"
 #include "occupiedFlow.H"
 #include "checkpoint.H"
@@ -137,10 +138,23 @@ int main(int argc, char *argv[])
 {
     addOptions();
 
-    #include "setRootCaseLists.H"
+    #include "setRootCaseListOptions.H"
+    argList args(argc, argv);
+    #include "setRootCaseListOutput.H"
+    #include "foamDlOpenLibs.H"
 
     const bool flowOnly = args.found("flowOnly");
     const bool dryRun = args.found("dry-run");
+
+    fileNameList files
+    ({
+        "constant/transportProperties", "system/fvSchemes", "system/fvSolution"
+    });
+    if (!flowOnly)
+    {
+        files.append("constant/ellipsoidCloudProperties");
+    }
+    caseFiles::checkCase(args, files);
 
     const word start
     (
@@ -161,10 +175,7 @@ int main(int argc, char *argv[])
     Sout.precision(6);
     Pout.precision(6);
 
-    if (!flowOnly)
-    {
-        ellipsoidProperties::checkDimensions(runTime);
-    }
+    caseFiles::checkMesh(runTime, !flowOnly);
 
     // Not createMesh.H, which takes a column of cells for a dry run
     Info<< "Create mesh for time = " << runTime.timeName() << nl << endl;

@@ -9,6 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "flowFields.H"
+#include "caseFiles.H"
 #include "checkedEntries.H"
 #include "checkFinite.H"
 #include "dictionary.H"
@@ -220,7 +221,7 @@ bool Foam::flowFields::foreign() const
 Foam::flowFields::flowFields(const fvMesh& mesh)
 :
     mesh_(mesh),
-    instance_(mesh.time().findInstance(mesh.dbDir(), "U")),
+    instance_(caseFiles::flowInstance(mesh)),
     hasFlux_
     (
         returnReduce

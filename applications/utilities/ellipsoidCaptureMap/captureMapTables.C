@@ -9,6 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 #include "captureMap.H"
 #include "OFstream.H"
+#include "csvFields.H"
 #include "IOmanip.H"
 #include "OSspecific.H"
 #include "atomicWrite.H"
@@ -130,9 +131,13 @@ void Foam::captureMap::writeStarts(Ostream& os) const
         {
             os << ',' << x;
         }
-        os  << ',' << one.at.pose << ',' << kindName(kindOf(id)).c_str()
-            << ',' << (touched < 0 ? "-" : cells_.patchNames()[touched].c_str())
-            << nl;
+        const word name
+        (
+            touched < 0 ? word("-") : cells_.patchNames()[touched]
+        );
+        os  << ',' << one.at.pose << ','
+            << csvField(kindName(kindOf(id))).c_str() << ','
+            << csvField(name).c_str() << nl;
     }
 }
 
@@ -143,7 +148,7 @@ void Foam::captureMap::writePoses(Ostream& os) const
 
     forAll(poses_, p)
     {
-        os << p << ',' << poses_[p].name.c_str();
+        os << p << ',' << csvField(poses_[p].name).c_str();
         for (const scalar q : poses_[p].q)
         {
             os << ',' << q;
@@ -165,6 +170,10 @@ void Foam::captureMap::writeSquares(Ostream& os) const
         const labelHashSet found(kindsOn(one));
         const inletPlane::window w(windowOf(one));
         const point x(plane_.position(0.5*(w.s0 + w.s1), 0.5*(w.t0 + w.t1)));
+        const word kind
+        (
+            found.size() > 1 ? word("mixed") : kindName(*found.begin())
+        );
 
         os << one.at.pose << ',' << one.level;
         for (const scalar component : x.v_)
@@ -173,9 +182,7 @@ void Foam::captureMap::writeSquares(Ostream& os) const
         }
         os  << ',' << w.s1 - w.s0 << ',' << w.t1 - w.t0
             << ',' << shares_[i].area << ',' << shares_[i].inflow << ','
-            << (found.size() > 1 ? word("mixed") : kindName(*found.begin()))
-               .c_str()
-            << nl;
+            << csvField(kind).c_str() << nl;
     }
 }
 
@@ -194,7 +201,8 @@ void Foam::captureMap::writeSummary(Ostream& os) const
         for (const label kind : all)
         {
             const word name(p < 0 ? word("all") : poses_[p].name);
-            os << name.c_str() << ',' << kindName(kind).c_str();
+            os  << csvField(name).c_str() << ','
+                << csvField(kindName(kind)).c_str();
 
             for (const bool byInflow : {true, false})
             {

@@ -36,6 +36,8 @@ SourceFiles
 #include "fvMesh.H"
 #include "columnFvMesh.H"
 #include "captureMap.H"
+#include "caseFiles.H"
+#include "caseSummary.H"
 #include "masterGate.H"
 #include "checkpoint.H"
 #include "ellipsoid.h"
@@ -81,6 +83,10 @@ static void checkCase
 
     const masterGate once;
 
+    if (Pstream::master())
+    {
+        refuseRepeated(runTime.globalPath()/runTime.system()/dict.dictName());
+    }
     captureMap::check(dict, mesh.boundaryMesh(), seed);
     checkedNumber<scalar>(runTime.controlDict(), "deltaT", above(0));
 
@@ -103,14 +109,27 @@ int main(int argc, char *argv[])
         " Version " ELLIPSOID_VERSION
     );
 
-    #include "setRootCaseLists.H"
+    #include "setRootCaseListOptions.H"
+    argList args(argc, argv);
+    #include "setRootCaseListOutput.H"
+    #include "foamDlOpenLibs.H"
+
+    caseFiles::checkCase
+    (
+        args,
+        {
+            "constant/transportProperties", "constant/ellipsoidCloudProperties",
+            "system/captureMapDict", "system/fvSchemes", "system/fvSolution"
+        }
+    );
+
     #include "createTime.H"
 
     // The digits of writePrecision are for files
     Sout.precision(6);
     Pout.precision(6);
 
-    ellipsoidProperties::checkDimensions(runTime);
+    caseFiles::checkMesh(runTime, true);
     #include "createMesh.H"
 
     ellipsoidProperties properties(mesh);
@@ -128,7 +147,7 @@ int main(int argc, char *argv[])
         )
     );
 
-    const word instance(runTime.findInstance(mesh.dbDir(), "U"));
+    const word instance(caseFiles::flowInstance(mesh));
     checkCase(dict, mesh, properties.seed(), instance);
 
     undecomposedFlow undecomposed(mesh);
@@ -138,6 +157,12 @@ int main(int argc, char *argv[])
         const surfaceScalarField phi(fieldOf("phi", instance, mesh), mesh);
 
         undecomposed.gather({U, p, phi});
+        reportInertia
+        (
+            U,
+            longestSemiAxis(properties.options()),
+            properties.options().kinematic_viscosity
+        );
 
         const independentCells cells(properties, mesh, undecomposed);
 

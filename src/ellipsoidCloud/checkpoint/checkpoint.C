@@ -11,6 +11,7 @@ License
 #include "masterGate.H"
 #include "atomicWrite.H"
 #include "argList.H"
+#include "caseFiles.H"
 #include "cloud.H"
 #include "OSspecific.H"
 #include "plainLists.H"
@@ -60,17 +61,11 @@ namespace Foam
     //- Is the run to go on from the latest time there is? Collective
     static bool fromLatestTime(const argList& args)
     {
-        const fileName path(args.rootPath()/args.globalCaseName());
-        string text(textOf(path/"system"/"controlDict"));
-        broadcast(text);
-
-        // What is wrong with the file the Time will say
-        const dictionary control(parsed(text, "controlDict"));
         const word latest("latestTime");
 
         return
-            control.size()
-         && control.getOrDefault("startFrom", latest) == latest;
+            caseFiles::controls(args).getOrDefault("startFrom", latest)
+         == latest;
     }
 
     //- The time directories of all ranks, in ascending order; collective
@@ -275,20 +270,25 @@ Foam::dictionary Foam::checkpoint::notesOf(const polyMesh& mesh)
 }
 
 
-void Foam::checkpoint::checkMesh(const dictionary& notesNow) const
+void Foam::checkpoint::checkSame
+(
+    const word& name,
+    const dictionary& notesNow
+) const
 {
     if (!found())
     {
         return;
     }
 
-    const string text(difference(notes_.subDict("mesh"), notesNow));
+    const string text(difference(notes_.subDict(name), notesNow));
 
     if (!text.empty())
     {
         FatalErrorInFunction
-            << path_ << " holds cells of another mesh:" << text.c_str() << nl
-            << "    Put the mesh back, or start again from the first time"
+            << path_ << " holds cells of another " << name.c_str() << ':'
+            << text.c_str() << nl << "    Put the " << name.c_str()
+            << " back, or start again from the first time"
             << exit(FatalError);
     }
 }
@@ -314,6 +314,10 @@ Foam::word Foam::checkpoint::setAsideIncomplete
     broadcast(tracked);
 
     const std::set<namedTime> times(allTimes(args.path()));
+    if (times.empty())
+    {
+        return word::null;
+    }
 
     for (auto time = times.rbegin(); std::next(time) != times.rend(); ++time)
     {
@@ -358,7 +362,7 @@ Foam::word Foam::checkpoint::setAsideIncomplete
         meet();
     }
 
-    return times.empty() ? word::null : times.begin()->second;
+    return times.begin()->second;
 }
 
 

@@ -13,9 +13,12 @@ License
 #include "cellPopulation.H"
 #include "domainImages.H"
 #include "fvMesh.H"
+#include "gaussGrad.H"
 #include "inletFlux.H"
 #include "narrowestGaps.H"
+#include "surfaceFields.H"
 #include "Time.H"
+#include "volFields.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -212,6 +215,49 @@ void Foam::reportFlow
             << "The Reynolds number is " << word::printf("%.3g", number)
             << ". The pressure p is kinematic: Pa by the density, m2/s2" << nl
             << endl;
+    }
+}
+
+
+bool Foam::reportInertia
+(
+    const volVectorField& U,
+    const scalar longest,
+    const scalar nu
+)
+{
+    // By Gauss, as the case need not name a scheme for it
+    const tmp<volTensorField> gradU
+    (
+        fv::gaussGrad<vector>::gradf(linearInterpolate(U)(), "gradU")
+    );
+    const scalar shear = sqrt(2.0)*gMax(mag(symm(gradU().primitiveField()))());
+    const scalar number = shear*sqr(longest)/nu;
+
+    if (number <= 0.1)
+    {
+        return false;
+    }
+    Warning
+        << "The particle Reynolds number comes to " << word::printf("%.2g", number)
+        << ", where the shear rate is " << word::printf("%.2g", shear)
+        << " 1/s: above 0.1 the inertia of the fluid, which the model of a"
+        << " cell does not have, turns and shifts it" << nl << endl;
+
+    return true;
+}
+
+
+void Foam::reportFilling(const scalar cells, const scalar fluid)
+{
+    const scalar part = cells/fluid;
+
+    if (part > 0.01)
+    {
+        Warning
+            << "The cells fill " << word::printf("%.2g", 100*part)
+            << " % of the fluid that they enter with: above 1 % they change"
+            << " the flow, which the model leaves out" << nl << endl;
     }
 }
 

@@ -10,6 +10,9 @@ License
 
 #include "checkedEntries.H"
 #include "dimensionedTypes.H"
+#include "IFstream.H"
+
+#include <vector>
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
@@ -35,6 +38,68 @@ void Foam::checkKeywords
             FatalIOError<< nl
                 << "    allowed: " << flatOutput(allowed)
                 << exit(FatalIOError);
+        }
+    }
+}
+
+
+void Foam::refuseRepeated(const fileName& file)
+{
+    IFstream is(file);
+    token t;
+
+    // Lines of the entries in each block that is open, and tokens of the present
+    // entry, with the depth of lists or braces in its value
+    std::vector<HashTable<label>> blocks(1);
+    label nTokens = 0;
+    label depth = 0;
+
+    while (is.read(t).good() && t.good())
+    {
+        const bool opens = t == token::BEGIN_LIST || t == token::BEGIN_BLOCK;
+        const bool closes = t == token::END_LIST || t == token::END_BLOCK;
+
+        if (depth > 0 || (opens && nTokens != 1) || t == token::BEGIN_LIST)
+        {
+            depth += opens - closes;
+        }
+        else if (opens)
+        {
+            blocks.emplace_back();
+            nTokens = 0;
+        }
+        else if (closes || t == token::END_STATEMENT)
+        {
+            blocks.resize(max(std::size_t(1), blocks.size() - closes));
+            nTokens = 0;
+        }
+        else if (nTokens++ == 0 && (t.isWord() || t.isString()))
+        {
+            const string key(t.isWord() ? t.wordToken() : t.stringToken());
+
+            // Of #if and #else one is read
+            if (key.find("#if") == 0)
+            {
+                return;
+            }
+            if (key[0] == '#')
+            {
+                std::string rest;
+                is.getLine(rest);
+                nTokens = 0;
+            }
+            else if
+            (
+                blocks.size() > 1 && key[0] != '$'
+             && !blocks.back().insert(key, t.lineNumber())
+            )
+            {
+                FatalIOErrorInFunction(is)
+                    << key.c_str() << " stands twice in one block, at lines "
+                    << blocks.back()[key] << " and " << t.lineNumber() << nl
+                    << "    OpenFOAM makes one entry of them: remove one, or"
+                    << " give it a name of its own" << exit(FatalIOError);
+            }
         }
     }
 }

@@ -77,32 +77,6 @@ void Foam::ellipsoidCloud::makeDomain()
 }
 
 
-Foam::label Foam::ellipsoidCloud::makeInjections(const bool hasFlow)
-{
-    const dictionary& dict = properties_.subDict("injection");
-    const scalar runStart = readScalar(firstTime_);
-    label nCells = 0;
-
-    for (const entry& e : dict)
-    {
-        const cellInjection::setting from
-        {
-            e.dict(), *undecomposed_, *domain_, population_, nCells,
-            runStart, hasFlow
-        };
-
-        injections_.append(cellInjection::New(from).ptr());
-        {
-            const masterGate once;
-            injections_.last().check();
-        }
-        nCells += injections_.last().size();
-    }
-
-    return nCells;
-}
-
-
 void Foam::ellipsoidCloud::checkFlowType() const
 {
     const masterGate once;
@@ -132,14 +106,24 @@ void Foam::ellipsoidCloud::checkFlowType() const
 void Foam::ellipsoidCloud::checkClock() const
 {
     const Time& time = mesh_.time();
+    const scalar left = time.endTime().value() - time.value();
+    const scalar deltaT = time.deltaTValue();
     const masterGate once;
 
-    if (!earlier_.found() && !(time.endTime() > time))
+    // A run that has come to its end may be started again
+    if (left < -0.5*deltaT || (!earlier_.found() && !(left > 0)))
     {
         FatalIOErrorInFunction(time.controlDict())
-            << "endTime " << time.endTime().value() << " s is not after the"
-            << " start at " << time.timeName() << " s: no cell would move"
+            << "endTime " << shortText(time.endTime().value()).c_str()
+            << " s is not after the start at " << time.timeName() << " s: no cell would move"
             << exit(FatalIOError);
+    }
+    if (!earlier_.found() && !(left > 0.5*deltaT))
+    {
+        FatalIOErrorInFunction(time.controlDict())
+            << "deltaT " << shortText(deltaT).c_str() << " s is too long for"
+            << " the " << shortText(left).c_str() << " s up to endTime: no cell"
+            << " would move" << exit(FatalIOError);
     }
     if
     (
@@ -195,65 +179,14 @@ void Foam::ellipsoidCloud::checkImages(const domainImages& images) const
 }
 
 
-Foam::scalarList Foam::ellipsoidCloud::entries
-(
-    const scalar start,
-    const scalar end
-) const
+void Foam::ellipsoidCloud::reportInertia(const volVectorField& U)
 {
-    DynamicList<scalar> times;
-    for (const cellInjection& injection : injections_)
-    {
-        for (const Tuple2<scalar, label>& cell : injection.times())
-        {
-            if (cell.first() >= start && cell.first() < end)
-            {
-                times.append(cell.first());
-            }
-        }
-    }
-
-    return scalarList(std::move(times));
-}
-
-
-void Foam::ellipsoidCloud::checkTimes() const
-{
-    const scalar end = mesh_.time().endTime().value();
-    const scalarList all(entries(-VGREAT, VGREAT));
-
-    if (earlier_.found() || entries(time_, end).size())
-    {
-        return;
-    }
-
-    const masterGate once;
-    FatalIOErrorInFunction(properties_.subDict("injection"))
-        << "no cell enters while the run lasts, from "
-        << shortText(time_).c_str() << " to "
-        << shortText(end).c_str() << " s: they are to enter from "
-        << shortText(min(all)).c_str() << " to " << shortText(max(all)).c_str()
-        << " s" << nl
-        << "    Correct start of the injections, or startTime and endTime"
-        << " of controlDict" << exit(FatalIOError);
-}
-
-
-void Foam::ellipsoidCloud::addNew(const scalar start, const scalar end)
-{
-    DynamicList<cellState> newCells;
-
-    for (const cellInjection& injection : injections_)
-    {
-        injection.append(start, end, newCells);
-    }
-
-    for (const cellState& cell : newCells)
-    {
-        population_.take(cell.id, cell.size);
-    }
-    cells_.append(newCells);
-    Foam::sort(cells_);
+    inertiaTold_ = inertiaTold_ || Foam::reportInertia
+    (
+        U,
+        population_.largest(longestSemiAxis),
+        properties_.options().kinematic_viscosity
+    );
 }
 
 
@@ -278,10 +211,11 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
     {
         const masterGate once;
 
+        earlier_.checkSame("shape", population_.notes());
         if (Pstream::master())
         {
             meshNotes_ = checkpoint::notesOf(undecomposed_->mesh());
-            earlier_.checkMesh(meshNotes_);
+            earlier_.checkSame("mesh", meshNotes_);
         }
     }
 
@@ -335,26 +269,6 @@ Foam::ellipsoidCloud::~ellipsoidCloud() = default;
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::ellipsoidCloud::checkInjections(const solverFields& flow)
-{
-    undecomposed_->gather(flow);
-
-    makeDomain();
-    makeInjections(false);
-
-    bool known = true;
-    for (const entry& e : properties_.subDict("injection"))
-    {
-        known = known && !e.dict().found("concentration");
-    }
-    if (known)
-    {
-        checkTimes();
-    }
-    injections_.clear();
-}
-
-
 void Foam::ellipsoidCloud::setFlow(const solverFields& flow)
 {
     undecomposed_->gather(flow);
@@ -383,14 +297,10 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow)
         reportApertures(true);
     }
 
-    const label nCells = makeInjections(true);
-    const scalar end = mesh_.time().endTime().value();
+    planEntries();
     checkTimes();
-    Info<< "ellipsoidCloud: " << nCells << " cells to enter by "
-        << flatOutput(properties_.subDict("injection").toc()) << nl
-        << "case: " << entries(time_, end).size()
-        << " cells enter in the run from " << time_ << " to " << end << " s"
-        << endl;
+    reportCells(through.inflow);
+    reportInertia(flow.U);
 
     particles_.reset
     (
@@ -473,6 +383,7 @@ void Foam::ellipsoidCloud::advance(const solverFields& flow)
     {
         return;
     }
+    reportInertia(flow.U);
 
     undecomposed_->gather(flow);
     domain_->flow.advance(*undecomposed_, fluidDensity(), time_, end);

@@ -192,6 +192,8 @@ void Foam::ellipsoidCloud::write()
     notes.add("time", time_);
     notes.add("folder", string(firstTime_));
     notes.add("mesh", meshNotes_);
+    notes.add("shape", population_.notes());
+    notes.add("plan", plan_);
     if (occupancy_.valid())
     {
         occupancy_->note(notes, tables);

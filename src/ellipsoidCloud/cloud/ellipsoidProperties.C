@@ -14,8 +14,9 @@ License
 #include "readViscosity.H"
 #include "captureCriterion.H"
 #include "cellInjection.H"
-#include "polyBoundaryMeshEntries.H"
+#include "polyBoundaryMesh.H"
 #include "processorPolyPatch.H"
+#include "PstreamReduceOps.H"
 #include "Time.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -79,6 +80,13 @@ void Foam::ellipsoidProperties::checkPatches
 {
     const dictionary& injections = subDict("injection");
 
+    if (injections.empty())
+    {
+        FatalIOErrorInFunction(injections)
+            << "injection holds no injection: give one a name and a dictionary"
+            << exit(FatalIOError);
+    }
+
     for (const entry& e : injections)
     {
         if (!e.isDict())
@@ -102,42 +110,6 @@ void Foam::ellipsoidProperties::checkPatches
 }
 
 
-// * * * * * * * * * * * * * * Static Functions * * * * * * * * * * * * * * * //
-
-void Foam::ellipsoidProperties::checkDimensions(const Time& time)
-{
-    const polyBoundaryMeshEntries patches
-    (
-        IOobject
-        (
-            "boundary",
-            time.findInstance(polyMesh::meshSubDir, "boundary"),
-            polyMesh::meshSubDir,
-            time,
-            IOobject::MUST_READ,
-            IOobject::NO_WRITE,
-            false
-        )
-    );
-    const masterGate once;
-
-    for (const entry& patch : patches)
-    {
-        const word type(patch.dict().get<word>("type"));
-
-        if (type == "empty" || type == "wedge")
-        {
-            FatalErrorInFunction
-                << "patch " << patch.keyword() << " of "
-                << patches.objectPath() << " is of type " << type << nl
-                << "    A cell is a body in three dimensions: its mesh has "
-                << "walls (type wall) and open ends (type patch)"
-                << exit(FatalError);
-        }
-    }
-}
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
@@ -156,8 +128,24 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
 {
     options_.kinematic_viscosity = readViscosity(mesh).value();
 
+    const label nCells = returnReduce(mesh.nCells(), sumOp<label>());
+    const label nPatches =
+        returnReduce(mesh.boundaryMesh().size(), sumOp<label>());
+
     // No reading of files, for which ranks would have to meet, from here on
     const masterGate once;
+
+    if (Pstream::master())
+    {
+        refuseRepeated(time().globalPath()/time().constant()/name());
+    }
+    if (!nCells || !nPatches)
+    {
+        FatalErrorInFunction
+            << "the mesh in " << mesh.meshDir() << " has no "
+            << (nCells ? "patches" : "cells") << ": make it again"
+            << exit(FatalError);
+    }
 
     scheme_ = frozenFlow::schemeNames.getOrDefault
     (

@@ -64,6 +64,19 @@ Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
         refuseEntry(dict, "nu", "nu", range);
     }
 
+    // Liquids that carry cells have 3e-7 to 1e-4. Several read it: once is enough
+    static bool told = false;
+
+    if (!told && (nu.value() < 1e-7 || nu.value() > 1e-4))
+    {
+        told = true;
+        Warning
+            << "nu " << shortText(nu.value()).c_str() << " m2/s of"
+            << " transportProperties is not that of a liquid that carries"
+            << " cells: water has 1e-6. It is kinematic, Pa s by kg/m3" << nl
+            << endl;
+    }
+
     return nu;
 }
 

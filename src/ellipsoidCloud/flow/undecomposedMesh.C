@@ -350,7 +350,9 @@ void Foam::undecomposedFlow::makeCase
     Sout.precision(digits);
     Pout.precision(digits);
 
-    // Schemes are to be read, by which a mesh in constant would be, too
+    // Schemes are to be read, by which a mesh in constant would be, too. So it is
+    // of a time that is not there; what is no number OpenFOAM takes for 0, and
+    // that for constant where there is no folder 0
     mesh_.reset
     (
         new fvMesh
@@ -358,7 +360,7 @@ void Foam::undecomposedFlow::makeCase
             IOobject
             (
                 polyMesh::defaultRegion,
-                "undecomposed",
+                "1e300",
                 *time_,
                 IOobject::READ_IF_PRESENT
             ),

@@ -10,6 +10,7 @@ License
 
 #include "ellipsoidTracking.H"
 #include "addToRunTimeSelectionTable.H"
+#include "caseFiles.H"
 #include "caseSummary.H"
 #include "cellPopulation.H"
 #include "ellipsoidCloud.H"
@@ -63,14 +64,16 @@ namespace Foam
     };
 
     //- Errors end the run as long as it lives: OpenFOAM takes those of a function
-    //  object that is being made for warnings, and goes on without it
+    //  object that is being made, or with -postProcess, for warnings
     struct finalErrors
     {
-        const bool before = throwErrors(false);
+        const bool before = throwErrors(FatalError, false);
+        const bool beforeIO = throwErrors(FatalIOError, false);
 
         ~finalErrors()
         {
-            throwErrors(before);
+            throwErrors(FatalError, before);
+            throwErrors(FatalIOError, beforeIO);
         }
     };
 
@@ -132,8 +135,29 @@ void Foam::functionObjects::ellipsoidTracking::checkDryRun() const
 }
 
 
+bool Foam::functionObjects::ellipsoidTracking::hasFlow() const
+{
+    return
+        mesh_.foundObject<volVectorField>(U_)
+     && mesh_.foundObject<volScalarField>(p_)
+     && mesh_.foundObject<surfaceScalarField>(phi_);
+}
+
+
 Foam::solverFields Foam::functionObjects::ellipsoidTracking::flow() const
 {
+    if (!hasFlow())
+    {
+        const masterGate once;
+        FatalErrorInFunction
+            << type() << ' ' << name() << ": the program has not all of the"
+            << " fields " << U_ << ", " << p_ << " and " << phi_ << nl
+            << "    After a run take the solver itself, as simpleFoam"
+            << " -postProcess, or postProcess -fields '(" << U_ << ' ' << p_
+            << ' ' << phi_ << ")'; of other names tell U, p and phi of the"
+            << " function object" << exit(FatalError);
+    }
+
     return solverFields
     {
         mesh_.lookupObject<volVectorField>(U_),
@@ -145,7 +169,7 @@ Foam::solverFields Foam::functionObjects::ellipsoidTracking::flow() const
 
 bool Foam::functionObjects::ellipsoidTracking::begin()
 {
-    if (cells_.valid() || !mesh_.foundObject<surfaceScalarField>(phi_))
+    if (cells_.valid())
     {
         return false;
     }
@@ -185,7 +209,7 @@ Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
     const finalErrors fatal;
 
     read(dict);
-    ellipsoidProperties::checkDimensions(runTime);
+    caseFiles::checkMesh(runTime, true);
 
     if (mesh_.foundObject<IOdictionary>("ellipsoidCloudProperties"))
     {
@@ -208,8 +232,12 @@ Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
     }
     else
     {
-        // The flow of the start, which the first time step replaces
-        begin();
+        // The flow of the start, which the first time step replaces; with
+        // -postProcess it is read later
+        if (hasFlow())
+        {
+            begin();
+        }
     }
 }
 
@@ -251,6 +279,8 @@ bool Foam::functionObjects::ellipsoidTracking::read(const dictionary& dict)
 
 bool Foam::functionObjects::ellipsoidTracking::execute()
 {
+    const finalErrors fatal;
+
     if (idle_ || steady_ || begin())
     {
         return true;
@@ -272,6 +302,8 @@ bool Foam::functionObjects::ellipsoidTracking::execute()
 
 bool Foam::functionObjects::ellipsoidTracking::write()
 {
+    const finalErrors fatal;
+
     if (!idle_ && !steady_)
     {
         cells_->write();
@@ -288,12 +320,13 @@ bool Foam::functionObjects::ellipsoidTracking::end()
         return true;
     }
     const screenDigits six;
+    const finalErrors fatal;
 
     if (steady_)
     {
         trackThroughEnd();
     }
-    else
+    else if (cells_.valid())
     {
         cells_->finish();
 

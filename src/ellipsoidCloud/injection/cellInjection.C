@@ -9,6 +9,7 @@ License
 \*---------------------------------------------------------------------------*/
 #include "cellInjection.H"
 #include "cellSurroundings.H"
+#include "mathematicalConstants.H"
 #include "polyMesh.H"
 #include "Switch.H"
 
@@ -295,6 +296,21 @@ Foam::word Foam::cellInjection::findPatch
     }
 
     return patch;
+}
+
+
+Foam::scalar Foam::cellInjection::volume() const
+{
+    const label n = min(size(), label(1000));
+    scalar sum = 0;
+    for (label i = 0; i < n; ++i)
+    {
+        const auto options = from_.population.optionsOf(sizeOf(i));
+        const scalar* a = options.semi_axes;
+        sum += 4.0/3.0*constant::mathematical::pi*a[0]*a[1]*a[2];
+    }
+
+    return sum*size()/max(n, label(1));
 }
 
 

@@ -26,6 +26,29 @@ Foam::cellOrientation::orientationNames_
 });
 
 
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::cellOrientation::checkEntries(const dictionary& dict) const
+{
+    const HashTable<orientationType> readers
+    ({
+        {"axis", otAligned}, {"quaternion", otQuaternion}, {"eulerAngles", otEuler}
+    });
+
+    for (const word& entry : readers.sortedToc())
+    {
+        if (dict.found(entry) && readers[entry] != type_)
+        {
+            FatalIOErrorInFunction(streamOf(dict, entry))
+                << entry << " is not read with orientation "
+                << orientationNames_[type_] << nl << "    allowed: with"
+                << " orientation " << orientationNames_[readers[entry]]
+                << exit(FatalIOError);
+        }
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::cellOrientation::cellOrientation(const dictionary& dict)
@@ -33,6 +56,8 @@ Foam::cellOrientation::cellOrientation(const dictionary& dict)
     type_(orientationNames_.getOrDefault("orientation", dict, otRandom)),
     q_{0, 0, 0, 1}
 {
+    checkEntries(dict);
+
     if (type_ == otAligned)
     {
         const vector axis(dict.get<vector>("axis"));

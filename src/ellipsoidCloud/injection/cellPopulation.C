@@ -233,6 +233,15 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
 }
 
 
+Foam::dictionary Foam::cellPopulation::notes() const
+{
+    dictionary dict;
+    dict.add("semiAxes", shortText(pointOf(median_.options.semi_axes)));
+    dict.add("sizes", string(varies() ? "several" : "all alike"));
+    return dict;
+}
+
+
 void Foam::cellPopulation::take(const label id, const cellSize& size)
 {
     const cellSize middle(medianSize());

@@ -123,6 +123,18 @@ public:
             check("sizes", sizes_.size());
             check("densities", densities_.size());
 
+            if (positions_.empty())
+            {
+                FatalIOErrorInFunction(from_.dict)
+                    << "positions hold none" << exit(FatalIOError);
+            }
+            if (orientations_.size() && from_.dict.found("orientation"))
+            {
+                FatalIOErrorInFunction(streamOf(from_.dict, "orientation"))
+                    << "orientation is not read with orientations"
+                    << exit(FatalIOError);
+            }
+
             setTimes(positions_.size());
         }
 };

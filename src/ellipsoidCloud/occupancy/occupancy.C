@@ -397,7 +397,7 @@ void Foam::occupancy::write
         const scalar flux = a.flux(phi);
 
         fluxes_.stream()
-            << time << ',' << a.name << ',' << flux << ','
+            << time << ',' << csvField(a.name) << ',' << flux << ','
             << flux/max(inflow, VSMALL) << ',' << n[i] << '\n';
     }
     fluxes_.flush();

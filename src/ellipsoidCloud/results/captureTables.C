@@ -109,7 +109,7 @@ void Foam::captureStatistics::writeCaptures(Ostream& os) const
             << setw(8) << times.size() << "  " << list.str().c_str() << nl;
 
         table
-            << set_.patchNames[patchi] << ',' << times.size() << ','
+            << set_.patchName(patchi) << ',' << times.size() << ','
             << list.str() << '\n';
     }
 

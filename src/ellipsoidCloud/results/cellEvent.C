@@ -43,13 +43,25 @@ void Foam::cellEvent::write(std::ostream& os, const tableSet& set) const
 }
 
 
-bool Foam::cellEvent::read(std::string line, const tableSet& set)
+bool Foam::cellEvent::read(const std::string& line, const tableSet& set)
 {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream is(line);
-    std::string patch;
+    const std::vector<std::string> fields(csvFields(line));
 
-    is >> cell.time >> cell.id >> static_cast<std::string&>(type) >> patch;
+    if (fields.size() < 4)
+    {
+        return false;
+    }
+
+    // All but the patch are free of blanks
+    const std::string& patch = fields[3];
+    std::string others;
+    for (const std::string& field : fields)
+    {
+        others += &field == &patch ? "" : field + ' ';
+    }
+    std::istringstream is(others);
+
+    is >> cell.time >> cell.id >> static_cast<std::string&>(type);
 
     for (scalar& x : cell.body.x)
     {

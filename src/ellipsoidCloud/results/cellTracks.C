@@ -251,7 +251,7 @@ void Foam::cellTracks::writeVTP
         std::copy_n(options.semi_axes, 3, row + 19);
         for (label i = 0; set_.unfolds && i < 3; ++i)
         {
-            row[22 + i] = std::strtod(fields[20 + i].str().c_str(), nullptr);
+            row[22 + i] = std::strtod(fields[fields.size() - 3 + i].str().c_str(), nullptr);
         }
 
         // Positions come first

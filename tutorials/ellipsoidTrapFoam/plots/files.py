@@ -17,9 +17,6 @@ sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), "../ge
 import foamDictionary  # noqa: E402  (found by the path above)
 from foamDictionary import spelled, without_comments  # noqa: E402, F401
 
-# Of names with a comma; an older NumPy reads tables without
-QUOTES = {"quotechar": '"'} if np.lib.NumpyVersion(np.__version__) >= "1.23.0" else {}
-
 
 class CaseError(Exception):
     """An input is missing or malformed; the text names the file."""
@@ -55,24 +52,41 @@ def number(file, entries, default, *keys):
         raise CaseError(f"{file}: {'/'.join(keys)} is no number: {words}") from None
 
 
+def plain(field):
+    """A field of a table without the apostrophe that keeps a name from being a formula."""
+    return field[field.startswith("'"):]
+
+
+def not_formula(value):
+    """A value for a table: what a spreadsheet would take for a formula, and is no number, after an apostrophe."""
+    if not isinstance(value, str) or value[:1] not in "=+-@" or value in ("", "-"):
+        return value
+    try:
+        float(value)
+        return value
+    except ValueError:
+        return "'" + value
+
+
 def read_csv(file, types):
     """The named columns of a CSV file with a header, as a structured array."""
     if not os.path.isfile(file):
         raise CaseError(f"{file}: not there")
-    with open(file, encoding="latin-1") as f:
-        header = f.readline().strip().split(",")
-    missing = [name for name, _ in types if name not in header]
-    if missing:
-        raise CaseError(f"{file}: no column {missing[0]}")
-    try:
-        with warnings.catch_warnings():
-            warnings.filterwarnings("ignore", "loadtxt: input contained no data")
-            rows = np.loadtxt(
-                file, dtype=types, delimiter=",", skiprows=1, ndmin=1, comments=None,
-                usecols=[header.index(name) for name, _ in types], **QUOTES,
-            )
-    except (ValueError, IndexError) as error:
-        raise CaseError(f"{file}: {error}") from None
+    with open(file, newline="", encoding="latin-1") as f:
+        table = csv.reader(f)
+        header = next(table, [])
+        missing = [name for name, _ in types if name not in header]
+        if missing:
+            raise CaseError(f"{file}: no column {missing[0]}")
+        used = [header.index(name) for name, _ in types]
+        # Names may have commas, but no blanks
+        lines = ("\t".join([plain(row[i]) for i in used]) for row in table)
+        try:
+            with warnings.catch_warnings():
+                warnings.filterwarnings("ignore", "loadtxt: input contained no data")
+                rows = np.loadtxt(lines, dtype=types, delimiter="\t", ndmin=1, comments=None)
+        except (ValueError, IndexError, csv.Error) as error:
+            raise CaseError(f"{file}: {error}") from None
     for name, kind in types:
         if kind is float and not np.isfinite(rows[name]).all():
             line = 2 + int(np.argmin(np.isfinite(rows[name])))
@@ -111,24 +125,12 @@ def write_csv(file, names, rows):
     def word_of(value):
         if isinstance(value, float):
             return "" if np.isnan(value) else f"{value:.9g}"
-        return no_formula(value)
+        return not_formula(value)
 
     with open(file, "w", newline="", encoding="utf-8") as f:
         table = csv.writer(f, lineterminator="\n")
         table.writerow(names)
         table.writerows([word_of(value) for value in row] for row in rows)
-
-
-def no_formula(word):
-    """What spreadsheets would run stands behind a quotation mark: words that begin as a formula."""
-    text = str(word)
-    if len(text) < 2 or text[0] not in "=+-@":
-        return word
-    try:
-        float(text)
-    except ValueError:
-        return "'" + text
-    return word
 
 
 def number_folders(root):

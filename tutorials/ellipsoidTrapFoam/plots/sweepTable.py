@@ -17,7 +17,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 import style  # the look, by being read
-from files import CaseError, no_formula, read_csv
+from files import CaseError, not_formula, read_csv
 from shares import mcnemar, wilson
 
 RESULTS = ("postProcessing", "ellipsoidCloud", "0")
@@ -119,19 +119,22 @@ def write_csv(file, members, names, sieves, first):
     header += [*OTHER_FATES, *comparison(first), "wall time [s]"]
     with open(file, "w", newline="", encoding="utf-8") as f:
         table = csv.writer(f)
-        table.writerow(map(no_formula, header))
+
+        def write(row):
+            table.writerow([not_formula(value) for value in row])
+
+        write(header)
         for one in members:
-            values = map(no_formula, one.values)
             if not one.done:
-                table.writerow([one.name, *values] + ["failed"] + [""] * (len(header) - len(names) - 2))
+                write([one.name, *one.values] + ["failed"] + [""] * (len(header) - len(names) - 2))
                 continue
-            row = [one.name, *values, one.injected, one.caught()]
+            row = [one.name, *one.values, one.injected, one.caught()]
             row += [one.caught(name) for name in sieves]
             for held in (one.caught(), *(one.caught(name) for name in sieves)):
                 share = held / one.drawn if one.drawn else float("nan")
                 row += [f"{v:.6g}" for v in (share, *wilson(held, one.drawn))]
             row += [one.fate(name) for name in OTHER_FATES]
-            table.writerow([*row, *one.compared(first), one.seconds])
+            write([*row, *one.compared(first), one.seconds])
 
 
 def markdown(members, names, sieves, first):

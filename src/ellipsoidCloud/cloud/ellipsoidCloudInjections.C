@@ -1,0 +1,207 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+Description
+    Which cells enter, and when; and what of that a restart goes on with.
+
+\*---------------------------------------------------------------------------*/
+
+#include "ellipsoidCloud.H"
+#include "caseSummary.H"
+#include "masterGate.H"
+#include "SHA1.H"
+#include "volFields.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- Take into a digest when a cell enters
+    static void addEntry(SHA1& digest, const Tuple2<scalar, label>& cell)
+    {
+        const scalar numbers[2] = {cell.first(), scalar(cell.second())};
+        const void* bytes = numbers;
+        digest.append(static_cast<const char*>(bytes), sizeof(numbers));
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::ellipsoidCloud::makeInjections
+(
+    const label firstId,
+    const bool hasFlow
+)
+{
+    const scalar runStart = readScalar(firstTime_);
+    label nextId = firstId;
+    SHA1 digest;
+
+    injections_.clear();
+    for (const entry& e : properties_.subDict("injection"))
+    {
+        const cellInjection::setting from
+        {
+            e.dict(), *undecomposed_, *domain_, population_, nextId,
+            runStart, hasFlow
+        };
+
+        injections_.append(cellInjection::New(from).ptr());
+        {
+            const masterGate once;
+            injections_.last().check();
+        }
+        nextId += injections_.last().size();
+
+        for (const Tuple2<scalar, label>& cell : injections_.last().times())
+        {
+            addEntry(digest, cell);
+        }
+    }
+
+    plan_.clear();
+    plan_.add("first", firstId);
+    plan_.add("next", nextId);
+    plan_.add("digest", string(digest.str()));
+}
+
+
+void Foam::ellipsoidCloud::planEntries()
+{
+    if (!earlier_.found())
+    {
+        makeInjections(0, true);
+        return;
+    }
+
+    const dictionary& then = earlier_.notes().subDict("plan");
+    makeInjections(then.get<label>("first"), true);
+
+    // An id that has been given is not given again
+    if (plan_.get<string>("digest") != then.get<string>("digest"))
+    {
+        const label nextId = then.get<label>("next");
+        makeInjections(nextId, true);
+
+        Warning
+            << "By seed and injections other cells enter, or at other times,"
+            << " than in the run so far: those that have entered stay, those"
+            << " to come are drawn anew, with numbers from " << nextId << " on"
+            << nl << endl;
+    }
+}
+
+
+void Foam::ellipsoidCloud::reportCells(const scalar inflow) const
+{
+    const scalarList all(entries(-VGREAT, VGREAT));
+    const scalar end = mesh_.time().endTime().value();
+
+    Info<< "ellipsoidCloud: " << all.size() << " cells to enter by "
+        << flatOutput(properties_.subDict("injection").toc()) << nl
+        << "case: " << entries(time_, end).size()
+        << " cells enter in the run from " << time_ << " to " << end << " s"
+        << endl;
+
+    // What comes with them, or what is there if they come faster than it leaves
+    const scalar there = gSum(mesh_.V().field());
+    scalar cells = 0;
+    for (const cellInjection& injection : injections_)
+    {
+        cells += injection.volume();
+    }
+    reportFilling(cells, max(there, inflow*(max(all) - min(all))));
+}
+
+
+Foam::scalarList Foam::ellipsoidCloud::entries
+(
+    const scalar start,
+    const scalar end
+) const
+{
+    DynamicList<scalar> times;
+    for (const cellInjection& injection : injections_)
+    {
+        for (const Tuple2<scalar, label>& cell : injection.times())
+        {
+            if (cell.first() >= start && cell.first() < end)
+            {
+                times.append(cell.first());
+            }
+        }
+    }
+
+    return scalarList(std::move(times));
+}
+
+
+void Foam::ellipsoidCloud::checkTimes() const
+{
+    const scalar end = mesh_.time().endTime().value();
+    const scalarList all(entries(-VGREAT, VGREAT));
+
+    if (earlier_.found() || entries(time_, end).size())
+    {
+        return;
+    }
+
+    const masterGate once;
+    FatalIOErrorInFunction(properties_.subDict("injection"))
+        << "no cell enters while the run lasts, from "
+        << shortText(time_).c_str() << " to "
+        << shortText(end).c_str() << " s: they are to enter from "
+        << shortText(min(all)).c_str() << " to " << shortText(max(all)).c_str()
+        << " s" << nl
+        << "    Correct start of the injections, or startTime and endTime"
+        << " of controlDict" << exit(FatalIOError);
+}
+
+
+void Foam::ellipsoidCloud::addNew(const scalar start, const scalar end)
+{
+    DynamicList<cellState> newCells;
+
+    for (const cellInjection& injection : injections_)
+    {
+        injection.append(start, end, newCells);
+    }
+
+    for (const cellState& cell : newCells)
+    {
+        population_.take(cell.id, cell.size);
+    }
+    cells_.append(newCells);
+    Foam::sort(cells_);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::ellipsoidCloud::checkInjections(const solverFields& flow)
+{
+    undecomposed_->gather(flow);
+
+    makeDomain();
+    makeInjections(0, false);
+
+    bool known = true;
+    for (const entry& e : properties_.subDict("injection"))
+    {
+        known = known && !e.dict().found("concentration");
+    }
+    if (known)
+    {
+        checkTimes();
+    }
+    injections_.clear();
+}
+
+
+// ************************************************************************* //
