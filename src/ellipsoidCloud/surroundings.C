@@ -21,6 +21,7 @@ Description
 #include "flow/frozenFlowTets.C"
 #include "flow/frozenFlowWalk.C"
 #include "flow/pointImages.C"
+#include "flow/tetDecomposition.C"
 #include "flow/vertexFit.C"
 
 #include "motion/groupAdvance.C"

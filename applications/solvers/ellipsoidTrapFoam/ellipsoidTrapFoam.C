@@ -52,6 +52,7 @@ SourceFiles
 #include "checkpoint.H"
 #include "commit.H"
 #include "ellipsoidProperties.H"
+#include "tetDecomposition.H"
 
 using namespace Foam;
 
@@ -65,6 +66,7 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
         args.found("frozenFlow") ? flowFields::NO : flowFields::solveOf(mesh);
 
     // Read before the flow takes its time: bad input ends the run here
+    checkCells(mesh);
     autoPtr<ellipsoidCloud> cells;
     if (!args.found("flowOnly"))
     {

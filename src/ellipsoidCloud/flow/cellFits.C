@@ -59,7 +59,8 @@ namespace Foam
         //  by M; lengths by that of the mesh cell
         void append(const vector& d, const symmTensor& M, const vector& du)
         {
-            const scalar w = 1/mag(d);
+            // Centres of overlapping mesh cells may be one
+            const scalar w = 1/max(mag(d), scalar(1e-6));
             const symmTensor dd(sqr(d) + M);
 
             rows_.append
@@ -292,7 +293,19 @@ namespace Foam
             }
         }
 
-        return moments/volumes;
+        forAll(moments, celli)
+        {
+            symmTensor& M = moments[celli];
+            const bool sound =
+                volumes[celli] > 0 && min(M.xx(), min(M.yy(), M.zz())) > 0;
+
+            // Of a mesh cell that is partly inside out those of a cube
+            M =
+                sound
+              ? M/volumes[celli]
+              : pow(mesh.cellVolumes()[celli], 2.0/3)/12*symmTensor(I);
+        }
+        return moments;
     }
 
     //- What polynomials are fitted to

@@ -44,14 +44,14 @@ Foam::scalar Foam::cellFluxes::take(const flowValues& values)
             missing[i] -= flow.quadraticFlux(g, k);
         }
         net += missing[i];
-        volume += of.volume;
+        volume += mag(of.volume);
     }
 
     // A flow that is not free of divergence has it everywhere in the mesh cell
     const scalar divergence = net/volume;
     for (label i = 0; i < n_; ++i)
     {
-        missing[i] -= divergence*of_[i].volume;
+        missing[i] -= divergence*mag(of_[i].volume);
     }
     return volume;
 }
@@ -108,7 +108,7 @@ void Foam::cellFluxes::setByCentre
 }
 
 
-void Foam::cellFluxes::setColumns()
+void Foam::cellFluxes::setColumns(const scalar volume)
 {
     columns_.setSize(n_*nPairs_);
     scalar* columns = numbers(columns_);
@@ -139,9 +139,10 @@ void Foam::cellFluxes::setColumns()
         for (label k = 1; k < 4; ++k)
         {
             const label j = tets_[first_ + i].neighbours[k] - first_;
+            // Not without bound between flat ones
+            const scalar both = mag(of_[i].volume) + mag(of_[j].volume);
             const scalar conductance =
-                sqr(of_[i].areas[k])
-               /(mag(of_[i].volume) + mag(of_[j].volume) + VSMALL);
+                sqr(of_[i].areas[k])/max(both, 1e-6*volume);
 
             conductances_[i][k - 1] = conductance;
             columns[i*stride + i] += conductance;
@@ -285,7 +286,7 @@ void Foam::cellFluxes::spread
     const scalar unit = Foam::sqrt(100/volume);
     const scalar gradientUnit = Foam::sqrt(1000/volume)/cbrt(volume);
     setByCentre(values.vertices, unit, gradientUnit);
-    setColumns();
+    setColumns(volume);
     solve();
 
     const scalar* potential = numbers(missing_);

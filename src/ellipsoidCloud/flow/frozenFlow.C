@@ -211,7 +211,7 @@ Foam::frozenFlow::frozenFlow
 
     if (Pstream::master())
     {
-        findAcross(undecomposed.mesh());
+        findAcross(undecomposed);
 
         for (const polyPatch& pp : undecomposed.mesh().boundaryMesh())
         {

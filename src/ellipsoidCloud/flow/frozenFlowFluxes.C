@@ -19,6 +19,7 @@ Description
 #include "undecomposedFlow.H"
 #include "bitSet.H"
 #include "surfaceFields.H"
+#include "tetDecomposition.H"
 #include "volFields.H"
 #include "wallPolyPatch.H"
 
@@ -248,18 +249,19 @@ namespace Foam
     template<class Action>
     static void forOwnedFaces
     (
-        const polyMesh& mesh,
+        const undecomposedFlow& undecomposed,
         const labelUList& cellTets,
         const label celli,
         const Action& action
     )
     {
+        const polyMesh& mesh = undecomposed.mesh();
         label teti = cellTets[celli];
 
         for (const label facei : mesh.cells()[celli])
         {
             const label first = teti;
-            teti += mesh.faces()[facei].size() - 2;
+            teti += undecomposed.decomposition().nTriangles(facei);
 
             if (mesh.faceOwner()[facei] == celli)
             {
@@ -287,6 +289,7 @@ void Foam::frozenFlow::matchFluxes
     symmTensorField normals(values_.vertices.size(), Zero);
     vectorField missing(values_.vertices.size(), Zero);
     DynamicList<label> corners(16);
+    const label firstMean = values_.vertices.size() - meanOf_.size();
 
     const auto compare =
         [&](const label facei, const label first, const label end)
@@ -313,9 +316,11 @@ void Foam::frozenFlow::matchFluxes
 
                 flux -= meanVelocity(a, b, c) & S;
                 area += S;
-                for (label a = teti == first ? 1 : 3; a < 4 && !second; ++a)
+                const bool fromCorner = v[1] < firstMean;
+                label k = teti == first && fromCorner ? 1 : 3;
+                for (; k < 4 && !second; ++k)
                 {
-                    corners.append(v[a]);
+                    corners.append(v[k]);
                 }
             }
 
@@ -335,7 +340,7 @@ void Foam::frozenFlow::matchFluxes
         };
     for (label celli = 0; celli < mesh.nCells(); ++celli)
     {
-        forOwnedFaces(mesh, cellTets_, celli, compare);
+        forOwnedFaces(undecomposed, cellTets_, celli, compare);
     }
     images.add(normals, mesh.nCells());
     images.add(missing, mesh.nCells());
@@ -348,6 +353,7 @@ void Foam::frozenFlow::matchFluxes
         freeAtMirrors(mesh, tets_, values_.vertices),
         values_.vertices
     );
+    setMeans();
 }
 
 
@@ -379,7 +385,7 @@ void Foam::frozenFlow::makeExcess
         };
     for (label celli = 0; celli < mesh.nCells(); ++celli)
     {
-        forOwnedFaces(mesh, cellTets_, celli, share);
+        forOwnedFaces(undecomposed, cellTets_, celli, share);
     }
 
     static_cast<UList<direction>&>(values_.balanced) = direction(0);

@@ -12,10 +12,10 @@ Description
 \*---------------------------------------------------------------------------*/
 #include "frozenFlow.H"
 #include "baffleSides.H"
-#include "cyclicPolyPatch.H"
+#include "DynamicList.H"
+#include "tetDecomposition.H"
 #include "undecomposedFlow.H"
 #include "volFields.H"
-#include "DynamicList.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -26,10 +26,10 @@ namespace Foam
     static void splitCell
     (
         const polyMesh& mesh,
+        const tetDecomposition& decomposition,
         const baffleSides& baffles,
         const UList<labelPair>& faceTets,
         const label celli,
-        const labelUList& bases,
         label teti,
         UList<flowTet>& tets
     )
@@ -41,48 +41,50 @@ namespace Foam
 
         for (const label facei : mesh.cells()[celli])
         {
-            const face& f = mesh.faces()[facei];
             const label owned = (mesh.faceOwner()[facei] == celli);
-            const label base = bases[facei];
             const label patchi = mesh.boundaryMesh().whichPatch(facei);
 
-            for (label trii = 1; trii < f.size() - 1; ++trii, ++teti)
+            for (label k = 0; k < decomposition.nTriangles(facei); ++k, ++teti)
             {
                 // The normal of a face points out of its owner
-                const label corners[3] =
+                FixedList<label, 3> corners(decomposition.triangle(facei, k));
+                if (!owned)
                 {
-                    f[base],
-                    f[(base + trii + 1 - owned) % f.size()],
-                    f[(base + trii + owned) % f.size()]
-                };
+                    Swap(corners[1], corners[2]);
+                }
 
                 flowTet& tet = tets[teti];
                 tet.vertices[0] = celli;
                 tet.neighbours[0] =
                     patchi < 0
-                  ? faceTets[facei][owned] + trii - 1
+                  ? faceTets[facei][owned] + k
                   : -1 - patchi;
 
                 for (label i = 0; i < 3; ++i)
                 {
                     tet.vertices[i + 1] =
-                        mesh.nCells() + baffles.vertex(corners[i], celli);
+                        mesh.nCells()
+                      + (
+                            corners[i] < mesh.nPoints()
+                          ? baffles.vertex(corners[i], celli)
+                          : corners[i] + baffles.sides().size()
+                        );
 
                     const edge e(corners[(i + 1) % 3], corners[(i + 2) % 3]);
-                    label k = open.size() - 1;
-                    while (k >= 0 && open[k].at != e)
+                    label j = open.size() - 1;
+                    while (j >= 0 && open[j].at != e)
                     {
-                        --k;
+                        --j;
                     }
 
-                    if (k < 0)
+                    if (j < 0)
                     {
                         open.append(openEdge{e, teti, i + 1});
                         continue;
                     }
-                    tet.neighbours[i + 1] = open[k].tet;
-                    tets[open[k].tet].neighbours[open[k].face] = teti;
-                    open[k] = open.last();
+                    tet.neighbours[i + 1] = open[j].tet;
+                    tets[open[j].tet].neighbours[open[j].face] = teti;
+                    open[j] = open.last();
                     open.remove();
                 }
             }
@@ -100,13 +102,13 @@ namespace Foam
     static void makeTets
     (
         const polyMesh& mesh,
+        const tetDecomposition& decomposition,
         const baffleSides& baffles,
-        const bool widest,
         UList<label>& cellTets,
         UList<flowTet>& tets
     )
     {
-        // Triangles of a face, in fan order, are tetrahedra first + 0, 1, ...
+        // Triangles of a face, in their order, are tetrahedra first + 0, 1, ...
         // of its owner, and second + 0, 1, ... of its neighbour
         List<labelPair> faceTets(mesh.nFaces(), labelPair(-1, -1));
         label nTets = 0;
@@ -118,78 +120,138 @@ namespace Foam
             for (const label facei : mesh.cells()[celli])
             {
                 faceTets[facei][mesh.faceOwner()[facei] != celli] = nTets;
-                nTets += mesh.faces()[facei].size() - 2;
+                nTets += decomposition.nTriangles(facei);
             }
         }
         cellTets[mesh.nCells()] = nTets;
-
-        labelList bases(mesh.tetBasePtIs());
-        forAll(bases, facei)
-        {
-            bases[facei] =
-                widest
-              ? frozenFlow::fanBase(mesh, facei)
-              : max(bases[facei], label(0));
-        }
-
-        // Both halves of a cyclic patch alike: faces begin with the same point
-        // and go round in opposite senses
-        for (const polyPatch& pp : mesh.boundaryMesh())
-        {
-            if (!isA<cyclicPolyPatch>(pp))
-            {
-                continue;
-            }
-            const cyclicPolyPatch& half = refCast<const cyclicPolyPatch>(pp);
-            forAll(half, i)
-            {
-                const label n = half[i].size();
-                if (half.owner())
-                {
-                    bases[half.neighbPatch().start() + i] =
-                        (n - bases[half.start() + i]) % n;
-                }
-            }
-        }
 
         forAll(mesh.cells(), celli)
         {
             splitCell
             (
-                mesh, baffles, faceTets, celli, bases, cellTets[celli], tets
+                mesh, decomposition, baffles, faceTets, celli, cellTets[celli],
+                tets
             );
         }
     }
 
-    //- The vertices, with fluid at rest
+    //- The vertices, with fluid at rest; those of means of corners stay as they
+    //  are
     static void makeVertices
     (
         const fvMesh& mesh,
+        const tetDecomposition& decomposition,
         const baffleSides& baffles,
         UList<flowVertex>& vertices
     )
     {
-        const label nCells = mesh.nCells();
-
-        forAll(vertices, i)
-        {
-            const label j = i - nCells;
-            const label pointi =
-                j < mesh.nPoints()
-              ? j
-              : baffles.sides()[j - mesh.nPoints()].point;
-
-            vertices[i] = flowVertex
+        label i = 0;
+        const auto add =
+            [&](const point& x)
             {
-                j < 0 ? mesh.cellCentres()[i] : mesh.points()[pointi],
-                Zero, Zero, Zero
+                vertices[i++] = flowVertex{x, Zero, Zero, Zero};
             };
+
+        for (const point& x : decomposition.apexes())
+        {
+            add(x);
         }
+        for (const point& x : mesh.points())
+        {
+            add(x);
+        }
+        for (const baffleSides::side& side : baffles.sides())
+        {
+            add(mesh.points()[side.point]);
+        }
+        for (const label facei : decomposition.meanFaces())
+        {
+            add(decomposition.mean(facei));
+        }
+    }
+
+    //- The vertices at the corners of each face that is cut from their mean
+    static List<labelList> meanCorners
+    (
+        const polyMesh& mesh,
+        const tetDecomposition& decomposition,
+        const baffleSides& baffles
+    )
+    {
+        List<labelList> corners(decomposition.meanFaces().size());
+        forAll(corners, i)
+        {
+            const label facei = decomposition.meanFaces()[i];
+            corners[i] = mesh.faces()[facei];
+            for (label& corner : corners[i])
+            {
+                corner =
+                    mesh.nCells()
+                  + baffles.vertex(corner, mesh.faceOwner()[facei]);
+            }
+        }
+        return corners;
     }
 }
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::frozenFlow::findUnsound()
+{
+    const auto sixVolumes =
+        [&](const label teti)
+        {
+            const label* v = tets_[teti].vertices;
+            const point& x = values_.vertices[v[0]].x;
+            return
+                (values_.vertices[v[1]].x - x)
+              & (
+                    (values_.vertices[v[2]].x - x)
+                  ^ (values_.vertices[v[3]].x - x)
+                );
+        };
+    label nInverted = 0;
+    label nCells = 0;
+    label first = -1;
+
+    for (label celli = 0; celli < cellTets_.size() - 1; ++celli)
+    {
+        const label before = nInverted;
+        const label end = cellTets_[celli + 1];
+        scalar rounding = 0;
+        for (label teti = cellTets_[celli]; teti < end; ++teti)
+        {
+            rounding += 1e-10*mag(sixVolumes(teti));
+        }
+        for (label teti = cellTets_[celli]; teti < end; ++teti)
+        {
+            const scalar volume = sixVolumes(teti);
+            if (volume <= rounding)
+            {
+                unsound_.insert(teti);
+            }
+            nInverted += volume < -rounding;
+        }
+        if (nInverted > before)
+        {
+            ++nCells;
+            first = first < 0 ? celli : first;
+        }
+    }
+
+    if (nCells)
+    {
+        Warning
+            << nInverted << " of " << tets_.size() << " tetrahedra of"
+            << " the mesh are inverted, in " << nCells << " mesh cells, the"
+            << " first of them mesh cell " << first << " at "
+            << values_.vertices[first].x << " m: what flows through them is"
+            << " not exact, and cells may get lost there" << nl
+            << "    checkMesh -allGeometry says more" << nl << endl;
+    }
+}
+
 
 void Foam::frozenFlow::make
 (
@@ -207,12 +269,15 @@ void Foam::frozenFlow::make
     if (master)
     {
         const fvMesh& mesh = undecomposed.mesh();
+        const tetDecomposition& decomposition = undecomposed.decomposition();
         baffles.reset(new baffleSides(mesh));
-        nVertices = mesh.nCells() + mesh.nPoints() + baffles->sides().size();
+        nVertices =
+            mesh.nCells() + mesh.nPoints() + baffles->sides().size()
+          + decomposition.meanFaces().size();
         forAll(mesh.faces(), facei)
         {
             const label nSides = 1 + mesh.isInternalFace(facei);
-            nTets += nSides*(mesh.faces()[facei].size() - 2);
+            nTets += nSides*decomposition.nTriangles(facei);
         }
     }
 
@@ -232,63 +297,24 @@ void Foam::frozenFlow::make
     {
         const undecomposedFlow::serialScope serial;
         const fvMesh& mesh = undecomposed.mesh();
+        const tetDecomposition& decomposition = undecomposed.decomposition();
 
-        makeTets
-        (
-            mesh, *baffles, scheme_ == stDivergenceFree, cellTets_, tets_
-        );
-        makeVertices(mesh, *baffles, values_.vertices);
+        makeTets(mesh, decomposition, *baffles, cellTets_, tets_);
+        makeVertices(mesh, decomposition, *baffles, values_.vertices);
+        meanOf_ = meanCorners(mesh, decomposition, *baffles);
+        findUnsound();
 
         if (hasField)
         {
-            setField(*E, *baffles);
+            setField(undecomposed, *E, *baffles);
         }
     }
 
+    broadcast(unsound_);
     cellTets_.share();
     tets_.share();
     values_.share();
     field_.share();
-}
-
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-Foam::label Foam::frozenFlow::fanBase
-(
-    const polyMesh& mesh,
-    const label facei
-)
-{
-    const face& f = mesh.faces()[facei];
-    const vector& S = mesh.faceAreas()[facei];
-    label best = max(mesh.tetBasePtIs()[facei], label(0));
-    scalar widest = -GREAT;
-
-    for (label base = 0; f.size() > 4 && base < f.size(); ++base)
-    {
-        const point& x = mesh.points()[f[base]];
-        scalar narrowest = GREAT;
-
-        for (label i = 1; i < f.size() - 1; ++i)
-        {
-            const vector a(mesh.points()[f[(base + i) % f.size()]] - x);
-            const label next = (base + i + 1) % f.size();
-            const vector b(mesh.points()[f[next]] - x);
-            narrowest = min
-            (
-                narrowest,
-                ((a ^ b) & S)/max(max(magSqr(a), magSqr(b)), magSqr(b - a))
-            );
-        }
-        if (narrowest > widest)
-        {
-            widest = narrowest;
-            best = base;
-        }
-    }
-
-    return best;
 }
 
 

@@ -12,6 +12,7 @@ Description
 
 \*---------------------------------------------------------------------------*/
 #include "frozenFlow.H"
+#include "tetDecomposition.H"
 #include "undecomposedFlow.H"
 #include "vertexFit.H"
 #include "bitSet.H"
@@ -190,33 +191,75 @@ namespace Foam
         }
     }
 
-    //- A field at all vertices. Ends the run if a value is not finite.
+    //- Where the vertices are, but for the means of others
+    struct vertexPlaces
+    {
+        const pointField& apexes;
+        const domainImages& images;
+        const baffleSides& baffles;
+    };
+
+    //- Take a field from the centres of the mesh cells to their apexes
+    static void toApexes
+    (
+        const volVectorField& field,
+        const pointField& apexes,
+        UList<vector>& values
+    )
+    {
+        const pointField& centres = field.mesh().cellCentres();
+        tmp<volTensorField> gradient;
+        forAll(apexes, celli)
+        {
+            if (apexes[celli] != centres[celli])
+            {
+                if (!gradient.valid())
+                {
+                    gradient = fvc::grad(field);
+                }
+                values[celli] +=
+                    (apexes[celli] - centres[celli]) & gradient()[celli];
+            }
+        }
+    }
+
+    //- The slope of a gradient is not known
+    static void toApexes
+    (
+        const volTensorField&,
+        const pointField&,
+        UList<tensor>&
+    )
+    {}
+
+    //- A field at all vertices but the means of others. Ends the run if a value
+    //  is not finite.
     template<class Type>
     static Field<Type> atVertices
     (
         const GeometricField<Type, fvPatchField, volMesh>& field,
-        const domainImages& images,
-        const baffleSides& baffles,
+        const vertexPlaces& places,
         const char* name = "flow",
         const char* advice = "solve the flow again from clean fields"
     )
     {
         const label nCells = field.mesh().nCells();
         const label nPoints = field.mesh().nPoints();
-        Field<Type> values(nCells + nPoints + baffles.sides().size());
+        const UList<baffleSides::side>& sides = places.baffles.sides();
+        Field<Type> values(nCells + nPoints + sides.size());
 
         SubList<Type>(values, nCells) = field.primitiveField();
+        toApexes(field, places.apexes, values);
         SubList<Type>(values, nPoints, nCells) =
             volPointInterpolation::New(field.mesh()).interpolate(field)()
            .primitiveField();
 
         SubList<Type> atPoints(values, nPoints, nCells);
-        mirror(field, images, atPoints);
+        mirror(field, places.images, atPoints);
 
-        forAll(baffles.sides(), sidei)
+        forAll(sides, sidei)
         {
-            values[nCells + nPoints + sidei] =
-                atSide(field, baffles.sides()[sidei]);
+            values[nCells + nPoints + sidei] = atSide(field, sides[sidei]);
         }
 
         checkFinite(values, name, advice);
@@ -228,20 +271,16 @@ namespace Foam
     static void interpolateVelocity
     (
         const volVectorField& flow,
-        const domainImages& images,
-        const baffleSides& baffles,
+        const vertexPlaces& places,
         UList<flowVertex>& vertices
     )
     {
         const label nCells = flow.size();
-        const vectorField U(atVertices(flow, images, baffles));
-        const tensorField gradU
-        (
-            atVertices(fvc::grad(flow)(), images, baffles)
-        );
-        const wallsAtVertices walls(flow, baffles);
+        const vectorField U(atVertices(flow, places));
+        const tensorField gradU(atVertices(fvc::grad(flow)(), places));
+        const wallsAtVertices walls(flow, places.baffles);
 
-        forAll(vertices, i)
+        forAll(U, i)
         {
             // A point that a wall shares with an open patch moves with the
             // wall, either side of a baffle by itself
@@ -258,16 +297,12 @@ namespace Foam
     (
         const volScalarField& p,
         const scalar rho,
-        const domainImages& images,
-        const baffleSides& baffles,
+        const vertexPlaces& places,
         UList<flowVertex>& vertices
     )
     {
-        const vectorField gradp
-        (
-            atVertices((rho*fvc::grad(p))(), images, baffles)
-        );
-        forAll(vertices, i)
+        const vectorField gradp(atVertices((rho*fvc::grad(p))(), places));
+        forAll(gradp, i)
         {
             vertices[i].pressureGradient = gradp[i];
         }
@@ -285,53 +320,85 @@ void Foam::frozenFlow::setFlow
 )
 {
     UList<flowVertex>& vertices = values_.vertices;
+    const pointField& apexes = undecomposed.decomposition().apexes();
+    const vertexPlaces places{apexes, images_, baffles};
+    const pointImages images(undecomposed.mesh(), images_);
     checkFinite(undecomposed.U());
     checkFinite(undecomposed.p());
 
     if (pressure_)
     {
-        interpolatePressure
-        (
-            undecomposed.p(), rho, images_, baffles, vertices
-        );
+        interpolatePressure(undecomposed.p(), rho, places, vertices);
     }
 
     if (scheme_ == stCellPoint)
     {
-        interpolateVelocity(undecomposed.U(), images_, baffles, vertices);
+        interpolateVelocity(undecomposed.U(), places, vertices);
     }
     else
     {
-        const pointImages images(undecomposed.mesh(), images_);
-        const vertexFit fit(undecomposed.U(), baffles, images);
+        const vertexFit fit(undecomposed.U(), apexes, baffles, images);
 
-        forAll(vertices, i)
+        forAll(fit.u, i)
         {
             vertices[i].u = fit.u[i];
             vertices[i].gradient = fit.gradient[i];
         }
+    }
+
+    setMeans();
+    if (scheme_ == stDivergenceFree)
+    {
         makeExcess(undecomposed, images);
+    }
+}
+
+
+void Foam::frozenFlow::setMeans()
+{
+    UList<flowVertex>& vertices = values_.vertices;
+    label i = vertices.size() - meanOf_.size();
+
+    for (const labelList& corners : meanOf_)
+    {
+        flowVertex& mean = vertices[i++];
+        mean = flowVertex{mean.x, Zero, Zero, Zero};
+        for (const label corner : corners)
+        {
+            const scalar part = scalar(1)/corners.size();
+            mean.u += part*vertices[corner].u;
+            mean.gradient += part*vertices[corner].gradient;
+            mean.pressureGradient += part*vertices[corner].pressureGradient;
+        }
     }
 }
 
 
 void Foam::frozenFlow::setField
 (
+    const undecomposedFlow& undecomposed,
     const volVectorField& E,
     const baffleSides& baffles
 )
 {
-    field_.deepCopy
+    const vectorField atOthers
     (
         atVertices
         (
             E,
-            images_,
-            baffles,
+            {undecomposed.decomposition().apexes(), images_, baffles},
             "electric",
             "look at what forces/electricField names"
         )
     );
+
+    label i = atOthers.size();
+    SubList<vector>(field_, i) = atOthers;
+    for (const labelList& corners : meanOf_)
+    {
+        field_[i++] =
+            sum(vectorField(atOthers, corners))/corners.size();
+    }
 }
 
 

@@ -10,8 +10,12 @@ License
 #include "frozenFlow.H"
 #include "cyclicPolyPatch.H"
 #include "indexedOctree.H"
-#include "polyMesh.H"
+#include "tetDecomposition.H"
 #include "treeDataPoint.H"
+#include "undecomposedFlow.H"
+#include "volFields.H"
+
+#include <set>
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -111,6 +115,60 @@ Foam::label Foam::frozenFlow::exitOf
 }
 
 
+Foam::label Foam::frozenFlow::searched
+(
+    const label from,
+    const point& x
+) const
+{
+    // Those next to one that was looked at, the nearest first
+    std::set<std::pair<scalar, label>> next;
+    labelHashSet known;
+    tetCoordinates c;
+    label beyondPatch = -1;
+    const auto add =
+        [&](const label teti)
+        {
+            if (teti >= 0 && known.insert(teti))
+            {
+                vector d(-4*x);
+                for (const label vertexi : tets_[teti].vertices)
+                {
+                    d += values_.vertices[vertexi].x;
+                }
+                next.insert({magSqr(d), teti});
+            }
+        };
+
+    add(from);
+    for (label n = 0; n < 1000 && !next.empty(); ++n)
+    {
+        const label teti = next.begin()->second;
+        const flowTet& tet = tets_[teti];
+        next.erase(next.begin());
+
+        if (!unsound_.found(teti))
+        {
+            setCoordinates(teti, x, c);
+            const label exit = exitOf(tet, c, -1);
+            if (exit < 0)
+            {
+                return teti;
+            }
+            if (tet.neighbours[exit] < 0 && beyondPatch < 0)
+            {
+                beyondPatch = teti;
+            }
+        }
+        for (const label neighbour : tet.neighbours)
+        {
+            add(neighbour);
+        }
+    }
+    return beyondPatch;
+}
+
+
 Foam::frozenFlow::locationType Foam::frozenFlow::walk
 (
     const point& x,
@@ -133,6 +191,19 @@ Foam::frozenFlow::locationType Foam::frozenFlow::walk
 
     for (label n = 0; n < maxTets; ++n)
     {
+        // Where tetrahedra overlap, or a walk goes round in circles
+        if (unsound_.found(at.tet) || n == maxTets/2)
+        {
+            const label there = searched(at.tet, y);
+            if (there < 0)
+            {
+                setCoordinates(at.tet, y, c);
+                break;
+            }
+            at.tet = there;
+            previous = -1;
+        }
+
         const flowTet& tet = tets_[at.tet];
         setCoordinates(at.tet, y, c);
         at.patch = -1;
@@ -188,8 +259,11 @@ Foam::frozenFlow::locationType Foam::frozenFlow::walk
 }
 
 
-void Foam::frozenFlow::findAcross(const polyMesh& mesh)
+void Foam::frozenFlow::findAcross(const undecomposedFlow& undecomposed)
 {
+    const polyMesh& mesh = undecomposed.mesh();
+    const tetDecomposition& decomposition = undecomposed.decomposition();
+
     // The first tetrahedron of a mesh cell at one of its faces
     const auto firstAt =
         [&](const label celli, const label facei)
@@ -198,7 +272,7 @@ void Foam::frozenFlow::findAcross(const polyMesh& mesh)
             label teti = cellTets_[celli];
             for (label i = 0; faces[i] != facei; ++i)
             {
-                teti += mesh.faces()[faces[i]].size() - 2;
+                teti += decomposition.nTriangles(faces[i]);
             }
             return teti;
         };
@@ -217,7 +291,7 @@ void Foam::frozenFlow::findAcross(const polyMesh& mesh)
         // Both faces are cut alike, and go round in opposite senses
         forAll(half, i)
         {
-            const label n = half[i].size() - 2;
+            const label n = decomposition.nTriangles(half.start() + i);
             const label here = firstAt(half.faceCells()[i], half.start() + i);
             const label there =
                 firstAt(other.faceCells()[i], other.start() + i);

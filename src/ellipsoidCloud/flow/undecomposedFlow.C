@@ -12,6 +12,7 @@ License
 #include "fromRanks.H"
 #include "processorPolyPatch.H"
 #include "surfaceFields.H"
+#include "tetDecomposition.H"
 #include "volFields.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -132,6 +133,8 @@ Foam::undecomposedFlow::undecomposedFlow(const fvMesh& mesh)
     part_(mesh),
     nCells_(mesh.nCells())
 {
+    checkCells(mesh);
+
     if (!Pstream::parRun())
     {
         cellAddressing_ = identity(mesh.nCells(), 1);
@@ -161,6 +164,7 @@ Foam::undecomposedFlow::~undecomposedFlow()
         phi_.clear();
         p_.clear();
         U_.clear();
+        decomposition_.clear();
         mesh_.clear();
         time_.clear();
     }
@@ -182,6 +186,16 @@ void Foam::undecomposedFlow::take(const solverFields& flow)
     *U_ == flow.U;
     *p_ == flow.p;
     *phi_ == flow.phi;
+}
+
+
+const Foam::tetDecomposition& Foam::undecomposedFlow::decomposition() const
+{
+    if (!decomposition_.valid())
+    {
+        decomposition_.reset(new tetDecomposition(mesh()));
+    }
+    return *decomposition_;
 }
 
 

@@ -16,6 +16,7 @@ License
 Foam::vertexFit::vertexFit
 (
     const volVectorField& U,
+    const pointField& apexes,
     const baffleSides& baffles,
     const pointImages& images
 )
@@ -31,14 +32,15 @@ Foam::vertexFit::vertexFit
 
     forAll(fits, celli)
     {
-        u[celli] = fits[celli].value;
-        gradient[celli] = fits[celli].gradient;
+        const vector shift(apexes[celli] - mesh.cellCentres()[celli]);
+        u[celli] = fits[celli].at(shift);
+        gradient[celli] = fits[celli].gradientAt(shift);
         weights[celli] = 1;
 
         for (const label pointi : mesh.cellPoints()[celli])
         {
             const vector d(mesh.points()[pointi] - mesh.cellCentres()[celli]);
-            const scalar w = 1/mag(d);
+            const scalar w = 1/(mag(d) + ROOTVSMALL);
             const label vertexi = nCells + baffles.vertex(pointi, celli);
 
             u[vertexi] += w*fits[celli].at(d);

@@ -10,6 +10,7 @@ License
 #include "patchInflow.H"
 #include "masterGate.H"
 #include "triPointRef.H"
+#include "tetDecomposition.H"
 #include "undecomposedFlow.H"
 #include "volFields.H"
 #include "wallPolyPatch.H"
@@ -28,6 +29,7 @@ Foam::patchInflow::patchInflow
     if (Pstream::master())
     {
         const fvMesh& mesh = undecomposed.mesh();
+        const tetDecomposition& decomposition = undecomposed.decomposition();
         const polyPatch& pp = mesh.boundaryMesh()[name];
         const vectorField& U = undecomposed.U().boundaryField()[pp.index()];
         DynamicList<point> vertices;
@@ -39,26 +41,21 @@ Foam::patchInflow::patchInflow
 
         forAll(pp, i)
         {
-            const face& f = pp[i];
+            const auto add =
+                [&](const point& a, const point& b, const point& c)
+                {
+                    const triPointRef triangle(a, b, c);
 
-            for (label trii = 1; trii < f.size() - 1; ++trii)
-            {
-                const triPointRef triangle
-                (
-                    mesh.points()[f[0]],
-                    mesh.points()[f[trii]],
-                    mesh.points()[f[trii + 1]]
-                );
+                    // Outward normal; what flows out carries no cell in
+                    sum += max(-(U[i] & triangle.areaNormal()), scalar(0));
 
-                // Outward normal; what flows out carries no cell in
-                sum += max(-(U[i] & triangle.areaNormal()), scalar(0));
-
-                vertices.append({triangle.a(), triangle.b(), triangle.c()});
-                centres.append(mesh.cellCentres()[pp.faceCells()[i]]);
-                sums.append(sum);
-                area += triangle.mag();
-                areas.append(area);
-            }
+                    vertices.append({a, b, c});
+                    centres.append(decomposition.apexes()[pp.faceCells()[i]]);
+                    sums.append(sum);
+                    area += triangle.mag();
+                    areas.append(area);
+                };
+            decomposition.forTriangles(pp.start() + i, add);
         }
 
         corners.transfer(vertices);

@@ -11,6 +11,7 @@ License
 #include "flatMerging.H"
 #include "foamVersions.H"
 #include "fvMesh.H"
+#include "tetDecomposition.H"
 #include "treeBoundBox.H"
 #include "treeDataTriSurface.H"
 #include "undecomposedFlow.H"
@@ -28,104 +29,43 @@ namespace Foam
     //  a flat wall near a cell is then few triangles. Longer ones save nothing.
     static const scalar mergedEdge = 6;
 
-    //- The point of a face from which it can be cut into triangles: the
-    //  preferred one, as the flow's tetrahedra are cut, if all have an area;
-    //  else the best; -1 if there is none
-    static label fanBase
-    (
-        const face& f,
-        const pointField& points,
-        const label preferred
-    )
-    {
-        // Of the face's area; less is a point in line with its neighbours
-        const scalar noArea = 1e-10;
-
-        const vector normal(f.areaNormal(points)/(f.mag(points) + VSMALL));
-        scalar largest = 0;
-        label best = -1;
-
-        for (label i = 0; i < f.size(); ++i)
-        {
-            const label base = (preferred + i) % f.size();
-            scalar smallest = GREAT;
-
-            for (label trii = 1; trii < f.size() - 1; ++trii)
-            {
-                const point& a = points[f[base]];
-                const point& b = points[f[(base + trii) % f.size()]];
-                const point& c = points[f[(base + trii + 1) % f.size()]];
-
-                smallest = min(smallest, 0.5*(((b - a) ^ (c - a)) & normal));
-            }
-
-            if (smallest > max(largest, noArea*f.mag(points)))
-            {
-                largest = smallest;
-                best = base;
-            }
-            if (i == 0 && best >= 0)
-            {
-                break;
-            }
-        }
-
-        return best;
-    }
-
-    //- Split the faces of patches of the undecomposed mesh into triangles
+    //- The triangles of the faces of patches, as the flow's tetrahedra have
+    //  them
     static triSurface triangulate
     (
-        const polyMesh& mesh,
+        const undecomposedFlow& undecomposed,
         const std::function<bool(const polyPatch&)>& chosen
     )
     {
-        const labelList& basePoints = mesh.tetBasePtIs();
+        const polyMesh& mesh = undecomposed.mesh();
+        const tetDecomposition& decomposition = undecomposed.decomposition();
         DynamicList<labelledTri> triangles;
+        DynamicList<point> points(mesh.points());
 
-        forAll(mesh.boundaryMesh(), patchi)
+        for (const label facei : decomposition.meanFaces())
         {
-            const polyPatch& pp = mesh.boundaryMesh()[patchi];
+            points.append(decomposition.mean(facei));
+        }
 
-            if (!chosen(pp))
+        for (const polyPatch& pp : mesh.boundaryMesh())
+        {
+            const label end = chosen(pp) ? pp.start() + pp.size() : 0;
+
+            for (label facei = pp.start(); facei < end; ++facei)
             {
-                continue;
-            }
-
-            forAll(pp, i)
-            {
-                const face& f = pp[i];
-                const label preferred = max(basePoints[pp.start() + i], 0);
-                const label base = fanBase(f, mesh.points(), preferred);
-
-                if (base < 0)
-                {
-                    FatalErrorInFunction
-                        << "a face of patch " << pp.name() << " at "
-                        << f.centre(mesh.points()) << " cannot be cut into "
-                        << "triangles from any of its points: "
-                        << "checkMesh says more"
-                        << exit(FatalError);
-                }
-
-                for (label trii = 1; trii < f.size() - 1; ++trii)
+                for (label k = 0; k < decomposition.nTriangles(facei); ++k)
                 {
                     // Faces point out of the mesh, facets into the fluid
+                    const auto t = decomposition.triangle(facei, k);
                     triangles.append
                     (
-                        labelledTri
-                        (
-                            f[base],
-                            f[(base + trii + 1) % f.size()],
-                            f[(base + trii) % f.size()],
-                            patchi
-                        )
+                        labelledTri(t[0], t[2], t[1], pp.index())
                     );
                 }
             }
         }
 
-        return triSurface(List<labelledTri>(triangles), mesh.points());
+        return triSurface(List<labelledTri>(triangles), pointField(points));
     }
 
     //- The cube of space that holds a point
@@ -164,12 +104,12 @@ namespace Foam
 
 Foam::triSurface Foam::wallFacets::made
 (
-    const polyMesh& mesh,
+    const undecomposedFlow& undecomposed,
     const domainImages& images,
     const bool mirrors
 ) const
 {
-    const boundBox box(mesh.points(), false);
+    const boundBox box(undecomposed.mesh().points(), false);
     const scalar far = known_ + beyond_;
     const auto merged =
         [&](const triSurface& of)
@@ -187,7 +127,7 @@ Foam::triSurface Foam::wallFacets::made
         (
             triangulate
             (
-                mesh,
+                undecomposed,
                 [](const polyPatch& pp) { return isA<wallPolyPatch>(pp); }
             )
         )
@@ -196,7 +136,7 @@ Foam::triSurface Foam::wallFacets::made
     (
         triangulate
         (
-            mesh,
+            undecomposed,
             [&](const polyPatch& pp)
             {
                 const domainImages::seam* seam = images.at(pp.index());
@@ -393,7 +333,7 @@ Foam::wallFacets::wallFacets
 {
     if (Pstream::master())
     {
-        surface_ = made(undecomposed.mesh(), images, mirrors);
+        surface_ = made(undecomposed, images, mirrors);
         span_ = boundBox(undecomposed.mesh().points(), false);
     }
 

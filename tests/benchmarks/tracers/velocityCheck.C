@@ -10,6 +10,7 @@ License
 
 #include "velocityCheck.H"
 #include "surfaceFields.H"
+#include "tetDecomposition.H"
 #include "volFields.H"
 #include "wallPolyPatch.H"
 
@@ -47,32 +48,31 @@ static bool sampleAt
 template<class Velocity>
 static scalar fluxOf
 (
-    const polyMesh& mesh,
+    const tetDecomposition& decomposition,
     const label facei,
-    const label base,
     const Velocity& velocity
 )
 {
-    const face& f = mesh.faces()[facei];
     const scalar weights[2] = {0.109951743655322, 0.223381589678011};
     const scalar places[2] = {0.091576213509771, 0.445948490915965};
     scalar flux = 0;
 
-    for (label i = 1; i < f.size() - 1; ++i)
-    {
-        const point& a = mesh.points()[f[base]];
-        const point& b = mesh.points()[f[(base + i) % f.size()]];
-        const point& c = mesh.points()[f[(base + i + 1) % f.size()]];
-        const vector S(0.5*((b - a) ^ (c - a)));
-
-        for (label k = 0; k < 6; ++k)
+    decomposition.forTriangles
+    (
+        facei,
+        [&](const point& a, const point& b, const point& c)
         {
-            scalar l[3] = {places[k/3], places[k/3], places[k/3]};
-            l[k % 3] = 1 - 2*places[k/3];
-            flux +=
-                weights[k/3]*(velocity(l[0]*a + l[1]*b + l[2]*c) & S);
+            const vector S(0.5*((b - a) ^ (c - a)));
+
+            for (label k = 0; k < 6; ++k)
+            {
+                scalar l[3] = {places[k/3], places[k/3], places[k/3]};
+                l[k % 3] = 1 - 2*places[k/3];
+                flux +=
+                    weights[k/3]*(velocity(l[0]*a + l[1]*b + l[2]*c) & S);
+            }
         }
-    }
+    );
 
     return flux;
 }
@@ -153,6 +153,7 @@ void Foam::knownVelocity::set
 ) const
 {
     const fvMesh& mesh = U.mesh();
+    const tetDecomposition decomposition(mesh);
     const auto at = [&](const point& x) { return velocity(x); };
 
     forAll(U, celli)
@@ -161,7 +162,7 @@ void Foam::knownVelocity::set
     }
     forAll(phi, facei)
     {
-        phi[facei] = fluxOf(mesh, facei, 0, at);
+        phi[facei] = fluxOf(decomposition, facei, at);
     }
     forAll(U.boundaryField(), patchi)
     {
@@ -172,7 +173,7 @@ void Foam::knownVelocity::set
         forAll(Up, i)
         {
             Up[i] = velocity(pp.faceCentres()[i]);
-            phip[i] = fluxOf(mesh, pp.start() + i, 0, at);
+            phip[i] = fluxOf(decomposition, pp.start() + i, at);
         }
     }
 }
@@ -187,6 +188,7 @@ void Foam::checkVelocity
 )
 {
     const fvMesh& mesh = phi.mesh();
+    const tetDecomposition decomposition(mesh);
     scalar divergence = 0, squares = 0, slope = 0, steepest = 0, fastest = 0;
 
     forAll(mesh.cells(), celli)
@@ -242,8 +244,7 @@ void Foam::checkVelocity
                 flow.velocity(0, x.v_, at, u.v_, nullptr);
                 return u;
             };
-        const scalar through =
-            fluxOf(mesh, facei, flow.fanBase(mesh, facei), velocity);
+        const scalar through = fluxOf(decomposition, facei, velocity);
         flux = max(flux, mag(through - phi[facei]));
         largest = max(largest, mag(phi[facei]));
     }

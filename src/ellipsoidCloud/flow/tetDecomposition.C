@@ -1,0 +1,492 @@
+/*---------------------------------------------------------------------------*\
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+    See COPYING at the top of the source tree.
+
+\*---------------------------------------------------------------------------*/
+#include "tetDecomposition.H"
+#include "bitSet.H"
+#include "cyclicPolyPatch.H"
+#include "DynamicList.H"
+#include "masterGate.H"
+#include "Tuple2.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- Distance of an apex from a triangle that will do
+    static const scalar enough = 0.05;
+
+    //- The plane of a triangle: the normal out of a mesh cell, and the distance
+    //  from the origin along it
+    struct trianglePlane
+    {
+        vector n;
+        scalar distance;
+    };
+
+    //- The point with the largest distance from the nearest of planes that lie
+    //  about the origin, within a size, by the simplex method: of x and t with
+    //  n.x + t <= distance for all planes the largest t. Those of the basis meet
+    //  it with equality, and the one that violates it most enters.
+    static vector deepestPoint
+    (
+        const UList<trianglePlane>& planes,
+        const scalar size
+    )
+    {
+        // What distances of the basis add to x and t; at first those of a
+        // tetrahedron far away
+        struct { vector x; scalar t; scalar distance; } basis[4];
+        for (label k = 0; k < 4; ++k)
+        {
+            const scalar i = k & 1 ? 1 : -1;
+            const scalar j = k & 2 ? 1 : -1;
+            basis[k] = {Foam::sqrt(3.0)/4*vector(i, j, i*j), 0.25, 10*size};
+        }
+
+        vector x(Zero);
+        for (label n = 0; n < 1000; ++n)
+        {
+            scalar t = 0;
+            x = Zero;
+            for (const auto& column : basis)
+            {
+                x += column.distance*column.x;
+                t += column.distance*column.t;
+            }
+
+            const trianglePlane* in = nullptr;
+            scalar least = t - 1e-9*size;
+            for (const trianglePlane& p : planes)
+            {
+                if (p.distance - (p.n & x) < least)
+                {
+                    least = p.distance - (p.n & x);
+                    in = &p;
+                }
+            }
+
+            scalar by[4];
+            label out = -1;
+            for (label k = 0; in && k < 4; ++k)
+            {
+                by[k] = (in->n & basis[k].x) + basis[k].t;
+                if
+                (
+                    by[k] > 1e-9
+                 && (out < 0 || basis[k].t*by[out] < basis[out].t*by[k])
+                )
+                {
+                    out = k;
+                }
+            }
+            if (out < 0)
+            {
+                break;
+            }
+
+            basis[out] =
+                {basis[out].x/by[out], basis[out].t/by[out], in->distance};
+            for (label k = 0; k < 4; ++k)
+            {
+                if (k != out)
+                {
+                    basis[k].x -= by[k]*basis[out].x;
+                    basis[k].t -= by[k]*basis[out].t;
+                }
+            }
+        }
+        return x;
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::label Foam::tetDecomposition::sidesOf
+(
+    const label facei,
+    side sides[2]
+) const
+{
+    const label owner = mesh_.faceOwner()[facei];
+    const label patchi = mesh_.boundaryMesh().whichPatch(facei);
+    sides[0] = side{apexes_[owner], depths_[owner], 1};
+
+    if (patchi < 0)
+    {
+        const label other = mesh_.faceNeighbour()[facei];
+        sides[1] = side{apexes_[other], depths_[other], -1};
+        return 2;
+    }
+
+    // Cells pass no others than those moved along
+    const polyPatch& pp = mesh_.boundaryMesh()[patchi];
+    if
+    (
+        !isA<cyclicPolyPatch>(pp)
+     || !refCast<const cyclicPolyPatch>(pp).parallel()
+    )
+    {
+        return 1;
+    }
+    const cyclicPolyPatch& beyond =
+        refCast<const cyclicPolyPatch>(pp).neighbPatch();
+    const label i = facei - pp.start();
+    const label other = beyond.faceCells()[i];
+    const vector shift(pp.faceCentres()[i] - beyond.faceCentres()[i]);
+    sides[1] = side{apexes_[other] + shift, depths_[other], -1};
+    return 2;
+}
+
+
+Foam::scalar Foam::tetDecomposition::clearance
+(
+    const label facei,
+    const label base,
+    const side& of
+) const
+{
+    const scalar noArea = 1e-9*mag(mesh_.faceAreas()[facei]);
+    scalar least = GREAT;
+
+    forTriangles
+    (
+        facei,
+        base,
+        [&](const point& a, const point& b, const point& c)
+        {
+            const vector S(0.5*((b - a) ^ (c - a)));
+            least = min
+            (
+                least,
+                of.sign*(S & (a - of.apex))/((mag(S) + noArea)*of.depth)
+            );
+        }
+    );
+    return least;
+}
+
+
+Foam::scalar Foam::tetDecomposition::clearance
+(
+    const label facei,
+    const label base
+) const
+{
+    side sides[2];
+    const label n = sidesOf(facei, sides);
+    scalar least = GREAT;
+
+    for (label i = 0; i < n; ++i)
+    {
+        least = min(least, clearance(facei, base, sides[i]));
+    }
+    return least;
+}
+
+
+Foam::scalar Foam::tetDecomposition::cellClearance(const label celli) const
+{
+    scalar least = GREAT;
+    for (const label facei : mesh_.cells()[celli])
+    {
+        const scalar sign = mesh_.faceOwner()[facei] == celli ? 1 : -1;
+        const side of{apexes_[celli], depths_[celli], sign};
+        least = min(least, clearance(facei, bases_[facei], of));
+    }
+    return least;
+}
+
+
+Foam::scalar Foam::tetDecomposition::narrowest
+(
+    const label facei,
+    const label base
+) const
+{
+    const vector& S = mesh_.faceAreas()[facei];
+    scalar least = GREAT;
+
+    forTriangles
+    (
+        facei,
+        base,
+        [&](const point& x, const point& y, const point& z)
+        {
+            const vector a(y - x);
+            const vector b(z - x);
+            least = min
+            (
+                least,
+                ((a ^ b) & S)/max(max(magSqr(a), magSqr(b)), magSqr(b - a))
+            );
+        }
+    );
+    return least;
+}
+
+
+Foam::label Foam::tetDecomposition::bestBase(const label facei) const
+{
+    const label n = mesh_.faces()[facei].size();
+    label best = -1;
+    label farthest = -1;
+    scalar widest = -GREAT;
+    scalar most = -GREAT;
+
+    for (label base = 0; base < (n > 3 ? n : 1); ++base)
+    {
+        const scalar distance = clearance(facei, base);
+        if (distance > most)
+        {
+            most = distance;
+            farthest = base;
+        }
+        if (distance < enough)
+        {
+            continue;
+        }
+        if (n < 5)
+        {
+            return base;
+        }
+        const scalar width = narrowest(facei, base);
+        if (width > widest)
+        {
+            widest = width;
+            best = base;
+        }
+    }
+
+    return
+        best >= 0 ? best
+      : n > 3 && clearance(facei, -1) > most ? -1
+      : farthest;
+}
+
+
+bool Foam::tetDecomposition::cut(const label facei)
+{
+    const label patchi = mesh_.boundaryMesh().whichPatch(facei);
+    const polyPatch* pp =
+        patchi < 0 ? nullptr : &mesh_.boundaryMesh()[patchi];
+    const cyclicPolyPatch* half =
+        pp && isA<cyclicPolyPatch>(*pp)
+      ? &refCast<const cyclicPolyPatch>(*pp)
+      : nullptr;
+
+    // Both halves of a cyclic patch alike: faces begin with the same point and
+    // go round in opposite senses
+    if (half && !half->owner())
+    {
+        return cut(half->neighbPatch().start() + facei - half->start());
+    }
+
+    const label base = bestBase(facei);
+    const bool changed = base != bases_[facei];
+    bases_[facei] = base;
+    if (half)
+    {
+        const label n = mesh_.faces()[facei].size();
+        bases_[half->neighbPatch().start() + facei - half->start()] =
+            base < 0 ? -1 : (n - base) % n;
+    }
+    return changed;
+}
+
+
+bool Foam::tetDecomposition::moveApex(const label celli)
+{
+    const scalar before = cellClearance(celli);
+    if (before >= enough)
+    {
+        return false;
+    }
+
+    const point& centre = mesh_.cellCentres()[celli];
+    const scalar noArea = 1e-9*pow(mesh_.cellVolumes()[celli], 2.0/3);
+    DynamicList<trianglePlane> planes;
+    scalar size = 0;
+    for (const label facei : mesh_.cells()[celli])
+    {
+        const scalar sign = mesh_.faceOwner()[facei] == celli ? 1 : -1;
+        const auto add =
+            [&](const point& a, const point& b, const point& c)
+            {
+                const vector S(sign*((b - a) ^ (c - a)));
+                size = max(size, mag(a - centre));
+                if (mag(S) > noArea)
+                {
+                    const vector n(S/mag(S));
+                    planes.append(trianglePlane{n, n & (a - centre)});
+                }
+            };
+        forTriangles(facei, bases_[facei], add);
+    }
+
+    const point was(apexes_[celli]);
+    apexes_[celli] = centre + deepestPoint(planes, size);
+    if (!(cellClearance(celli) > before))
+    {
+        apexes_[celli] = was;
+        return false;
+    }
+    return true;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::tetDecomposition::tetDecomposition(const polyMesh& mesh)
+:
+    mesh_(mesh),
+    apexes_(mesh.cellCentres()),
+    depths_(mesh.nCells(), Zero),
+    bases_(mesh.nFaces(), -1)
+{
+    forAll(depths_, celli)
+    {
+        scalar area = 0;
+        for (const label facei : mesh.cells()[celli])
+        {
+            area += mag(mesh.faceAreas()[facei]);
+        }
+        depths_[celli] = 3*mesh.cellVolumes()[celli]/area;
+    }
+    forAll(bases_, facei)
+    {
+        cut(facei);
+    }
+
+    // An apex that moves may make other cuts better, and these other apexes
+    labelList cells(identity(mesh.nCells()));
+    for (label pass = 0; pass < 10 && cells.size(); ++pass)
+    {
+        bitSet cutAnew(mesh.nFaces());
+        for (const label celli : cells)
+        {
+            if (moveApex(celli))
+            {
+                cutAnew.set(mesh.cells()[celli]);
+            }
+        }
+
+        bitSet next(mesh.nCells());
+        for (const label facei : cutAnew)
+        {
+            if (cut(facei))
+            {
+                next.set(mesh.faceOwner()[facei]);
+                if (mesh.isInternalFace(facei))
+                {
+                    next.set(mesh.faceNeighbour()[facei]);
+                }
+            }
+        }
+        cells = next.sortedToc();
+    }
+
+    DynamicList<label> meanFaces;
+    forAll(bases_, facei)
+    {
+        if (bases_[facei] < 0)
+        {
+            meanFaces.append(facei);
+        }
+    }
+    meanFaces_ = meanFaces;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::label Foam::tetDecomposition::nTriangles(const label facei) const
+{
+    return mesh_.faces()[facei].size() - (bases_[facei] < 0 ? 0 : 2);
+}
+
+
+Foam::FixedList<Foam::label, 3> Foam::tetDecomposition::triangle
+(
+    const label facei,
+    const label k
+) const
+{
+    const face& f = mesh_.faces()[facei];
+    const label base = bases_[facei];
+    const label i = base + 1 + k;
+
+    FixedList<label, 3> corners;
+    corners[0] =
+        base < 0
+      ? mesh_.nPoints() + findSortedIndex(meanFaces_, facei)
+      : f[base];
+    corners[1] = f[i % f.size()];
+    corners[2] = f[(i + 1) % f.size()];
+    return corners;
+}
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+void Foam::checkCells(const polyMesh& mesh)
+{
+    const pointField& centres = mesh.cellCentres();
+    label first = mesh.nCells();
+    forAll(mesh.faces(), facei)
+    {
+        const label owner = mesh.faceOwner()[facei];
+        const vector& S = mesh.faceAreas()[facei];
+        const vector d(mesh.faceCentres()[facei] - centres[owner]);
+        const vector across
+        (
+            mesh.isInternalFace(facei)
+          ? centres[mesh.faceNeighbour()[facei]] - centres[owner]
+          : d
+        );
+
+        // OpenFOAM divides by these
+        const bool good =
+            mag(across) > 0
+         && (mesh.isInternalFace(facei) ? mag(S & d) + mag(S & (across - d)) : mag(S)) > 0;
+        first = good ? first : min(first, owner);
+    }
+    forAll(centres, celli)
+    {
+        first = mesh.cellVolumes()[celli] > 0 ? first : min(first, celli);
+    }
+
+    // That of the first rank that has one
+    List<Tuple2<label, point>> faults(Pstream::nProcs());
+    const bool found = first < mesh.nCells();
+    faults[Pstream::myProcNo()] =
+        Tuple2<label, point>(found ? first : -1, found ? centres[first] : point::zero);
+    Pstream::gatherList(faults);
+
+    const masterGate once;
+    forAll(faults, ranki)
+    {
+        if (Pstream::master() && faults[ranki].first() >= 0)
+        {
+            FatalErrorInFunction
+                << "mesh cell " << faults[ranki].first();
+            if (Pstream::parRun())
+            {
+                FatalError << " of processor " << ranki;
+            }
+            FatalError
+                << " at " << faults[ranki].second() << " m has no volume, or a"
+                << " face without area or distance from it" << nl
+                << "    checkMesh says more" << exit(FatalError);
+        }
+    }
+}
+
+
+// ************************************************************************* //
