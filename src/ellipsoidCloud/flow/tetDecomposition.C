@@ -116,12 +116,12 @@ Foam::label Foam::tetDecomposition::sidesOf
 {
     const label owner = mesh_.faceOwner()[facei];
     const label patchi = mesh_.boundaryMesh().whichPatch(facei);
-    sides[0] = side{apexes_[owner], depths_[owner], 1};
+    sides[0] = side{owner, apexes_[owner], depths_[owner], 1};
 
     if (patchi < 0)
     {
         const label other = mesh_.faceNeighbour()[facei];
-        sides[1] = side{apexes_[other], depths_[other], -1};
+        sides[1] = side{other, apexes_[other], depths_[other], -1};
         return 2;
     }
 
@@ -140,7 +140,7 @@ Foam::label Foam::tetDecomposition::sidesOf
     const label i = facei - pp.start();
     const label other = beyond.faceCells()[i];
     const vector shift(pp.faceCentres()[i] - beyond.faceCentres()[i]);
-    sides[1] = side{apexes_[other] + shift, depths_[other], -1};
+    sides[1] = side{other, apexes_[other] + shift, depths_[other], -1};
     return 2;
 }
 
@@ -181,13 +181,13 @@ Foam::scalar Foam::tetDecomposition::clearance
 {
     side sides[2];
     const label n = sidesOf(facei, sides);
-    scalar least = GREAT;
+    scalar sum = 0;
 
     for (label i = 0; i < n; ++i)
     {
-        least = min(least, clearance(facei, base, sides[i]));
+        sum += min(clearance(facei, base, sides[i]), enough);
     }
-    return least;
+    return sum/n;
 }
 
 
@@ -197,7 +197,7 @@ Foam::scalar Foam::tetDecomposition::cellClearance(const label celli) const
     for (const label facei : mesh_.cells()[celli])
     {
         const scalar sign = mesh_.faceOwner()[facei] == celli ? 1 : -1;
-        const side of{apexes_[celli], depths_[celli], sign};
+        const side of{celli, apexes_[celli], depths_[celli], sign};
         least = min(least, clearance(facei, bases_[facei], of));
     }
     return least;
@@ -301,6 +301,28 @@ bool Foam::tetDecomposition::cut(const label facei)
 }
 
 
+Foam::labelList Foam::tetDecomposition::cutAt(const bitSet& cells)
+{
+    bitSet faces(mesh_.nFaces());
+    for (const label celli : cells)
+    {
+        faces.set(mesh_.cells()[celli]);
+    }
+
+    bitSet others(mesh_.nCells());
+    for (const label facei : faces)
+    {
+        side sides[2];
+        const label n = cut(facei) ? sidesOf(facei, sides) : 0;
+        for (label i = 0; i < n; ++i)
+        {
+            others.set(sides[i].cell);
+        }
+    }
+    return others.sortedToc();
+}
+
+
 bool Foam::tetDecomposition::moveApex(const label celli)
 {
     const scalar before = cellClearance(celli);
@@ -368,29 +390,29 @@ Foam::tetDecomposition::tetDecomposition(const polyMesh& mesh)
     labelList cells(identity(mesh.nCells()));
     for (label pass = 0; pass < 10 && cells.size(); ++pass)
     {
-        bitSet cutAnew(mesh.nFaces());
+        bitSet moved(mesh.nCells());
         for (const label celli : cells)
         {
             if (moveApex(celli))
             {
-                cutAnew.set(mesh.cells()[celli]);
+                moved.set(celli);
             }
         }
-
-        bitSet next(mesh.nCells());
-        for (const label facei : cutAnew)
-        {
-            if (cut(facei))
-            {
-                next.set(mesh.faceOwner()[facei]);
-                if (mesh.isInternalFace(facei))
-                {
-                    next.set(mesh.faceNeighbour()[facei]);
-                }
-            }
-        }
-        cells = next.sortedToc();
+        cells = cutAt(moved);
     }
+
+    // Where there is no better one the apex is the centre
+    bitSet back(mesh.nCells());
+    forAll(apexes_, celli)
+    {
+        const point& centre = mesh.cellCentres()[celli];
+        if (apexes_[celli] != centre && cellClearance(celli) <= 0)
+        {
+            apexes_[celli] = centre;
+            back.set(celli);
+        }
+    }
+    cutAt(back);
 
     DynamicList<label> meanFaces;
     forAll(bases_, facei)
