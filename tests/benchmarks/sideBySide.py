@@ -219,14 +219,14 @@ def numbers_of_cells(bench):
              "| cells | way | tolerance | processor time [s] | less that before the first cell [s] "
              "| of it, per cell [ms] | grows as the power |", "|---|---|---|---|---|---|---|"]
     for way in bench.growing:
-        few = [bench.trap(f"cells{n}", way, way[4], n) for n in numbers if n <= 10000]
-        many = [bench.trap(f"cells{n}", way, way[4], n) for n in numbers if n > 10000]
-        start = bench.trap("cells0", way, way[4], 1, 0.001, 0.005)
+        few = [bench.trap(f"cells{n}", way, way[3], n) for n in numbers if n <= 10000]
+        many = [bench.trap(f"cells{n}", way, way[3], n) for n in numbers if n > 10000]
+        start = bench.trap("cells0", way, way[3], 1, 0.001, 0.005)
         set_up, *times = bench.times([start, *few])
         times += bench.times(many, 1)
         moving = [time - set_up for time in times]
         for n, time, less, power in zip(numbers, times, moving, growth(numbers, moving)):
-            lines.append(f"| {n} | {way[0]} | {way[4]} | {time:.2f} | {less:.2f} | {1000 * less / n:.2f} | {power} |")
+            lines.append(f"| {n} | {way[0]} | {way[3]} | {time:.2f} | {less:.2f} | {1000 * less / n:.2f} | {power} |")
     return lines
 
 
@@ -240,7 +240,7 @@ def ranks(bench):
         cases = []
         sizes = [(1, number), (2, number), (4, number), (2, bench.largest)]
         for n, count in dict.fromkeys(sizes[:2 if bench.few else 4]):
-            case = bench.trap(f"{count}on{n}", way, way[4], count)
+            case = bench.trap(f"{count}on{n}", way, way[3], count)
             case.ranks, case.count = n, count
             cases.append(case)
         few, many = [[case for case in cases if (case.count > 10000) == is_many] for is_many in (False, True)]
@@ -264,7 +264,7 @@ def meshes(bench):
         for name in names:
             for count, duration, end in ((1, 0.001, 0.005), (number, 0.2, 0.3)):
                 case = OursCase(bench.folder, f"{name}of{count}", name)
-                case.choose(*way[1:4], way[4])
+                case.choose(*way[1:4])
                 case.inject(f"inlet {{ type patch; patch inlet; number {count}; duration {duration}; }}")
                 case.span(end)
                 case.options = ["-frozenFlow"]

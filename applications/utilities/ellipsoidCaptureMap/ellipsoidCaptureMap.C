@@ -99,6 +99,49 @@ static void checkCase
 }
 
 
+//- Make the map of the flow that the case has, and write it; collective
+void makeMap
+(
+    const dictionary& dict,
+    const fvMesh& mesh,
+    const ellipsoidProperties& properties,
+    const Time& runTime
+)
+{
+    const word instance(caseFiles::flowInstance(mesh));
+    checkCase(dict, mesh, properties.seed(), instance);
+
+    undecomposedFlow undecomposed(mesh);
+    const volVectorField U(fieldOf("U", instance, mesh), mesh);
+    const volScalarField p(fieldOf("p", instance, mesh), mesh);
+    const surfaceScalarField phi(fieldOf("phi", instance, mesh), mesh);
+
+    undecomposed.gather({U, p, phi});
+    reportInertia
+    (
+        U,
+        longestSemiAxis(properties.options()),
+        properties.options().kinematic_viscosity
+    );
+
+    const independentCells cells(properties, mesh, undecomposed);
+
+    captureMap map
+    (
+        dict, cells, undecomposed, properties.seed(), runTime.deltaTValue()
+    );
+    map.make();
+
+    if (Pstream::master())
+    {
+        map.write
+        (
+            runTime.globalPath()/"postProcessing"/"captureMap"/instance
+        );
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
 int main(int argc, char *argv[])
@@ -147,39 +190,7 @@ int main(int argc, char *argv[])
         )
     );
 
-    const word instance(caseFiles::flowInstance(mesh));
-    checkCase(dict, mesh, properties.seed(), instance);
-
-    undecomposedFlow undecomposed(mesh);
-    {
-        const volVectorField U(fieldOf("U", instance, mesh), mesh);
-        const volScalarField p(fieldOf("p", instance, mesh), mesh);
-        const surfaceScalarField phi(fieldOf("phi", instance, mesh), mesh);
-
-        undecomposed.gather({U, p, phi});
-        reportInertia
-        (
-            U,
-            longestSemiAxis(properties.options()),
-            properties.options().kinematic_viscosity
-        );
-
-        const independentCells cells(properties, mesh, undecomposed);
-
-        captureMap map
-        (
-            dict, cells, undecomposed, properties.seed(), runTime.deltaTValue()
-        );
-        map.make();
-
-        if (Pstream::master())
-        {
-            map.write
-            (
-                runTime.globalPath()/"postProcessing"/"captureMap"/instance
-            );
-        }
-    }
+    makeMap(dict, mesh, properties, runTime);
 
     Info<< "ClockTime = " << runTime.elapsedClockTime() << " s" << nl
         << "End\n" << endl;
