@@ -126,9 +126,10 @@ Foam::dictionary Foam::caseFiles::controls(const argList& args)
     string text(textOf(file));
     broadcast(text);
 
-    // Its name is where files that it includes are
+    // Its name is where files that it includes are; a file begins at line 1
     IStringStream is(text);
     is.name() = file;
+    is.lineNumber() = 1;
 
     return dictionary(is);
 }
