@@ -84,12 +84,18 @@ namespace Foam
     {
         const fileName whole(time.globalPath());
         word from;
-        for (const instant& earlier : Time::findTimes(whole))
+        scalar latest = -VGREAT;
+        for (const fileName& folder : readDir(whole, fileName::DIRECTORY))
         {
-            const fileName folder(whole/earlier.name());
-            if (earlier.value() <= time.value() && isFile(folder/name))
+            scalar t;
+            if
+            (
+                readScalar(folder, t) && t > latest && t <= time.value()
+             && isFile(whole/folder/name)
+            )
             {
-                from = earlier.name();
+                latest = t;
+                from = folder;
             }
         }
 

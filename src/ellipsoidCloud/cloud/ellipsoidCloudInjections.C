@@ -39,12 +39,21 @@ void Foam::ellipsoidCloud::makeInjections
     const bool hasFlow
 )
 {
+    const dictionary& dict = properties_.subDict("injection");
     const scalar runStart = readScalar(firstTime_);
     label nextId = firstId;
     SHA1 digest;
 
+    if (dict.empty())
+    {
+        const masterGate once;
+        FatalIOErrorInFunction(dict)
+            << "injection holds no injection: give one a name and a dictionary"
+            << exit(FatalIOError);
+    }
+
     injections_.clear();
-    for (const entry& e : properties_.subDict("injection"))
+    for (const entry& e : dict)
     {
         const cellInjection::setting from
         {

@@ -80,13 +80,6 @@ void Foam::ellipsoidProperties::checkPatches
 {
     const dictionary& injections = subDict("injection");
 
-    if (injections.empty())
-    {
-        FatalIOErrorInFunction(injections)
-            << "injection holds no injection: give one a name and a dictionary"
-            << exit(FatalIOError);
-    }
-
     for (const entry& e : injections)
     {
         if (!e.isDict())
