@@ -13,7 +13,8 @@
 #   test    also cmocka and h5py
 #   full    also what Alltest --full needs: clang with its sanitizers and
 #           libFuzzer, valgrind, cppcheck, shellcheck and SUNDIALS
-# Exports OpenFOAM's environment and ELLIPSOID_PYTHON (run, test, full).
+# Exports OpenFOAM's environment; for run, test and full ELLIPSOID_PYTHON, too, and a PATH with
+# the commands of python/bin.
 #
 # Variables that may be set beforehand:
 #   WM_PROJECT_DIR        an OpenFOAM to use instead of searching
@@ -479,6 +480,8 @@ setup_environment()     # build|run|test|full
     if [ "$level" != build ]; then
         ELLIPSOID_PYTHON=$(setup_find_python)
         export ELLIPSOID_PYTHON
+        # makePictures, sweep and the others
+        case $PATH: in "${setup_folder%/*}"/python/bin:*) ;; *) export PATH=${setup_folder%/*}/python/bin:$PATH ;; esac
     fi
     setup_say "OpenFOAM v$(setup_openfoam_api "$dir") in $dir ($(setup_seconds_since "$start"))"
 }

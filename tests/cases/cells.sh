@@ -9,7 +9,7 @@
 . Make/setup.sh
 if [ -z "$WM_PROJECT_DIR" ]; then setup_environment test > /dev/null || exit; fi
 # What makes a mesh once for all tests
-export PATH="$PWD/tests/cases/programs:$PATH" ELLIPSOID_TEST_MESHES=${ELLIPSOID_TEST_CASES:-$tap_folder/shared}/meshes
+export PATH="$PWD/tests/cases/programs:$PWD/python/bin:$PATH" PYTHONPATH="$PWD/python" ELLIPSOID_TEST_MESHES=${ELLIPSOID_TEST_CASES:-$tap_folder/shared}/meshes
 # Test files run side by side: ranks that wait give way, and none is bound to a core
 export OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none
 # In Alltest they rest in between, as asking alone takes half of the processor time of a run on three ranks
@@ -45,7 +45,7 @@ new_case()      # CASE STORED
     cp -r "$2"/{0.orig,system} . && cp -r 0.orig 0 || exit
     find "$2" -maxdepth 1 -type f -perm -u+x -exec cp {} . \; || exit
     find "$2/constant" -maxdepth 1 -type f -exec cp {} constant/ \; || exit
-    if [ -e "$2/../functions" ]; then cp -r "$2"/../{functions,geometry} .. || exit; fi
+    if [ -e "$2/../functions" ]; then cp "$2"/../functions .. || exit; fi
 }
 
 # Makes CASE anew with mesh, settings and flow of another, and goes there

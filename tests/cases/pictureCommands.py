@@ -3,7 +3,7 @@
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
 """Commands of makePictures, each in a process of its own that has the modules loaded already.
 
-usage: pictureCommands.py PLOTS FOLDER [PROPERTY...] < COMMANDS
+usage: pictureCommands.py FOLDER [PROPERTY...] < COMMANDS
 
 A line of COMMANDS is NAME PICTURE WORD..., with the words of makePictures; PICTURE is a file in
 pictures, or '-'. FOLDER gets NAME.status, NAME.said with the standard error, and the picture as
@@ -15,10 +15,9 @@ import shlex
 import shutil
 import sys
 
-plots, folder, *properties = sys.argv[1:]
-sys.path.insert(0, plots)
+from ellipsoidtrap.pictures import makePictures
 
-import makePictures  # noqa: E402  (found by the path above)
+folder, *properties = sys.argv[1:]
 
 
 def run(words, said):

@@ -3,7 +3,6 @@
 # shellcheck shell=bash
 . tests/cases/cells.sh
 
-plots=$tutorials/plots
 python=${ELLIPSOID_PYTHON:-python3}
 if ! "$python" -c "import matplotlib, vtkmodules" 2> /dev/null; then
     tap_skip "pictures" "Python has no matplotlib or no VTK"

@@ -29,13 +29,14 @@ class Ellipsoidtrapfoam(Package):
     def install(self, spec, prefix):
         """wmake builds straight into the prefix; the environment is that of openfoam."""
         Executable("./Allwmake")(f"-j{make_jobs}", f"-prefix={prefix}")
-        # Scripts of the tutorials and annotated dictionaries find one another by these places
-        for folder in ("tutorials", "etc", "docs"):
+        # Tutorials, commands and annotated dictionaries find one another by these places
+        for folder in ("tutorials", "python", "etc", "docs"):
             install_tree(folder, join_path(prefix, folder))
         mkdirp(prefix.Make)
         install("Make/setup.sh", prefix.Make)
         install("COPYING", prefix)
 
     def setup_run_environment(self, env):
-        """Function objects are found by name."""
+        """Function objects and commands are found by name."""
         env.prepend_path("LD_LIBRARY_PATH", self.prefix.lib)
+        env.prepend_path("PATH", self.prefix.python.bin)

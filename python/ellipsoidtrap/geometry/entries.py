@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# This file is part of ellipsoidTrapFoam.
+#
+# ellipsoidTrapFoam is free software: you can redistribute it and/or modify it
+# under the terms of the GNU General Public License as published by the Free
+# Software Foundation, either version 3 of the License, or (at your option) any
+# later version. It comes with ABSOLUTELY NO WARRANTY; see the file COPYING.
+"""Parameter files of the makeGeometry scripts: OpenFOAM's dictionaries of words, numbers and
+nested lists, with checked look-up. What is wrong ends the script with one line."""
+
+import math
+import sys
+
+from . import foamDictionary
+from .foamDictionary import spelled
+
+
+def chosen(arguments, usage, names):
+    """Options '-name VALUE' of a command line; None where not given."""
+    options = dict.fromkeys(names)
+    if len(arguments) % 2 or any(a not in options for a in arguments[::2]):
+        sys.exit(usage)
+    options.update(zip(arguments[::2], arguments[1::2]))
+    return options
+
+
+def read(file):
+    """The entries of a parameter file."""
+    try:
+        entries = foamDictionary.read(file)
+    except ValueError as error:
+        fail(file, error)
+    _check(entries, file)
+    return Entries(entries, "", file)
+
+
+def fail(file, message):
+    """End the script."""
+    sys.exit(f"makeGeometry: {file}: {message}")
+
+
+def _check(entries, file):
+    """Refuse brackets that are not of lists."""
+    for key, value in entries.items():
+        if isinstance(value, dict):
+            _check(value, file)
+        elif set("{}") & set(spelled(value)) or isinstance(value, str) and set("()") & set(value):
+            fail(file, f"cannot read entry '{key}'")
+
+
+def shown(value):
+    """A value as it stands in the file, a long one cut."""
+    text = spelled(value)
+    return text if len(text) < 60 else text[:56] + " ..."
+
+
+class Entries:
+    """A (sub-)dictionary with checked look-up."""
+
+    def __init__(self, entries, name, file):
+        self.entries, self.name, self.file = entries, name, file
+
+    def __contains__(self, key):
+        return key in self.entries
+
+    def fail(self, message):
+        """End the script with what is wrong in this file."""
+        fail(self.file, message)
+
+    def get(self, key):
+        """The value of an entry that must be there."""
+        if key not in self.entries:
+            self.fail(f"entry '{self.name}{key}' is missing")
+        return self.entries[key]
+
+    def sub(self, key):
+        """A sub-dictionary that must be there."""
+        value = self.get(key)
+        if not isinstance(value, dict):
+            have = [k for k, v in self.entries.items() if isinstance(v, dict)]
+            self.fail(f"'{self.name}{key}' is no dictionary (there are: {' '.join(have)})")
+        return Entries(value, f"{self.name}{key}.", self.file)
+
+    def sub_if(self, key):
+        """A sub-dictionary that may be left out."""
+        return self.sub(key) if key in self else Entries({}, f"{self.name}{key}.", self.file)
+
+    def choose(self, key):
+        """The sub-dictionary that an option names."""
+        if key not in self.entries:
+            self.fail(f"no '{key}' among {self.name[:-1]}: {' '.join(self.entries)}")
+        return self.sub(key)
+
+    def only(self, *known):
+        """Refuse entries that nobody reads."""
+        for key in self.entries:
+            if key not in known:
+                self.fail(f"unknown entry '{self.name}{key}'; there are: {' '.join(known)}")
+
+    def number(self, key, low=0.0, strict=True):
+        """A number above low, or not below it."""
+        value = self.get(key)
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            self.fail(f"'{self.name}{key}' is no number: {value}")
+        if not (math.isfinite(number) and (number > low or (not strict and number == low))):
+            self.fail(f"'{self.name}{key}' must be {'above' if strict else 'at least'} {low:g}: {value}")
+        return number
+
+    def integer(self, key, low=1):
+        """A whole number not below low."""
+        number = self.number(key, low, strict=False)
+        if number != int(number):
+            self.fail(f"'{self.name}{key}' must be whole: {number:g}")
+        return int(number)
+
+    def point(self, key):
+        """A point (x y)."""
+        return self.numbers(self.get(key), 2, key, "a point (x y)")
+
+    def items(self, key):
+        """A list, with what each of its members is called in messages."""
+        value = self.get(key)
+        if not isinstance(value, list) or not value:
+            self.fail(f"'{self.name}{key}' must be a list ( ... ) that is not empty: {shown(value)}")
+        return [(item, f"{key}[{i}]") for i, item in enumerate(value)]
+
+    def numbers(self, value, count, key, what):
+        """So many finite numbers in brackets."""
+        try:
+            found = tuple(float(word) for word in value)
+        except (TypeError, ValueError):
+            found = ()
+        if len(found) != count or isinstance(value, str) or not all(map(math.isfinite, found)):
+            self.fail(f"'{self.name}{key}' must be {what}: {shown(value)}")
+        return found
