@@ -473,6 +473,8 @@ setup_environment()     # build|run|test|full
     # An environment that is complete may hold settings of the user's: keep it
     if [ -z "$WM_PROJECT_DIR" ] || [ -z "$WM_OPTIONS" ]; then setup_source_bashrc "$dir"; fi
     export WM_NCOMPPROCS=${WM_NCOMPPROCS:-$(nproc)}
+    # As many ranks as a case asks for
+    export OMPI_MCA_rmaps_base_oversubscribe=${OMPI_MCA_rmaps_base_oversubscribe:-1}
     # Open MPI asks root twice; a container's only user is often root
     if [ "$(id -u)" -eq 0 ]; then
         export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

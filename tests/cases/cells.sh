@@ -45,7 +45,6 @@ new_case()      # CASE STORED
     cp -r "$2"/{0.orig,system} . && cp -r 0.orig 0 || exit
     find "$2" -maxdepth 1 -type f -perm -u+x -exec cp {} . \; || exit
     find "$2/constant" -maxdepth 1 -type f -exec cp {} constant/ \; || exit
-    if [ -e "$2/../functions" ]; then cp "$2"/../functions .. || exit; fi
 }
 
 # Makes CASE anew with mesh, settings and flow of another, and goes there

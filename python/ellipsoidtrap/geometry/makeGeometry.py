@@ -8,6 +8,8 @@ usage: makeGeometry [OPTION VALUE]...
            constant/chip, a chip given by its plan: -resolution NAME
            system/blockMeshDict that includes generated/blocks, a serpentine of traps:
            -traps N, -leg LENGTH, -throat WIDTH [um]
+-quick and -fine are resolutions; -noPictures, -parallel and -flowOnly are for the scripts of cases.
+A user's own surface of a name that is written is renamed.
 """
 
 import os
@@ -23,8 +25,28 @@ def is_serpentine():
         return False
 
 
+def keep_surfaces():
+    """Another name for what we have not written."""
+    for name in ("walls", "pockets", "apertures"):
+        file = f"constant/triSurface/{name}.stl"
+        if os.path.exists(file) and not os.path.exists("constant/generated/chosen"):
+            to = file + ".bak"
+            n = 1
+            while os.path.exists(to):
+                n += 1
+                to = f"{file}.bak{n}"
+            os.rename(file, to)
+            print(f"keeping {os.path.abspath(file)} as {os.path.basename(to)}")
+
+
 def command(words):
     """Of the device that is there."""
+    words = [word for word in words if word not in ("-noPictures", "-parallel", "-flowOnly")]
+    for name in ("quick", "fine"):
+        if "-" + name in words:
+            at = words.index("-" + name)
+            words[at:at + 1] = ["-resolution", name]
+    keep_surfaces()
     if os.path.exists("constant/trapGeometry"):
         from .circularTrap import make
     elif os.path.exists("constant/chip"):
