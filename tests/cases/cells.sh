@@ -9,7 +9,7 @@
 . Make/setup.sh
 if [ -z "$WM_PROJECT_DIR" ]; then setup_environment test > /dev/null || exit; fi
 # What makes a mesh once for all tests
-export PATH="$PWD/tests/cases/programs:$PWD/python/bin:$PATH" PYTHONPATH="$PWD/python" ELLIPSOID_TEST_MESHES=${ELLIPSOID_TEST_CASES:-$tap_folder/shared}/meshes
+export PATH="$PWD/tests/cases/programs:$PWD/python/bin:$PATH" PYTHONPATH="$PWD/python:$PWD/tests/cases" ELLIPSOID_TEST_MESHES=${ELLIPSOID_TEST_CASES:-$tap_folder/shared}/meshes
 # Test files run side by side: ranks that wait give way, and none is bound to a core
 export OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none
 # In Alltest they rest in between, as asking alone takes half of the processor time of a run on three ranks
@@ -245,62 +245,12 @@ same_tables()   # CASE OTHER
     return "$status"
 }
 
-# Runs Python from the standard input in a case, with what all checks need
+# Runs Python from the standard input in a case, after checks.py, which is what all checks need
 numbers()       # CASE ARGUMENT...
 (
     cd "$tap_folder/$1" || exit
     shift
-    { cat << 'EOT'; cat; } | "${ELLIPSOID_PYTHON:-python3}" - "$@"
-import csv
-import math
-import re
-import sys
-
-import numpy as np
-
-TABLES = "postProcessing/ellipsoidCloud/0/"
-failures = []
-
-
-def table(name):
-    """Rows of a table as dictionaries, numbers as floats."""
-    with open(TABLES + name, encoding="ascii") as file:
-        rows = list(csv.DictReader(file))
-    for row in rows:
-        for key, value in row.items():
-            if key not in ("event", "fate", "patch", "sieve", "firstSieve", "touched") and " " not in value:
-                row[key] = float(value) if value else None
-    return rows
-
-
-def columns(rows, *names):
-    """Some columns as an array, one row each."""
-    return np.array([[row[name] for name in names] for row in rows])
-
-
-def expect(holds, what):
-    """Note a failure, with what it is about; print what holds too."""
-    print(("  " if holds else "WRONG ") + what)
-    if not holds:
-        failures.append(what)
-
-
-def kolmogorov(sample, cdf):
-    """Probability of a sample as far from the distribution, or farther (Kolmogorov's
-    limit with Stephens' correction, Numerical Recipes 14.3)."""
-    x = np.sort(np.asarray(sample))
-    n = len(x)
-    f = cdf(x)
-    d = max(np.max(np.arange(1, n + 1)/n - f), np.max(f - np.arange(n)/n))
-    t = d*(math.sqrt(n) + 0.12 + 0.11/math.sqrt(n))
-    return min(1.0, 2*sum((-1)**(k - 1)*math.exp(-2*(k*t)**2) for k in range(1, 101)))
-
-
-def finish():
-    sys.exit(bool(failures))
-
-
-EOT
+    cat "$cases/checks.py" - | "${ELLIPSOID_PYTHON:-python3}" - "$@"
 )
 
 # All centres of tracks.csv, more than so many, are inside the circular trap. Dimensions of
