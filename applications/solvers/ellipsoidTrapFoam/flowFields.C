@@ -255,7 +255,7 @@ const Foam::dictionary& Foam::flowFields::controls(const fvMesh& mesh)
 {
     const dictionary& solution = mesh.solutionDict();
 
-    return solution.found("flow") ? solution.subDict("flow") : dictionary::null;
+    return subDictOf(solution, "flow");
 }
 
 

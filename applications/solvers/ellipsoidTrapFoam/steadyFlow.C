@@ -79,9 +79,24 @@ void Foam::steadyFlow::checkControls() const
         "pMinFactor", "pMaxFactor", "rhoMin", "rhoMax"
     });
 
+    for (const entry& e : controls_)
+    {
+        if (e.isDict() && e.keyword() != "residualControl")
+        {
+            streamOf(controls_, e.keyword());
+        }
+    }
+
     wordHashSet unknown(controls_.toc());
     unknown -= known;
     unknown -= knownElsewhere;
+    for (const word& name : unknown.toc())
+    {
+        if (isVariable(controls_, name))
+        {
+            unknown.erase(name);
+        }
+    }
 
     if (unknown.size())
     {
@@ -142,7 +157,7 @@ Foam::coupledStokes::settings Foam::steadyFlow::readControls() const
         (
             controls_, "fluxWindow", atLeast(1), how.fluxWindow
         );
-        const dictionary targets(controls_.subOrEmptyDict("residualControl"));
+        const dictionary& targets = subDictOf(controls_, "residualControl");
         how.pResidual = checkedNumber(targets, "p", above(0), how.pResidual);
         how.UResidual = checkedNumber(targets, "U", above(0), how.UResidual);
     }
@@ -230,7 +245,12 @@ Foam::steadyFlow::steadyFlow(const fvMesh& mesh, const solveType solve)
 :
     flowFields(mesh),
     solve_(solve),
-    controls_(mesh.solutionDict().subDict("SIMPLE")),
+    controls_
+    (
+        mesh.solutionDict().found("SIMPLE")
+      ? subDictOf(mesh.solutionDict(), "SIMPLE")
+      : mesh.solutionDict().subDict("SIMPLE")
+    ),
     hasTransposed_
     (
         mesh.schemesDict().subOrEmptyDict("divSchemes").found(transposedScheme_)

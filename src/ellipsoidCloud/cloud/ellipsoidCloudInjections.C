@@ -46,6 +46,10 @@ void Foam::ellipsoidCloud::makeInjections
     injections_.clear();
     for (const entry& e : properties_.subDict("injection"))
     {
+        if (!e.isDict())
+        {
+            continue;
+        }
         const cellInjection::setting from
         {
             e.dict(), *undecomposed_, *domain_, population_, nextId,
@@ -194,7 +198,7 @@ void Foam::ellipsoidCloud::checkInjections(const solverFields& flow)
     bool known = true;
     for (const entry& e : properties_.subDict("injection"))
     {
-        known = known && !e.dict().found("concentration");
+        known = known && !(e.isDict() && e.dict().found("concentration"));
     }
     if (known)
     {

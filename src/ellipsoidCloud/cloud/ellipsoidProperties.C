@@ -78,6 +78,10 @@ void Foam::ellipsoidProperties::checkPatches
     const polyBoundaryMesh& patches
 ) const
 {
+    if (found("injection"))
+    {
+        section("injection");
+    }
     const dictionary& injections = subDict("injection");
 
     if (injections.empty())
@@ -89,6 +93,10 @@ void Foam::ellipsoidProperties::checkPatches
 
     for (const entry& e : injections)
     {
+        if (!e.isDict() && isVariable(injections, e.keyword()))
+        {
+            continue;
+        }
         if (!e.isDict())
         {
             FatalIOErrorInFunction(injections)
@@ -152,9 +160,6 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
         "interpolation", *this, frozenFlow::stDivergenceFree
     );
     seed_ = getOrDefault<label>("seed", 1);
-
-    readOptions();
-    checkOptions();
     readUnreached(mesh.boundaryMesh());
     checkPatches(mesh.boundaryMesh());
 }
