@@ -18,9 +18,12 @@ License
 #include "fvmSup.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
+#include "inletFlux.H"
 #include "IOdictionary.H"
 #include "masterGate.H"
+#include "PstreamReduceOps.H"
 #include "readViscosity.H"
+#include "regionSplit.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -214,6 +217,51 @@ void Foam::steadyFlow::checkModels() const
 }
 
 
+void Foam::steadyFlow::checkRegions() const
+{
+    const regionSplit regions(mesh_);
+    const label n = regions.nRegions();
+    if (n == 1)
+    {
+        return;
+    }
+
+    boolList open(n, false);
+    for (const label patchi : inletFlux::openPatches(mesh_.boundaryMesh()))
+    {
+        for (const label celli : mesh_.boundary()[patchi].faceCells())
+        {
+            open[regions[celli]] = true;
+        }
+    }
+    Pstream::listCombineGather(open, orEqOp<bool>());
+
+    labelList sizes(n, Zero);
+    pointField places(n, point::max);
+    forAll(regions, celli)
+    {
+        ++sizes[regions[celli]];
+        places[regions[celli]] = mesh_.C()[celli];
+    }
+    Pstream::listCombineGather(sizes, plusEqOp<label>());
+    Pstream::listCombineGather(places, minEqOp<point>());
+
+    const masterGate once;
+    const label closed = open.find(false);
+    if (Pstream::master() && closed >= 0)
+    {
+        FatalErrorInFunction
+            << "The mesh is in " << n << " regions, of which "
+            << std::count(open.begin(), open.end(), false)
+            << " are reached by no opening: the first has " << sizes[closed]
+            << " mesh cells, one at " << places[closed] << " m" << nl
+            << "    Remove them (splitMeshRegions -largestOnly, or"
+            << " cellSet and subsetMesh), or give each a patch that the fluid"
+            << " passes" << exit(FatalError);
+    }
+}
+
+
 void Foam::steadyFlow::restore(const flow& kept)
 {
     U_ == kept.U;
@@ -331,6 +379,7 @@ bool Foam::steadyFlow::accept()
         refuseForeign();
     }
     checkModels();
+    checkRegions();
 
     return false;
 }

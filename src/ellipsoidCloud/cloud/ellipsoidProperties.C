@@ -14,6 +14,7 @@ License
 #include "readViscosity.H"
 #include "captureCriterion.H"
 #include "cellInjection.H"
+#include "emptyPolyPatch.H"
 #include "polyBoundaryMesh.H"
 #include "processorPolyPatch.H"
 #include "PstreamReduceOps.H"
@@ -33,6 +34,7 @@ void Foam::ellipsoidProperties::readUnreached(const polyBoundaryMesh& patches)
         (
             !polyPatch::constraintType(pp.type())
          || isA<processorPolyPatch>(pp)
+         || pp.type() == emptyPolyPatch::typeName
         )
         {
             continue;
