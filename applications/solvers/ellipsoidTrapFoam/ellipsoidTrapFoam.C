@@ -89,6 +89,10 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
     if (!accepted)
     {
         flow->solve();
+    }
+    flow->checkPatches();
+    if (!accepted)
+    {
         flow->write();
     }
     flow->report(cells.valid() ? cells->fluidDensity() : 0);

@@ -20,10 +20,12 @@ License
 #include "fvMesh.H"
 #include "inletFlux.H"
 #include "IOdictionary.H"
+#include "jumpCyclicFvPatchField.H"
 #include "masterGate.H"
 #include "PstreamReduceOps.H"
 #include "readViscosity.H"
 #include "regionSplit.H"
+#include "Time.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -57,6 +59,109 @@ static dictionary readIfPresent
         return dictionary();
     }
     return IOdictionary(io);
+}
+
+
+//- Set the clock of a case while it lives
+class clockAt
+{
+    Time& time_;
+
+    const scalar value_;
+
+
+    void set(const scalar value)
+    {
+        if (value != time_.value())
+        {
+            time_.setTime(value, time_.timeIndex());
+        }
+    }
+
+
+public:
+
+    clockAt(const Time& time, const scalar value)
+    :
+        time_(const_cast<Time&>(time)),
+        value_(time.value())
+    {
+        set(value);
+    }
+
+    ~clockAt()
+    {
+        set(value_);
+    }
+};
+
+
+//- The values of a field at its patches by the clock
+template<class Type>
+static FieldField<Field, Type> valuesAt
+(
+    const GeometricField<Type, fvPatchField, volMesh>& field,
+    const scalar value
+)
+{
+    const clockAt then(field.time(), value);
+    GeometricField<Type, fvPatchField, volMesh> copy(field);
+    copy.correctBoundaryConditions();
+
+    FieldField<Field, Type> values(copy.boundaryField().size());
+    forAll(values, patchi)
+    {
+        values.set(patchi, new Field<Type>(copy.boundaryField()[patchi]));
+    }
+
+    return values;
+}
+
+
+//- Say which patches have other values of a field at other times of the run
+template<class Type>
+static void tellOfClock
+(
+    const GeometricField<Type, fvPatchField, volMesh>& field,
+    const scalar value
+)
+{
+    const Time& time = field.time();
+    const scalar left = time.endTime().value() - value;
+    const FieldField<Field, Type> now(valuesAt(field, value));
+    string changing;
+
+    const FieldField<Field, Type> soon(valuesAt(field, value + time.deltaTValue()));
+    const FieldField<Field, Type> later(valuesAt(field, value + 0.37*left));
+    const FieldField<Field, Type> end(valuesAt(field, value + left));
+
+    // Processor patches differ from rank to rank
+    forAll(field.mesh().boundary(), patchi)
+    {
+        const fvPatch& patch = field.mesh().boundary()[patchi];
+        if (!patch.coupled())
+        {
+            const scalarField change
+            (
+                mag(soon[patchi] - now[patchi])
+              + mag(later[patchi] - now[patchi])
+              + mag(end[patchi] - now[patchi])
+            );
+            if (gMax(change) > 1e-6*gMax(scalarField(mag(now[patchi]))) + VSMALL)
+            {
+                changing += (changing.empty() ? " at " : ", ") + patch.name();
+            }
+        }
+    }
+
+    if (changing.size())
+    {
+        Warning
+            << field.name() << changing.c_str()
+            << " changes with time. The flow is steady: that of "
+            << word::printf("%.6g", value) << " s, for the whole run" << nl
+            << endl;
+    }
 }
 
 } // End namespace Foam
@@ -127,6 +232,7 @@ void Foam::steadyFlow::checkControls() const
 
 Foam::coupledStokes::settings Foam::steadyFlow::readControls() const
 {
+    checkJumps();
     checkControls();
 
     coupledStokes::settings how;
@@ -262,6 +368,25 @@ void Foam::steadyFlow::checkRegions() const
 }
 
 
+void Foam::steadyFlow::checkJumps() const
+{
+    const masterGate once;
+
+    for (const fvPatchScalarField& pp : p_.boundaryField())
+    {
+        if (isA<jumpCyclicFvPatchField<scalar>>(pp))
+        {
+            FatalErrorInFunction
+                << "p has a jump, " << pp.type() << ", at patch "
+                << pp.patch().name() << ", which is not solved for" << nl
+                << "    Drive the flow by pressures at openings, or solve it"
+                << " with simpleFoam and take it as it is: -frozenFlow"
+                << exit(FatalError);
+        }
+    }
+}
+
+
 void Foam::steadyFlow::restore(const flow& kept)
 {
     U_ == kept.U;
@@ -305,8 +430,12 @@ Foam::steadyFlow::steadyFlow(const fvMesh& mesh, const solveType solve)
     ),
     nu_(readViscosity(mesh)),
     how_(readControls()),
-    solver_(U_, p_, phi_, nu_, [this] { return momentum(); }, how_)
-{}
+    solver_(U_, p_, phi_, nu_, [this] { return momentum(); }, how_),
+    clock_(mesh.time().value())
+{
+    // What reads the clock is as it was when the flow was solved
+    readScalar(instance_, clock_);
+}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
@@ -319,6 +448,7 @@ bool Foam::steadyFlow::converged()
         return false;
     }
 
+    const clockAt then(mesh_.time(), clock_);
     const bool steady = solver_.isSteady();
     if (steady)
     {
@@ -374,6 +504,7 @@ bool Foam::steadyFlow::accept()
         // A flux that was not there to be read is not steady
         if (hasFlux_ && converged())
         {
+            tellOfClocks();
             return true;
         }
         refuseForeign();
@@ -385,8 +516,17 @@ bool Foam::steadyFlow::accept()
 }
 
 
+void Foam::steadyFlow::tellOfClocks() const
+{
+    tellOfClock(U_, clock_);
+    tellOfClock(p_, clock_);
+}
+
+
 void Foam::steadyFlow::solve()
 {
+    clock_ = mesh_.time().value();
+    tellOfClocks();
     solve(true);
 }
 
@@ -397,6 +537,7 @@ void Foam::steadyFlow::solve(const bool scaled)
         << (how_.coupled ? "corrections of U and p together, checked by " : "")
         << (how_.consistent ? "SIMPLEC" : "SIMPLE") << endl;
 
+    const clockAt then(mesh_.time(), clock_);
     const coupledStokes::outcome end = solver_.solve(scaled);
     const masterGate once;
 
