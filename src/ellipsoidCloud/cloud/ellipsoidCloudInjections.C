@@ -160,9 +160,14 @@ void Foam::ellipsoidCloud::checkTimes() const
     FatalIOErrorInFunction(properties_.subDict("injection"))
         << "no cell enters while the run lasts, from "
         << shortText(time_).c_str() << " to "
-        << shortText(end).c_str() << " s: they are to enter from "
-        << shortText(min(all)).c_str() << " to " << shortText(max(all)).c_str()
-        << " s" << nl
+        << shortText(end).c_str() << " s: "
+        << (
+               all.empty()
+             ? string("none is to enter at any time")
+             : "they are to enter from " + shortText(min(all)) + " to "
+             + shortText(max(all)) + " s"
+           ).c_str()
+        << nl
         << "    Correct start of the injections, or startTime and endTime"
         << " of controlDict" << exit(FatalIOError);
 }

@@ -157,6 +157,14 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
             << exit(FatalError);
     }
 
+    if (isFile(time().globalPath()/time().constant()/"g"))
+    {
+        Warning
+            << "constant/g is not read: gravity is that of forces/gravity in "
+            << name() << nl << endl;
+    }
+    readOptions();
+    checkOptions();
     scheme_ = frozenFlow::schemeNames.getOrDefault
     (
         "interpolation", *this, frozenFlow::stDivergenceFree

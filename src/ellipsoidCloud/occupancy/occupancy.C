@@ -320,7 +320,7 @@ void Foam::occupancy::update
     {
         for (const label id : caught)
         {
-            held_.insert(id, heldWrench());
+            held_.insert(id, heldWrench{Zero, Zero});
         }
     }
     if (!changesFlow())
