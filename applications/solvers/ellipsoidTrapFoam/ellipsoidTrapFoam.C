@@ -52,11 +52,38 @@ SourceFiles
 #include "checkpoint.H"
 #include "commit.H"
 #include "ellipsoidProperties.H"
+#include "masterGate.H"
 #include "tetDecomposition.H"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <sys/file.h>
 
 using namespace Foam;
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
+
+//- End the run if another one is at work in the case. The system keeps the lock,
+//  of the folder itself, until this process ends, however it does
+static void lockCase(const argList& args)
+{
+    const fileName path(args.rootPath()/args.globalCaseName());
+    const masterGate once;
+
+    if (Pstream::master())
+    {
+        const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+
+        if (flock(folder, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        {
+            FatalErrorInFunction
+                << "another run of ellipsoidTrapFoam is at work in " << path
+                << nl << "    Both would write the same tables: wait for its"
+                << " end, or copy the case" << exit(FatalError);
+        }
+    }
+}
+
 
 //- The flow, then the cells
 static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
@@ -89,6 +116,10 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
     if (!accepted)
     {
         flow->solve();
+    }
+    flow->checkPatches();
+    if (!accepted)
+    {
         flow->write();
     }
     flow->report(cells.valid() ? cells->fluidDensity() : 0);
@@ -157,6 +188,10 @@ int main(int argc, char *argv[])
         files.append("constant/ellipsoidCloudProperties");
     }
     caseFiles::checkCase(args, files);
+    if (!dryRun)
+    {
+        lockCase(args);
+    }
 
     const word start
     (

@@ -255,7 +255,7 @@ const Foam::dictionary& Foam::flowFields::controls(const fvMesh& mesh)
 {
     const dictionary& solution = mesh.solutionDict();
 
-    return solution.found("flow") ? solution.subDict("flow") : dictionary::null;
+    return subDictOf(solution, "flow");
 }
 
 
@@ -333,6 +333,63 @@ bool Foam::flowFields::accept()
     }
 
     return true;
+}
+
+
+void Foam::flowFields::checkPatches() const
+{
+    const inletFlux through(U_, phi_);
+    scalarField ofU(through.patches.size());
+    forAll(ofU, i)
+    {
+        const label patchi = through.patches[i];
+        ofU[i] = gSum
+        (
+            U_.boundaryField()[patchi] & mesh_.Sf().boundaryField()[patchi]
+        );
+    }
+
+    const masterGate once;
+    const scalar tolerance = checkedNumber
+    (
+        controls(mesh_), "fluxTolerance", above(0), scalar(0.1)
+    );
+
+    forAll(ofU, i)
+    {
+        const fvPatchVectorField& Up = U_.boundaryField()[through.patches[i]];
+        const scalar flux = through.flux[i];
+        const scalar largest = max(mag(flux), mag(ofU[i]));
+
+        // What flows out has no velocity of its own at the patch
+        if
+        (
+            (Up.fixesValue() || min(flux, ofU[i]) < 0)
+         && largest > 1e-3*through.crossing
+         && mag(flux - ofU[i]) > tolerance*largest
+        )
+        {
+            const std::string what
+            (
+                "phi and U are not of one flow at patch " + Up.patch().name()
+              + ": phi carries " + text(flux) + " m3/s out, U " + text(ofU[i])
+            );
+
+            // A mixed condition may be meant to differ
+            if (!Up.fixesValue())
+            {
+                Warning
+                    << what.c_str() << ". Cells enter there by U and go on"
+                    << " by phi" << nl << endl;
+                continue;
+            }
+            FatalErrorInFunction
+                << what.c_str() << nl
+                << "    Give either the velocity or the pressure there, not"
+                << " both; or raise fluxTolerance (dictionary flow of"
+                << " system/fvSolution)" << exit(FatalError);
+        }
+    }
 }
 
 

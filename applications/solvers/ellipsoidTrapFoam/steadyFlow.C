@@ -18,9 +18,14 @@ License
 #include "fvmSup.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
+#include "inletFlux.H"
 #include "IOdictionary.H"
+#include "jumpCyclicFvPatchField.H"
 #include "masterGate.H"
+#include "PstreamReduceOps.H"
 #include "readViscosity.H"
+#include "regionSplit.H"
+#include "Time.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -56,6 +61,109 @@ static dictionary readIfPresent
     return IOdictionary(io);
 }
 
+
+//- Set the clock of a case while it lives
+class clockAt
+{
+    Time& time_;
+
+    const scalar value_;
+
+
+    void set(const scalar value)
+    {
+        if (value != time_.value())
+        {
+            time_.setTime(value, time_.timeIndex());
+        }
+    }
+
+
+public:
+
+    clockAt(const Time& time, const scalar value)
+    :
+        time_(const_cast<Time&>(time)),
+        value_(time.value())
+    {
+        set(value);
+    }
+
+    ~clockAt()
+    {
+        set(value_);
+    }
+};
+
+
+//- The values of a field at its patches by the clock
+template<class Type>
+static FieldField<Field, Type> valuesAt
+(
+    const GeometricField<Type, fvPatchField, volMesh>& field,
+    const scalar value
+)
+{
+    const clockAt then(field.time(), value);
+    GeometricField<Type, fvPatchField, volMesh> copy(field);
+    copy.correctBoundaryConditions();
+
+    FieldField<Field, Type> values(copy.boundaryField().size());
+    forAll(values, patchi)
+    {
+        values.set(patchi, new Field<Type>(copy.boundaryField()[patchi]));
+    }
+
+    return values;
+}
+
+
+//- Say which patches have other values of a field at other times of the run
+template<class Type>
+static void tellOfClock
+(
+    const GeometricField<Type, fvPatchField, volMesh>& field,
+    const scalar value
+)
+{
+    const Time& time = field.time();
+    const scalar left = time.endTime().value() - value;
+    const FieldField<Field, Type> now(valuesAt(field, value));
+    string changing;
+
+    const FieldField<Field, Type> soon(valuesAt(field, value + time.deltaTValue()));
+    const FieldField<Field, Type> later(valuesAt(field, value + 0.37*left));
+    const FieldField<Field, Type> end(valuesAt(field, value + left));
+
+    // Processor patches differ from rank to rank
+    forAll(field.mesh().boundary(), patchi)
+    {
+        const fvPatch& patch = field.mesh().boundary()[patchi];
+        if (!patch.coupled())
+        {
+            const scalarField change
+            (
+                mag(soon[patchi] - now[patchi])
+              + mag(later[patchi] - now[patchi])
+              + mag(end[patchi] - now[patchi])
+            );
+            if (gMax(change) > 1e-6*gMax(scalarField(mag(now[patchi]))) + VSMALL)
+            {
+                changing += (changing.empty() ? " at " : ", ") + patch.name();
+            }
+        }
+    }
+
+    if (changing.size())
+    {
+        Warning
+            << field.name() << changing.c_str()
+            << " changes with time. The flow is steady: that of "
+            << word::printf("%.6g", value) << " s, for the whole run" << nl
+            << endl;
+    }
+}
+
 } // End namespace Foam
 
 
@@ -79,9 +187,24 @@ void Foam::steadyFlow::checkControls() const
         "pMinFactor", "pMaxFactor", "rhoMin", "rhoMax"
     });
 
+    for (const entry& e : controls_)
+    {
+        if (e.isDict() && e.keyword() != "residualControl")
+        {
+            streamOf(controls_, e.keyword());
+        }
+    }
+
     wordHashSet unknown(controls_.toc());
     unknown -= known;
     unknown -= knownElsewhere;
+    for (const word& name : unknown.toc())
+    {
+        if (isVariable(controls_, name))
+        {
+            unknown.erase(name);
+        }
+    }
 
     if (unknown.size())
     {
@@ -109,6 +232,7 @@ void Foam::steadyFlow::checkControls() const
 
 Foam::coupledStokes::settings Foam::steadyFlow::readControls() const
 {
+    checkJumps();
     checkControls();
 
     coupledStokes::settings how;
@@ -142,7 +266,7 @@ Foam::coupledStokes::settings Foam::steadyFlow::readControls() const
         (
             controls_, "fluxWindow", atLeast(1), how.fluxWindow
         );
-        const dictionary targets(controls_.subOrEmptyDict("residualControl"));
+        const dictionary& targets = subDictOf(controls_, "residualControl");
         how.pResidual = checkedNumber(targets, "p", above(0), how.pResidual);
         how.UResidual = checkedNumber(targets, "U", above(0), how.UResidual);
     }
@@ -199,6 +323,70 @@ void Foam::steadyFlow::checkModels() const
 }
 
 
+void Foam::steadyFlow::checkRegions() const
+{
+    const regionSplit regions(mesh_);
+    const label n = regions.nRegions();
+    if (n == 1)
+    {
+        return;
+    }
+
+    boolList open(n, false);
+    for (const label patchi : inletFlux::openPatches(mesh_.boundaryMesh()))
+    {
+        for (const label celli : mesh_.boundary()[patchi].faceCells())
+        {
+            open[regions[celli]] = true;
+        }
+    }
+    Pstream::listCombineGather(open, orEqOp<bool>());
+
+    labelList sizes(n, Zero);
+    pointField places(n, point::max);
+    forAll(regions, celli)
+    {
+        ++sizes[regions[celli]];
+        places[regions[celli]] = mesh_.C()[celli];
+    }
+    Pstream::listCombineGather(sizes, plusEqOp<label>());
+    Pstream::listCombineGather(places, minEqOp<point>());
+
+    const masterGate once;
+    const label closed = open.find(false);
+    if (Pstream::master() && closed >= 0)
+    {
+        FatalErrorInFunction
+            << "The mesh is in " << n << " regions, of which "
+            << std::count(open.begin(), open.end(), false)
+            << " are reached by no opening: the first has " << sizes[closed]
+            << " mesh cells, one at " << places[closed] << " m" << nl
+            << "    Remove them (splitMeshRegions -largestOnly, or"
+            << " cellSet and subsetMesh), or give each a patch that the fluid"
+            << " passes" << exit(FatalError);
+    }
+}
+
+
+void Foam::steadyFlow::checkJumps() const
+{
+    const masterGate once;
+
+    for (const fvPatchScalarField& pp : p_.boundaryField())
+    {
+        if (isA<jumpCyclicFvPatchField<scalar>>(pp))
+        {
+            FatalErrorInFunction
+                << "p has a jump, " << pp.type() << ", at patch "
+                << pp.patch().name() << ", which is not solved for" << nl
+                << "    Drive the flow by pressures at openings, or solve it"
+                << " with simpleFoam and take it as it is: -frozenFlow"
+                << exit(FatalError);
+        }
+    }
+}
+
+
 void Foam::steadyFlow::restore(const flow& kept)
 {
     U_ == kept.U;
@@ -230,15 +418,24 @@ Foam::steadyFlow::steadyFlow(const fvMesh& mesh, const solveType solve)
 :
     flowFields(mesh),
     solve_(solve),
-    controls_(mesh.solutionDict().subDict("SIMPLE")),
+    controls_
+    (
+        mesh.solutionDict().found("SIMPLE")
+      ? subDictOf(mesh.solutionDict(), "SIMPLE")
+      : mesh.solutionDict().subDict("SIMPLE")
+    ),
     hasTransposed_
     (
         mesh.schemesDict().subOrEmptyDict("divSchemes").found(transposedScheme_)
     ),
     nu_(readViscosity(mesh)),
     how_(readControls()),
-    solver_(U_, p_, phi_, nu_, [this] { return momentum(); }, how_)
-{}
+    solver_(U_, p_, phi_, nu_, [this] { return momentum(); }, how_),
+    clock_(mesh.time().value())
+{
+    // What reads the clock is as it was when the flow was solved
+    readScalar(instance_, clock_);
+}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
@@ -251,6 +448,7 @@ bool Foam::steadyFlow::converged()
         return false;
     }
 
+    const clockAt then(mesh_.time(), clock_);
     const bool steady = solver_.isSteady();
     if (steady)
     {
@@ -306,18 +504,29 @@ bool Foam::steadyFlow::accept()
         // A flux that was not there to be read is not steady
         if (hasFlux_ && converged())
         {
+            tellOfClocks();
             return true;
         }
         refuseForeign();
     }
     checkModels();
+    checkRegions();
 
     return false;
 }
 
 
+void Foam::steadyFlow::tellOfClocks() const
+{
+    tellOfClock(U_, clock_);
+    tellOfClock(p_, clock_);
+}
+
+
 void Foam::steadyFlow::solve()
 {
+    clock_ = mesh_.time().value();
+    tellOfClocks();
     solve(true);
 }
 
@@ -328,6 +537,7 @@ void Foam::steadyFlow::solve(const bool scaled)
         << (how_.coupled ? "corrections of U and p together, checked by " : "")
         << (how_.consistent ? "SIMPLEC" : "SIMPLE") << endl;
 
+    const clockAt then(mesh_.time(), clock_);
     const coupledStokes::outcome end = solver_.solve(scaled);
     const masterGate once;
 

@@ -45,7 +45,10 @@ Foam::List<Foam::captureMap::pose> Foam::captureMap::readPoses
     const label seed
 )
 {
-    const dictionary& given = dict.subDict("orientations");
+    const dictionary& given =
+        dict.found("orientations")
+      ? subDictOf(dict, "orientations")
+      : dict.subDict("orientations");
     DynamicList<pose> poses;
     label nDrawn = 0;
 
@@ -427,7 +430,8 @@ void Foam::captureMap::check
         dict,
         {
             "patch", "squares", "levels", "mostCells", "endTime", "orientations"
-        }
+        },
+        {"orientations"}
     );
 
     cellInjection::findPatch(dict, patches);

@@ -206,13 +206,23 @@ void Foam::caseFiles::checkMesh(const Time& time, const bool forCells)
             IOobject::MUST_READ, IOobject::NO_WRITE, false
         )
     );
-    const masterGate once;
 
     for (const entry& patch : patches)
     {
         const word type(patch.dict().get<word>("type"));
+        if (!forCells || (type != "empty" && type != "wedge"))
+        {
+            continue;
+        }
 
-        if (forCells && (type == "empty" || type == "wedge"))
+        // All ranks have these. One without faces takes no dimension away
+        const bool hasFaces = returnReduce
+        (
+            patch.dict().get<label>("nFaces") > 0, orOp<bool>()
+        );
+        const masterGate once;
+
+        if (hasFaces)
         {
             FatalErrorInFunction
                 << "patch " << patch.keyword() << " of "

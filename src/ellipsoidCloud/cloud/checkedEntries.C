@@ -9,23 +9,157 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "checkedEntries.H"
+#include "atomicWrite.H"
 #include "dimensionedTypes.H"
 #include "IFstream.H"
 
 #include <vector>
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- The text of a dictionary's file; a processor reads that of the whole case
+static std::string fileTextOf(const dictionary& dict)
+{
+    fileName file(dict.topDict().name());
+    const fileName folder(file.path());
+    const fileName part(folder.path());
+
+    if (!isFile(file) && part.name().find("processor") == 0)
+    {
+        file = part.path()/folder.name()/file.name();
+    }
+
+    return textOf(file);
+}
+
+
+//- Does a character belong to the name of a variable?
+static bool isNamed(const char c)
+{
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+const Foam::ITstream& Foam::streamOf
+(
+    const dictionary& dict,
+    const word& keyword
+)
+{
+    const entry& e = dict.lookupEntry(keyword, keyType::LITERAL);
+
+    if (e.isDict())
+    {
+        FatalIOErrorInFunction(e.dict())
+            << keyword << " is a dictionary" << nl
+            << "    allowed: a value, " << keyword << " VALUE;"
+            << exit(FatalIOError);
+    }
+
+    return e.stream();
+}
+
+
+const Foam::dictionary& Foam::subDictOf
+(
+    const dictionary& dict,
+    const word& keyword
+)
+{
+    const entry* e = dict.findEntry(keyword, keyType::LITERAL);
+
+    if (e && !e->isDict())
+    {
+        FatalIOErrorInFunction(e->stream())
+            << keyword << " is not a dictionary" << nl
+            << "    allowed: " << keyword << " { ENTRIES }"
+            << exit(FatalIOError);
+    }
+
+    return e ? e->dict() : dictionary::null;
+}
+
+
+bool Foam::isVariable(const dictionary& dict, const word& keyword)
+{
+    // The mark of one that nothing need refer to
+    if (keyword[0] == '_')
+    {
+        return true;
+    }
+
+    const std::string text(fileTextOf(dict));
+    bool stands = false;
+
+    for
+    (
+        std::size_t at = text.find(keyword);
+        at != std::string::npos;
+        at = text.find(keyword, at + 1)
+    )
+    {
+        const std::size_t end = at + keyword.size();
+        std::size_t begin = at;
+
+        if (end < text.size() && isNamed(text[end]))
+        {
+            continue;
+        }
+        stands = stands || at == 0 || !isNamed(text[at - 1]);
+
+        // $NAME, ${NAME}, $.NAME, $:OTHER.NAME
+        while
+        (
+            begin > 0
+         && (
+                isNamed(text[begin - 1])
+             || string("{.:^").find(text[begin - 1]) != string::npos
+            )
+        )
+        {
+            --begin;
+        }
+        const std::size_t last = text.find_last_of("{.:^$", at);
+        if
+        (
+            begin > 0 && text[begin - 1] == '$'
+         && (begin == at || last == at - 1)
+        )
+        {
+            return true;
+        }
+    }
+
+    // One that a file which is included sets, for other dictionaries
+    return !text.empty() && !stands && &dict == &dict.topDict() && !dict.isDict(keyword);
+}
+
 
 void Foam::checkKeywords
 (
     const dictionary& dict,
-    const wordList& allowed
+    const wordList& allowed,
+    const wordList& dictionaries
 )
 {
     for (const entry& e : dict)
     {
-        // _NAME is a variable for other entries
-        if (!allowed.found(e.keyword()) && e.keyword()[0] != '_')
+        if
+        (
+            e.isDict() && allowed.found(e.keyword())
+         && !dictionaries.found(e.keyword())
+        )
+        {
+            streamOf(dict, e.keyword());
+        }
+        if (!allowed.found(e.keyword()) && !isVariable(dict, e.keyword()))
         {
             FatalIOErrorInFunction(dict)
                 << "unknown keyword " << e.keyword();

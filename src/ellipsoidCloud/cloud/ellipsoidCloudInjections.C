@@ -55,6 +55,10 @@ void Foam::ellipsoidCloud::makeInjections
     injections_.clear();
     for (const entry& e : dict)
     {
+        if (!e.isDict())
+        {
+            continue;
+        }
         const cellInjection::setting from
         {
             e.dict(), *undecomposed_, *domain_, population_, nextId,
@@ -165,9 +169,14 @@ void Foam::ellipsoidCloud::checkTimes() const
     FatalIOErrorInFunction(properties_.subDict("injection"))
         << "no cell enters while the run lasts, from "
         << shortText(time_).c_str() << " to "
-        << shortText(end).c_str() << " s: they are to enter from "
-        << shortText(min(all)).c_str() << " to " << shortText(max(all)).c_str()
-        << " s" << nl
+        << shortText(end).c_str() << " s: "
+        << (
+               all.empty()
+             ? string("none is to enter at any time")
+             : "they are to enter from " + shortText(min(all)) + " to "
+             + shortText(max(all)) + " s"
+           ).c_str()
+        << nl
         << "    Correct start of the injections, or startTime and endTime"
         << " of controlDict" << exit(FatalIOError);
 }
@@ -203,7 +212,7 @@ void Foam::ellipsoidCloud::checkInjections(const solverFields& flow)
     bool known = true;
     for (const entry& e : properties_.subDict("injection"))
     {
-        known = known && !e.dict().found("concentration");
+        known = known && !(e.isDict() && e.dict().found("concentration"));
     }
     if (known)
     {

@@ -159,7 +159,7 @@ namespace Foam
 void Foam::ellipsoidProperties::readOptions()
 {
     const wordList keywords(keywordsOf(word::null));
-    checkKeywords(*this, keywords);
+    wordList sections({"injection", "capture", "tracks", "occupancy"});
 
     for (const word& keyword : keywords)
     {
@@ -167,9 +167,14 @@ void Foam::ellipsoidProperties::readOptions()
 
         if (allowed.size())
         {
-            checkKeywords(section(keyword), allowed);
+            checkKeywords
+            (
+                section(keyword), allowed, {"sizes", "electricField"}
+            );
+            sections.append(keyword);
         }
     }
+    checkKeywords(*this, keywords, sections);
 
     for (const ellipsoid_option& option : coreOptions())
     {

@@ -14,6 +14,7 @@ License
 #include "readViscosity.H"
 #include "captureCriterion.H"
 #include "cellInjection.H"
+#include "emptyPolyPatch.H"
 #include "polyBoundaryMesh.H"
 #include "processorPolyPatch.H"
 #include "PstreamReduceOps.H"
@@ -33,6 +34,7 @@ void Foam::ellipsoidProperties::readUnreached(const polyBoundaryMesh& patches)
         (
             !polyPatch::constraintType(pp.type())
          || isA<processorPolyPatch>(pp)
+         || pp.type() == emptyPolyPatch::typeName
         )
         {
             continue;
@@ -78,10 +80,18 @@ void Foam::ellipsoidProperties::checkPatches
     const polyBoundaryMesh& patches
 ) const
 {
+    if (found("injection"))
+    {
+        section("injection");
+    }
     const dictionary& injections = subDict("injection");
 
     for (const entry& e : injections)
     {
+        if (!e.isDict() && isVariable(injections, e.keyword()))
+        {
+            continue;
+        }
         if (!e.isDict())
         {
             FatalIOErrorInFunction(injections)
@@ -140,14 +150,19 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
             << exit(FatalError);
     }
 
+    if (isFile(time().globalPath()/time().constant()/"g"))
+    {
+        Warning
+            << "constant/g is not read: gravity is that of forces/gravity in "
+            << name() << nl << endl;
+    }
+    readOptions();
+    checkOptions();
     scheme_ = frozenFlow::schemeNames.getOrDefault
     (
         "interpolation", *this, frozenFlow::stDivergenceFree
     );
     seed_ = getOrDefault<label>("seed", 1);
-
-    readOptions();
-    checkOptions();
     readUnreached(mesh.boundaryMesh());
     checkPatches(mesh.boundaryMesh());
 }

@@ -90,10 +90,16 @@ Foam::domainImages::seam Foam::domainImages::translational(const polyPatch& pp)
     const cyclicPolyPatch& other = half.neighbPatch();
 
     const vectorField shifts(other.faceCentres() - half.faceCentres());
-    const vector shift(sum(shifts)/scalar(half.size()));
+    vector shift(sum(shifts)/scalar(half.size()));
     const pointField& points = half.boundaryMesh().mesh().points();
+    const scalar size = boundBox(points, false).mag();
 
-    if (max(mag(shifts - shift)) > offness*boundBox(points, false).mag())
+    // Halves that lie on one another are a membrane within the device
+    if (mag(shift) < offness*size)
+    {
+        shift = Zero;
+    }
+    if (max(mag(shifts - shift)) > offness*size)
     {
         refuse
         (

@@ -236,7 +236,11 @@ Foam::frozenFlow::frozenFlow
     }
 
     const boundBox box(centres_, false);
-    const vector margin(0.01*box.mag()*vector::one);
+    // One mesh cell alone has a box without extent
+    const vector margin
+    (
+        (centres_.size() > 1 ? 0.01*box.mag() : 1e-6)*vector::one
+    );
 
     centreTree_.reset
     (

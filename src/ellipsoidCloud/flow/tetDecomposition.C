@@ -503,8 +503,8 @@ void Foam::checkCells(const polyMesh& mesh)
                 FatalError << " of processor " << ranki;
             }
             FatalError
-                << " at " << faults[ranki].second() << " m has no volume, or a"
-                << " face without area or distance from it" << nl
+                << " at " << faults[ranki].second() << " m has no volume, is"
+                << " inside out, or has a face without area or distance from it" << nl
                 << "    checkMesh says more" << exit(FatalError);
         }
     }

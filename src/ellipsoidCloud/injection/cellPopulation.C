@@ -94,6 +94,10 @@ Foam::cellPopulation::cellPopulation(const ellipsoidProperties& properties)
 
     for (const entry& e : properties.section("injection"))
     {
+        if (!e.isDict())
+        {
+            continue;
+        }
         const dictionary& dict = e.dict();
 
         listed_.append(listedSizes(dict, "sizes"));
@@ -105,7 +109,7 @@ Foam::cellPopulation::cellPopulation(const ellipsoidProperties& properties)
     }
     if (cell.found("sizes"))
     {
-        readDistribution(cell.subDict("sizes"));
+        readDistribution(subDictOf(cell, "sizes"));
     }
 
     for (const cellSize& size : extremes())

@@ -37,7 +37,8 @@ Foam::occupancy::setting::setting
     checkKeywords
     (
         dict,
-        {"active", "flow", "fates", "every", "tolerance", "apertures"}
+        {"active", "flow", "fates", "every", "tolerance", "apertures"},
+        {"apertures"}
     );
 
     if (dict.found("fates"))
@@ -56,9 +57,14 @@ Foam::occupancy::setting::setting
         }
     }
 
-    for (const entry& e : dict.subOrEmptyDict("apertures"))
+    for (const entry& e : subDictOf(dict, "apertures"))
     {
-        const dictionary& of = e.dict();
+        if (!e.isDict() && isVariable(subDictOf(dict, "apertures"), e.keyword()))
+        {
+            continue;
+        }
+        const dictionary& of =
+            subDictOf(subDictOf(dict, "apertures"), e.keyword());
         checkKeywords(of, {"min", "max", "normal", "area"});
 
         const boundBox box(of.get<point>("min"), of.get<point>("max"));
@@ -314,7 +320,7 @@ void Foam::occupancy::update
     {
         for (const label id : caught)
         {
-            held_.insert(id, heldWrench());
+            held_.insert(id, heldWrench{Zero, Zero});
         }
     }
     if (!changesFlow())
