@@ -80,12 +80,15 @@ static int is_complete(const ellipsoid_member *m)
 
 /* The noise of all cells from t on, and until when. Near walls the interval ends
    with the run, too, as it cannot be continued: the resistance was that of its
-   start. */
+   start. What is left until then is divided evenly, so that no interval is much
+   shorter than it has to be: the force grows as it gets shorter. */
 static ellipsoid_status set_noise(ellipsoid_group *g,
                                   const ellipsoid_member members[], double t,
                                   double end, double *until)
 {
     ellipsoid_status status = ELLIPSOID_OK;
+    double whole = end;
+    int near = 0;
 
     *until = end;
     for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
@@ -94,6 +97,10 @@ static ellipsoid_status set_noise(ellipsoid_group *g,
         ellipsoid_noise *noise = &g->noise[cell];
 
         status = ellipsoid_noise_at(p->model, &p->surroundings, t, noise);
+        if (noise->end < whole - noise->tolerance)
+        {
+            whole = noise->end;
+        }
         if (status == ELLIPSOID_OK
             && ellipsoid_has_near_walls(p->model, &p->surroundings))
         {
@@ -105,6 +112,11 @@ static ellipsoid_status set_noise(ellipsoid_group *g,
         {
             *until = noise->end;
         }
+        near = near || noise->near;
+    }
+    if (status == ELLIPSOID_OK && near && *until < whole)
+    {
+        *until = t + (whole - t) / ceil((whole - t) / (*until - t));
     }
     for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
