@@ -272,10 +272,6 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 #define ELLIPSOID_MAX_SURFACES 8
 #define ELLIPSOID_MAX_NEAR 4096
 #define ELLIPSOID_MAX_LISTED 256
-#define ELLIPSOID_LIVE_LEVELS 4
-
-/* Facets kept of the pose looked at last. */
-#define ELLIPSOID_MAX_MET 64
 
 /*
     Which facets each bead, or the ellipsoid, may touch, and which the
@@ -303,21 +299,11 @@ typedef struct ellipsoid_facet_cache
     int about_nearest; /* which of a list was nearest last: it comes first */
     double about_x[3], about_reach;
     const ellipsoid_facet *about_facets;
-    int near_count;   /* of facets within the wall_range; -1: not looked up */
+    int near_count;   /* of facets about the wall_range; -1: not looked up */
     double near_x[3]; /* where they were looked up */
     double near_margin; /* [m] how far the centre may move from there */
     const ellipsoid_facet *near_facets;
     int near_facet[ELLIPSOID_MAX_NEAR]; /* ascending */
-    /* of those that count near this pose, within parts of what it may change
-       by; -1: not looked up */
-    int live_count[ELLIPSOID_LIVE_LEVELS];
-    double live_x[3], live_axis[3][3]; /* where; the body's axes there */
-    /* which of near_facet, ascending */
-    short live[ELLIPSOID_LIVE_LEVELS][ELLIPSOID_MAX_NEAR];
-    /* likewise those that count in the pose looked at last; -1: not known */
-    int met_count;
-    double met_x[3], met_axis[3][3];
-    short met[ELLIPSOID_MAX_MET];
 } ellipsoid_facet_cache;
 
 /*

@@ -146,6 +146,21 @@ ellipsoid_options ellipsoid_options_resized(const ellipsoid_options *options,
 
 /* --------------------------------------------------------------- model */
 
+/* What walls do to the spheroid of a body's shape (drag/planeFunctions.c). */
+#define ELLIPSOID_PLANE_TILTS 9
+#define ELLIPSOID_PLANE_GAPS 8
+#define ELLIPSOID_PLANE_FUNCTIONS 18
+
+typedef struct ellipsoid_plane_table
+{
+    int axis;      /* of the body: that of the spheroid */
+    double radius; /* [m] across it */
+    double ratio;  /* [-] semi-axis along it, over that */
+    double free[4]; /* resistance, lengths by radius */
+    double at[ELLIPSOID_PLANE_TILTS][ELLIPSOID_PLANE_GAPS]
+             [ELLIPSOID_PLANE_FUNCTIONS]; /* coefficients */
+} ellipsoid_plane_table;
+
 /* What follows from the options once and for all; read-only afterwards. */
 typedef struct ellipsoid_model
 {
@@ -169,6 +184,7 @@ typedef struct ellipsoid_model
     double noise_torque[3]; /* [N m] likewise */
     int electric, has_dipole; /* does a field act? On a dipole? */
     int dissipative;        /* do contacts depend on velocities? */
+    ellipsoid_plane_table plane; /* unless WALL_RESISTANCE_NONE */
     double reach;           /* [m] farthest contact surface from the centre */
     int flow_points;        /* 0 unless FLOW_BODY */
     double flow_point[ELLIPSOID_MAX_FLOW_POINTS][3]; /* [m] body, on surface */

@@ -12,6 +12,43 @@
 #include "flowTest.h"
 #include "wallMesh.h"
 
+/* A sphere at a plane: Goldman, Cox & Brenner, Chem. Eng. Sci. 22, 637 (1967),
+   table 2, one that translates along the plane or turns; 653, table 1, one held
+   in a shear. h/a; force and torque by translation, torque by rotation; force
+   and torque of the shear, over 6 pi mu a U, 8 pi mu a^2 U, 8 pi mu a^3 omega,
+   6 pi mu a h S, 4 pi mu a^3 S. */
+static const struct goldman
+{
+    double height, force_u, torque_u, torque_omega, force_s, torque_s;
+} goldman[] = {{10.0677, 1.0591, 8.77e-6, 1.0003, 1.0587, 0.99981},
+               {3.7622, 1.1738, 4.21e-4, 1.0059, 1.1671, 0.99711},
+               {2.3524, 1.3079, 2.6425e-3, 1.0250, 1.2780, 0.99010},
+               {1.5431, 1.5675, 1.4649e-2, 1.0998, 1.4391, 0.97419},
+               {1.1276, 2.1514, 7.3718e-2, 1.3877, 1.6160, 0.95374},
+               {1.0453, 2.6475, 0.14552, 1.7006, 1.6682, 0.94769},
+               {1.005004, 3.7863, 0.34187, 2.5056, 1.6969, 0.94442},
+               {1.003202, 4.0223, 0.38494, 2.6793, 1.6982, 0.94427}};
+
+/* Brenner, Chem. Eng. Sci. 16, 242 (1961), eq. 2.19: the drag of a sphere that
+   moves towards a plane, over 6 pi mu a. */
+static inline double brenner_towards(double height)
+{
+    const double alpha = acosh(height);
+    double sum = 0;
+
+    for (int n = 1; n * alpha < 40; n++)
+    {
+        const double wide = sinh((n + 0.5) * alpha), odd = 2 * n + 1;
+
+        sum += n * (n + 1.0) / ((2 * n - 1.0) * (2 * n + 3.0))
+             * ((2 * sinh(odd * alpha) + odd * sinh(2 * alpha))
+                    / (4 * wide * wide
+                       - odd * odd * sinh(alpha) * sinh(alpha))
+                - 1);
+    }
+    return 4.0 / 3 * sinh(alpha) * sum;
+}
+
 static inline ellipsoid_options near_walls(void)
 {
     ellipsoid_options o = test_free_cell();

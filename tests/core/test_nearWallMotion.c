@@ -104,42 +104,6 @@ static journey past_block(wall_mesh *mesh)
     return j;
 }
 
-/*
-    Over its steps the resistance is kept. Its error, against steps at a tolerance
-    of 1e-9, over which it is not, is at most twice that without walls.
-*/
-static void test_kept_resistance(void **unused)
-{
-    wall_mesh mesh;
-    const journey start = past_block(&mesh);
-    double error[2];
-
-    (void)unused;
-    for (int n = 0; n < 2; n++)
-    {
-        static const double tolerance[2] = {1e-9, 1e-5};
-        ellipsoid_state end[2];
-
-        for (int k = 0; k < 2; k++)
-        {
-            journey j = start;
-
-            j.no_walls = !n;
-            j.options.tolerance = tolerance[k];
-            go(&j);
-            print_message("%s walls, %.0e: %ld steps, %ld evaluations\n",
-                          n ? "with" : "without", tolerance[k],
-                          j.statistics.accepted, j.statistics.rhs);
-            end[k] = j.state;
-        }
-        error[n] = test_distance(end[0].x, end[1].x, 3) / 2e-6
-                 + test_distance(end[0].q, end[1].q, 4);
-        print_message("error %.1e\n", error[n]);
-    }
-    assert_true(error[1] < 2 * error[0]);
-    wall_mesh_free(&mesh);
-}
-
 static int stop(void *context, const ellipsoid_step *step)
 {
     (void)step;
@@ -147,11 +111,9 @@ static int stop(void *context, const ellipsoid_step *step)
     return 1;
 }
 
-/*
-    Stopped after every step and continued, it takes the way of one that is not
-    stopped, to the last bit, although its resistance is kept over steps.
-*/
-static void test_kept_and_stopped(void **unused)
+/* Stopped after every step and continued, it takes the way of one that is not
+   stopped, to the last bit. */
+static void test_stopped(void **unused)
 {
     wall_mesh mesh;
     journey whole = past_block(&mesh), stopped = whole;
@@ -161,39 +123,6 @@ static void test_kept_and_stopped(void **unused)
     stopped.observer = stop;
     go(&stopped);
     assert_memory_equal(&whole.state, &stopped.state, sizeof(whole.state));
-    wall_mesh_free(&mesh);
-}
-
-/*
-    Where contact sees no wall within its horizon, how long the resistance is kept
-    is a matter of the planes alone: the way, in steps in which the cell goes
-    farther than a quarter of the horizon, is that without contact, to the last
-    bit.
-*/
-static void test_kept_beyond_horizon(void **unused)
-{
-    ellipsoid_state end[2];
-    wall_mesh mesh;
-
-    (void)unused;
-    wall_mesh_init(&mesh);
-    add_floor(&mesh, 0, 10, 10);
-    wall_mesh_finish(&mesh);
-    for (int n = 0; n < 2; n++)
-    {
-        journey j = {.mesh = &mesh,
-                     .options = near_walls(),
-                     .shear = 200,
-                     .end = 5e-3,
-                     .state = {.x = {0, 0, 4e-6}, .q = {0.3, 0.1, 0.2, 0.9}}};
-
-        j.options.tolerance = 1e-5;
-        j.options.maximum_step = 2e-4;
-        j.options.contact = n;
-        go(&j);
-        end[n] = j.state;
-    }
-    assert_memory_equal(&end[0], &end[1], sizeof(end[0]));
     wall_mesh_free(&mesh);
 }
 
@@ -299,9 +228,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_coming_down),
-        cmocka_unit_test(test_kept_resistance),
-        cmocka_unit_test(test_kept_and_stopped),
-        cmocka_unit_test(test_kept_beyond_horizon),
+        cmocka_unit_test(test_stopped),
         cmocka_unit_test(test_without_flow),
         cmocka_unit_test(test_two_cells),
     };

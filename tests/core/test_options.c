@@ -246,11 +246,16 @@ static void test_near_walls(void **unused)
     options.wall_range = options.semi_axes[1];
     assert_ok(ellipsoid_options_check(&options, NULL, NULL));
     options.brownian = 1;
+    assert_ok(ellipsoid_options_check(&options, NULL, NULL));
+    options.wall_range = 1e-5;
+    options.semi_axes[1] = 11 * options.semi_axes[0];
     assert_int_equal(ellipsoid_options_check(&options, &field, &range),
                      ELLIPSOID_BAD_OPTION);
     assert_string_equal(field, "wall_resistance");
-    assert_string_equal(
-        range, "none with Brownian motion: the drift kT div M is not there");
+    assert_string_equal(range,
+                        "none for a body that is not between 1:3 and 10:1");
+    options.semi_axes[1] = 10 * options.semi_axes[0];
+    assert_ok(ellipsoid_options_check(&options, NULL, NULL));
     options.brownian = options.drag = 0;
     assert_int_equal(ellipsoid_options_check(&options, &field, &range),
                      ELLIPSOID_BAD_OPTION);

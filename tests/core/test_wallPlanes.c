@@ -9,7 +9,7 @@
 #include <fenv.h>
 
 #include "nearWallTest.h"
-#include "drag/wallResistance.h"
+#include "drag/drag.h"
 
 enum
 {

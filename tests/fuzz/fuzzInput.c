@@ -7,6 +7,8 @@
 */
 #include "fuzzInput.h"
 
+#include "body/planeTable.h"
+
 #include <float.h>
 #include <limits.h>
 #include <math.h>
@@ -190,7 +192,8 @@ ellipsoid_options fuzz_options(fuzz_input *in)
                        ? ELLIPSOID_MOTION_INERTIALESS
                        : ELLIPSOID_MOTION_INERTIAL;
         o.brownian = o.drag && fuzz_choice(in, 3) == 2;
-        if (o.drag && !o.brownian && fuzz_choice(in, 2))
+        if (o.drag && ellipsoid_plane_table_has(o.semi_axes)
+            && fuzz_choice(in, 2))
         {
             const double *a = o.semi_axes;
 

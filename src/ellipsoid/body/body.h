@@ -15,6 +15,8 @@
 
 #include <string.h>
 
+#define ELLIPSOID_BOLTZMANN 1.380649e-23 /* [J/K], SI 2019 */
+
 /*
     The part of the Jacobian that is not known beforehand: rows are du/dt and
     domega/dt, columns the unknowns. Until all forces are in, rows are force and

@@ -6,20 +6,19 @@
     model.c - what follows from the options once and for all.
 */
 #include "body/body.h"
+#include "body/planeTable.h"
 
 #include <math.h>
 
 static const double pi = 3.14159265358979323846;
-
-/* [J/K], SI 2019 */
-static const double boltzmann = 1.380649e-23;
 
 /* Fluctuation and dissipation, see brownian.c. */
 static void set_noise_scales(ellipsoid_model *model)
 {
     const ellipsoid_options *o = &model->options;
     const double power =
-        2 * boltzmann * o->temperature * model->viscosity / o->noise_interval;
+        2 * ELLIPSOID_BOLTZMANN * o->temperature * model->viscosity
+        / o->noise_interval;
 
     for (int i = 0; i < 3; i++)
     {
@@ -89,6 +88,10 @@ ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
     if (options->flow_at == ELLIPSOID_FLOW_BODY)
     {
         ellipsoid_surface_quadrature(&m);
+    }
+    if (options->wall_resistance != ELLIPSOID_WALL_RESISTANCE_NONE)
+    {
+        ellipsoid_plane_table_set(a, &m.plane);
     }
     if (options->brownian)
     {

@@ -6,7 +6,7 @@
     options.c - what options.def says as defaults, list and check; relations
     between options; options of a cell of another size.
 */
-#include "ellipsoid.h"
+#include "body/planeTable.h"
 
 #include <float.h>
 #include <math.h>
@@ -179,8 +179,9 @@ static void check_drag(verdict *v, const ellipsoid_options *o)
     require(v, o->drag || !o->brownian, INDEX_brownian, "no without drag");
     require(v, o->drag || !is_plane, INDEX_wall_resistance,
             "none without drag");
-    require(v, !o->brownian || !is_plane, INDEX_wall_resistance,
-            "none with Brownian motion: the drift kT div M is not there");
+    require(v, !is_plane || ellipsoid_plane_table_has(o->semi_axes),
+            INDEX_wall_resistance,
+            "none for a body that is not between 1:3 and 10:1");
 }
 
 /* What holds between several options. */

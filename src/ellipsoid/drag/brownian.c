@@ -8,6 +8,13 @@
     Fluctuation and dissipation: <F F^T> = 2 kT mu K delta(t), and likewise the
     torque with the rotational resistance. Over an interval dt both are constant
     in the body frame, of variance 2 kT mu K^_i/dt and 2 kT mu C_i/dt.
+
+    Near walls the resistance R is a matrix of the pose, and so force and torque
+    are (2 kT/dt)^(1/2) L xi, L L^T = R where the interval begins. They stay the
+    same while the body moves and its mobility M = 1/R changes: in the mean that
+    displaces it by kT div M dt, the drift that is needed, as in the midpoint
+    scheme of Fixman, J. Chem. Phys. 69, 1527 (1978). Intervals are so short that
+    the body moves by a part of its gap.
 */
 #include "drag/drag.h"
 
@@ -24,6 +31,7 @@ ellipsoid_status ellipsoid_noise_at(const ellipsoid_model *model,
     const double number = floor(intervals + tolerance);
     double normal[6];
 
+    noise->near = 0;
     noise->start = number * interval;
     noise->end = (number + 1) * interval;
     noise->tolerance = tolerance * interval;
@@ -39,6 +47,114 @@ ellipsoid_status ellipsoid_noise_at(const ellipsoid_model *model,
         noise->torque[i] = model->noise_torque[i] * normal[3 + i];
     }
     return ELLIPSOID_OK;
+}
+
+/* In place, the lower triangle; 0 if it is not positive. */
+static int factorise(double matrix[6][6])
+{
+    for (int j = 0; j < 6; j++)
+    {
+        for (int i = j; i < 6; i++)
+        {
+            for (int k = 0; k < j; k++)
+            {
+                matrix[i][j] -= matrix[i][k] * matrix[j][k];
+            }
+            if (i == j && !(matrix[j][j] > 0))
+            {
+                return 0;
+            }
+            matrix[i][j] /= i == j ? sqrt(matrix[j][j]) : matrix[j][j];
+        }
+    }
+    return 1;
+}
+
+/* Of an interval in which the nearest point moves by `part` of the gap along the
+   normal, rms: (part gap)^2/(2 kT o.M o), o.M o the square of 1/L o. */
+static double longest_interval(const ellipsoid_model *model,
+                               const ellipsoid_noise *noise,
+                               const ellipsoid_plane *plane)
+{
+    static const double part = 0.2;
+    const double *a = model->options.semi_axes, *n = plane->normal;
+    const double stretched[3] = {a[0] * a[0] * n[0], a[1] * a[1] * n[1],
+                                 a[2] * a[2] * n[2]};
+    const double p = sqrt(ellipsoid_dot(n, stretched));
+    double out[6] = {n[0], n[1], n[2]}, square = 0;
+
+    ellipsoid_cross(n, stretched, out + 3);
+    for (int i = 0; i < 6; i++)
+    {
+        out[i] /= i < 3 ? 1 : p;
+        for (int k = 0; k < i; k++)
+        {
+            out[i] -= noise->factor[i][k] * out[k];
+        }
+        out[i] /= noise->factor[i][i];
+        square += out[i] * out[i];
+    }
+    return part * part * plane->gap * plane->gap
+         / (2 * ELLIPSOID_BOLTZMANN * model->options.temperature * square);
+}
+
+ellipsoid_status
+ellipsoid_wall_noise_begin(const ellipsoid_model *model,
+                           const ellipsoid_surroundings *surroundings,
+                           const ellipsoid_state *state,
+                           ellipsoid_facet_cache *cache, double t,
+                           ellipsoid_noise *noise)
+{
+    const double *q = state->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
+    ellipsoid_frame frame = {.by_q = NULL};
+    ellipsoid_planes planes;
+    ellipsoid_status status;
+
+    ellipsoid_rotation_inline(opposite, frame.axis);
+    status = ellipsoid_find_planes(model, surroundings, state, &frame, cache,
+                                   &planes);
+    noise->near = status == ELLIPSOID_OK && planes.count > 0;
+    if (!noise->near)
+    {
+        return status;
+    }
+    noise->start = t;
+    ellipsoid_wall_matrix(model, &planes, noise->factor);
+    if (!factorise(noise->factor))
+    {
+        return ELLIPSOID_NON_FINITE;
+    }
+    for (int p = 0; p < planes.count; p++)
+    {
+        noise->end = fmin(
+            noise->end, t + longest_interval(model, noise, &planes.at[p]));
+    }
+    return noise->end > t ? ELLIPSOID_OK : ELLIPSOID_STEP_UNDERFLOW;
+}
+
+void ellipsoid_wall_noise_set(const ellipsoid_model *model,
+                              const ellipsoid_surroundings *surroundings,
+                              double end, ellipsoid_noise *noise)
+{
+    const double scale =
+        sqrt(2 * ELLIPSOID_BOLTZMANN * model->options.temperature / (end - noise->start));
+    double normal[6], action[6] = {0};
+    int64_t number;
+
+    /* another number for every start, and of no interval far from walls */
+    memcpy(&number, &noise->start, sizeof(number));
+    ellipsoid_random_normal(surroundings->seed, surroundings->id, number,
+                            normal);
+    noise->end = end;
+    for (int i = 0; i < 6; i++)
+    {
+        for (int k = 0; k <= i; k++)
+        {
+            action[i] += scale * noise->factor[i][k] * normal[k];
+        }
+    }
+    ellipsoid_copy(action, noise->force);
+    ellipsoid_copy(action + 3, noise->torque);
 }
 
 void ellipsoid_add_noise(const ellipsoid_noise *noise, ellipsoid_frame *frame,

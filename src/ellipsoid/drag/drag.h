@@ -37,6 +37,8 @@ typedef struct ellipsoid_noise
     double torque[3]; /* [N m] body */
     double start, end; /* [s] of the interval */
     double tolerance;  /* [s] a time so close to an end counts as that end */
+    int near;            /* to walls? */
+    double factor[6][6]; /* L of the resistance near them, body frame */
 } ellipsoid_noise;
 
 /* The noise of the interval that holds t. STEP_UNDERFLOW: t is too far from 0
@@ -44,6 +46,22 @@ typedef struct ellipsoid_noise
 ellipsoid_status ellipsoid_noise_at(const ellipsoid_model *model,
                                     const ellipsoid_surroundings *surroundings,
                                     double t, ellipsoid_noise *noise);
+
+/*
+    Near walls an interval of its own begins where the noise is asked for: sets
+    its start, t, an end no later than that of the noise, and the factor of the
+    resistance, L L^T; *near is 0 where there are no walls. Then the noise until
+    that end or an earlier one.
+*/
+ellipsoid_status
+ellipsoid_wall_noise_begin(const ellipsoid_model *model,
+                           const ellipsoid_surroundings *surroundings,
+                           const ellipsoid_state *state,
+                           ellipsoid_facet_cache *cache, double t,
+                           ellipsoid_noise *noise);
+void ellipsoid_wall_noise_set(const ellipsoid_model *model,
+                              const ellipsoid_surroundings *surroundings,
+                              double end, ellipsoid_noise *noise);
 
 /* Adds it to the wrench and, if wanted, to the blocks. */
 void ellipsoid_add_noise(const ellipsoid_noise *noise, ellipsoid_frame *frame,
@@ -60,136 +78,111 @@ ellipsoid_has_near_walls(const ellipsoid_model *model,
 }
 
 /* Walls that act at once; of more, the nearest. */
-#define ELLIPSOID_MAX_PLANES 24
+#define ELLIPSOID_MAX_PLANES 48
 
 /* The position x and the quaternion q: what derivatives are taken by. */
 #define ELLIPSOID_POSE_SIZE 7
 
-/* A number that depends on the pose; the slopes only where asked for. */
-typedef struct ellipsoid_quantity
+/* The two actions of a plane: that of a table, and squeezing. */
+enum
 {
-    double value, slope[ELLIPSOID_POSE_SIZE];
-} ellipsoid_quantity;
+    ELLIPSOID_PLANE_FAR,
+    ELLIPSOID_PLANE_NEAR
+};
 
-/* A wall as the body sees it: the plane on which it rests, grown or shrunk. */
+/* A wall as the body sees it; slopes, by the pose, only where asked for. */
 typedef struct ellipsoid_plane
 {
-    double normal[3]; /* unit, body frame, into the fluid */
+    double wall[3];   /* unit normal, lab, into the fluid */
+    double normal[3]; /* the same in the body frame */
+    double gap;       /* [m] to the body, cut off at the lubrication_gap */
+    double weight[2]; /* [-] of each action: 1 on a wall without end */
     double normal_slope[ELLIPSOID_POSE_SIZE][3];
-    ellipsoid_quantity height; /* [m] of the centre above the plane */
-    ellipsoid_quantity window; /* [-] 1 near, 0 out of range */
-    ellipsoid_quantity extent; /* [-] 1 where its point is on the wall, 0 well
-                                  beside it */
-    ellipsoid_quantity weight; /* [-] 0 to 1: both, and what they leave to
-                                  other planes */
-    int feature;               /* where its point is, as in ellipsoid_nearest */
-    const double *vertex[2];   /* of that edge, or of that vertex the first */
+    double gap_slope[ELLIPSOID_POSE_SIZE];
+    double weight_slope[2][ELLIPSOID_POSE_SIZE];
 } ellipsoid_plane;
 
 typedef struct ellipsoid_planes
 {
     int count;
-    ellipsoid_plane at[ELLIPSOID_MAX_PLANES + 1]; /* one, where it is tried */
+    ellipsoid_plane at[ELLIPSOID_MAX_PLANES];
 } ellipsoid_planes;
 
-/* The planes at the pose of a state (wallPlanes.c). */
+/* The planes at the pose of a state; slopes if frame->by_q (wallPlanes.c). */
 ellipsoid_status
 ellipsoid_find_planes(const ellipsoid_model *model,
                       const ellipsoid_surroundings *surroundings,
-                      const ellipsoid_state *state, ellipsoid_frame *frame,
+                      const ellipsoid_state *state,
+                      const ellipsoid_frame *frame,
                       ellipsoid_facet_cache *cache, ellipsoid_planes *planes);
 
-/* What is kept of planes near a pose; of more than so many nothing. */
-#define ELLIPSOID_MOST_LINEAR 8
-
-typedef struct ellipsoid_linear_plane
+/* The functions of tilt and gap, and their derivatives by nu and the gap;
+   lengths in equatorial radii. */
+typedef struct ellipsoid_plane_values
 {
-    double normal[3], normal_slope[ELLIPSOID_POSE_SIZE][3];
-    ellipsoid_quantity height, weight; /* as those of a plane */
-} ellipsoid_linear_plane;
+    double f[ELLIPSOID_PLANE_FUNCTIONS], by_nu[ELLIPSOID_PLANE_FUNCTIONS];
+    double by_gap[ELLIPSOID_PLANE_FUNCTIONS];
+    /* with its derivatives: q; c x n over e x n; the velocity along n at c in
+       the shear, over gamma.e */
+    double squeeze[3], arm[3], rate[3];
+} ellipsoid_plane_values;
 
-typedef struct ellipsoid_linear_planes
+/* One plane and one body. */
+typedef struct ellipsoid_plane_effect
 {
-    int count;         /* -1: they are too many */
-    double x[3], q[4]; /* where */
-    double rates[6];   /* there, as ellipsoid_wall_rates() */
-    ellipsoid_linear_plane at[ELLIPSOID_MOST_LINEAR];
-} ellipsoid_linear_planes;
+    const ellipsoid_plane_table *own;
+    double normal[3]; /* body frame */
+    ellipsoid_plane_values values;
+} ellipsoid_plane_effect;
 
-/* The velocities of the fluid relative to the body, (R^T (u_free - u),
-   omega_free - w^), body frame. */
-void ellipsoid_wall_rates(ellipsoid_frame *frame,
-                          const ellipsoid_free_motion *free,
-                          const ellipsoid_state *state, double rates[6]);
+/* slopes: are derivatives to be asked for? */
+void ellipsoid_plane_effect_set(const ellipsoid_plane_table *own,
+                                const double normal[3], double gap, int slopes,
+                                ellipsoid_plane_effect *effect);
 
-/* The drag (F^, T^) in the body frame that they make near these planes; 0 if
-   the resistance is singular (wallDrag.c). */
-int ellipsoid_wall_action(const ellipsoid_model *model,
-                          const ellipsoid_planes *planes,
-                          const double rates[6], double action[6]);
+/*
+    What the plane adds to force [m2/s] and torque [m3/s] over mu on a body that
+    a free one outruns by `rates`, in a flow of which (z - z of the centre)
+    shear [1/s] is a part; all in the body frame, FAR and NEAR apart. change, if
+    not NULL: its derivatives by the components of the normal and the gap.
+*/
+void ellipsoid_plane_action(const ellipsoid_plane_effect *effect,
+                            const double rates[6], const double shear[3],
+                            double action[2][6], double change[4][2][6]);
 
-/* Keeps planes with their slopes; as they are at another pose if all is linear
-   in the pose; and what that leaves out at a state where `is` was set, as
-   velocities of the free body (linearPlanes.c). */
-void ellipsoid_linear_planes_set(const ellipsoid_planes *planes,
-                                 const ellipsoid_state *state,
-                                 const double rates[6],
-                                 ellipsoid_linear_planes *linear);
-void ellipsoid_linear_planes_at(const ellipsoid_linear_planes *linear,
-                                const ellipsoid_state *state,
-                                ellipsoid_planes *planes);
-void ellipsoid_linear_planes_defect(const ellipsoid_model *model,
-                                    const ellipsoid_linear_planes *linear,
-                                    const ellipsoid_linear_planes *is,
-                                    const ellipsoid_state *state,
-                                    double defect[6]);
-
-/* The resistance near walls as it is kept over a step (wallDrag.c). */
-typedef struct ellipsoid_kept_resistance
+/* What the drag near walls depends on besides the pose. */
+typedef struct ellipsoid_near_walls
 {
-    double longest;      /* [s] of a step over which it may be; 0: none */
-    int acts;            /* do walls add to that of the free body? */
-    int in_blocks;       /* are the blocks those of a kept one? */
-    double matrix[6][6]; /* [N s/m, ...] body frame */
-} ellipsoid_kept_resistance;
+    const ellipsoid_model *model;
+    const ellipsoid_planes *planes;
+    ellipsoid_frame *frame;
+    const ellipsoid_free_motion *free;
+    const ellipsoid_flow_sample *flow;
+} ellipsoid_near_walls;
 
-/* Sets it, and how long it may be kept. gap [m]: to where it touches, as far as
-   contact knows. NON_FINITE: it is singular. */
-ellipsoid_status ellipsoid_keep_resistance(const ellipsoid_model *model,
-                                           const ellipsoid_planes *planes,
-                                           ellipsoid_frame *frame,
-                                           const ellipsoid_free_motion *free,
-                                           const ellipsoid_state *state,
-                                           double gap,
-                                           ellipsoid_kept_resistance *kept);
+/* mu (diag(K, C) + what the planes add), body frame (wallDrag.c). */
+void ellipsoid_wall_matrix(const ellipsoid_model *model,
+                           const ellipsoid_planes *planes,
+                           double matrix[6][6]);
 
-/* As ellipsoid_add_wall_drag() with a resistance that is the same in all poses,
-   as seen by the body. */
-void ellipsoid_add_kept_drag(const ellipsoid_model *model,
-                             const ellipsoid_kept_resistance *kept,
-                             ellipsoid_frame *frame,
-                             const ellipsoid_free_motion *free,
+/* Adds to the state's u and omega what a wrench does against that. NON_FINITE: it
+   is singular. */
+ellipsoid_status ellipsoid_add_wall_mobility(const ellipsoid_model *model,
+                                             const ellipsoid_planes *planes,
+                                             ellipsoid_frame *frame,
+                                             const ellipsoid_body_wrench *wrench,
+                                             ellipsoid_state *state);
+
+/* Sets the state's u and omega to those that balance this wrench. NON_FINITE, as
+   above. */
+ellipsoid_status ellipsoid_balance_wall_drag(const ellipsoid_near_walls *near,
+                                             const ellipsoid_body_wrench *wrench,
+                                             ellipsoid_state *state);
+
+/* Adds the drag to the wrench and, if wanted, to the blocks. */
+void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
                              const ellipsoid_state *state,
                              ellipsoid_body_wrench *wrench,
                              ellipsoid_jacobian_blocks *blocks);
-
-/* Adds to the state's u and omega what a wrench does against the resistance
-   near these planes (wallDrag.c). NON_FINITE: the resistance is singular. */
-ellipsoid_status
-ellipsoid_add_wall_mobility(const ellipsoid_model *model,
-                            const ellipsoid_planes *planes,
-                            ellipsoid_frame *frame,
-                            const ellipsoid_body_wrench *wrench,
-                            ellipsoid_state *state);
-
-/* Adds the drag near these planes to the wrench and, if wanted, to the blocks.
-   NON_FINITE: the resistance is singular. */
-ellipsoid_status ellipsoid_add_wall_drag(const ellipsoid_model *model,
-                                         const ellipsoid_planes *planes,
-                                         ellipsoid_frame *frame,
-                                         const ellipsoid_free_motion *free,
-                                         const ellipsoid_state *state,
-                                         ellipsoid_body_wrench *wrench,
-                                         ellipsoid_jacobian_blocks *blocks);
 
 #endif

@@ -5,75 +5,152 @@
 
     wallDrag.c - drag near walls.
 
-    The resistance of the free body and what each plane adds to it
-    (wallResistance.c, wallPlanes.c) make one matrix in the body frame,
-    symmetric and positive definite:
-        (F^, T^) = mu (diag(K^, C) + sum_planes weight A(n^, h))
-                   (R^T (u_free - u), omega_free - w^).
+        (F^, T^) = mu (diag(K^, C) + sum_planes A(n^, g))
+                   (R^T (u_free - u), omega_free - w^)
+                 + mu sum_planes D(n^, g) gamma^,
+    with the free motion as it is far from walls and gamma = (I - n n) G n of the
+    flow at the centre (planeFunctions.c, wallPlanes.c): a plane resists motion,
+    and holds back a body that the shear along it carries.
 */
 #include "drag/drag.h"
-#include "drag/wallResistance.h"
 
-int ellipsoid_wall_action(const ellipsoid_model *m,
-                          const ellipsoid_planes *planes,
-                          const double rates[6], double action[6])
+static const double none[6];
+
+enum
 {
-    int regular = 1;
+    POSE = ELLIPSOID_POSE_SIZE
+};
+
+/* (I - n n) v */
+static void project(const double normal[3], double v[3])
+{
+    const double along = ellipsoid_dot(normal, v);
 
     for (int i = 0; i < 3; i++)
     {
-        action[i] = m->viscosity * m->resistance[i] * rates[i];
-        action[i + 3] =
-            m->viscosity * m->rotation_resistance[i] * rates[i + 3];
+        v[i] -= along * normal[i];
     }
-    for (int p = 0; p < planes->count; p++)
-    {
-        const ellipsoid_plane *plane = &planes->at[p];
-        const double factor = m->viscosity * plane->weight.value;
-        double more[6];
-
-        regular = ellipsoid_plane_resistance(m, plane->normal,
-                                             plane->height.value, rates, more,
-                                             NULL)
-               && regular;
-        for (int i = 0; i < 6; i++)
-        {
-            action[i] += factor * more[i];
-        }
-    }
-    return regular;
 }
 
-/* The whole of it as a symmetric matrix; 0 if one is singular. */
-static int set_matrix(const ellipsoid_model *m, const ellipsoid_planes *planes,
-                      double matrix[6][6])
+/* gamma in the lab and in the body frame. */
+static void set_shear(const ellipsoid_near_walls *near,
+                      const ellipsoid_plane *plane, double lab[3],
+                      double body[3])
 {
-    int regular = 1;
+    for (int i = 0; i < 3; i++)
+    {
+        lab[i] = ellipsoid_dot(near->flow->gradient[i], plane->wall);
+    }
+    project(plane->wall, lab);
+    ellipsoid_product(near->frame->axis, lab, body);
+}
+
+/* Adds the weighted sum of the two actions of a plane. */
+static void add_weighted(const double weight[2], double factor,
+                         double action[2][6], double sum[6])
+{
+    for (int i = 0; i < 6; i++)
+    {
+        sum[i] += factor
+                * (weight[ELLIPSOID_PLANE_FAR] * action[0][i]
+                   + weight[ELLIPSOID_PLANE_NEAR] * action[1][i]);
+    }
+}
+
+void ellipsoid_wall_matrix(const ellipsoid_model *model,
+                           const ellipsoid_planes *planes, double matrix[6][6])
+{
+    const double mu = model->viscosity;
 
     memset(matrix, 0, 6 * sizeof(*matrix));
     for (int p = 0; p < planes->count; p++)
     {
         const ellipsoid_plane *plane = &planes->at[p];
-        double more[6][6];
+        ellipsoid_plane_effect effect;
 
-        regular = ellipsoid_plane_matrix(m, plane->normal, plane->height.value,
-                                         more)
-               && regular;
-        for (int i = 0; i < 6; i++)
+        ellipsoid_plane_effect_set(&model->plane, plane->normal, plane->gap, 0,
+                                   &effect);
+        for (int m = 0; m < 6; m++)
         {
-            for (int j = 0; j < 6; j++)
-            {
-                matrix[i][j] +=
-                    m->viscosity * plane->weight.value * more[i][j];
-            }
+            double rates[6] = {0}, action[2][6];
+
+            rates[m] = 1;
+            ellipsoid_plane_action(&effect, rates, none, action, NULL);
+            add_weighted(plane->weight, mu, action, matrix[m]);
         }
     }
     for (int i = 0; i < 3; i++)
     {
-        matrix[i][i] += m->viscosity * m->resistance[i];
-        matrix[i + 3][i + 3] += m->viscosity * m->rotation_resistance[i];
+        matrix[i][i] += mu * model->resistance[i];
+        matrix[i + 3][i + 3] += mu * model->rotation_resistance[i];
     }
-    return regular;
+}
+
+/* Adds what the planes add on a body that a free one outruns by these rates. */
+static void add_planes(const ellipsoid_near_walls *near, const double rates[6],
+                       double action[6])
+{
+    const ellipsoid_model *m = near->model;
+
+    for (int p = 0; p < near->planes->count; p++)
+    {
+        const ellipsoid_plane *plane = &near->planes->at[p];
+        ellipsoid_plane_effect effect;
+        double lab[3], shear[3], parts[2][6];
+
+        ellipsoid_plane_effect_set(&m->plane, plane->normal, plane->gap, 0,
+                                   &effect);
+        set_shear(near, plane, lab, shear);
+        ellipsoid_plane_action(&effect, rates, shear, parts, NULL);
+        add_weighted(plane->weight, m->viscosity, parts, action);
+    }
+}
+
+/* The same changes with the pose, those of the planes and of gamma, but not of
+   the rates. */
+static void add_pose_changes(const ellipsoid_near_walls *near,
+                             const ellipsoid_plane *plane,
+                             const double rates[6], double change[POSE][6])
+{
+    const double mu = near->model->viscosity, *n = plane->wall;
+    ellipsoid_plane_effect effect;
+    double lab[3], shear[3], parts[2][6], by[4][2][6];
+
+    ellipsoid_plane_effect_set(&near->model->plane, plane->normal, plane->gap, 1,
+                               &effect);
+    set_shear(near, plane, lab, shear);
+    ellipsoid_plane_action(&effect, rates, shear, parts, by);
+    for (int l = 0; l < POSE; l++)
+    {
+        const double of_weight[2] = {plane->weight_slope[0][l],
+                                     plane->weight_slope[1][l]};
+        double moved[3], of_shear[3], driven[2][6];
+
+        add_weighted(of_weight, mu, parts, change[l]);
+        for (int c = 0; c < 3; c++)
+        {
+            add_weighted(plane->weight, mu * plane->normal_slope[l][c], by[c],
+                         change[l]);
+        }
+        add_weighted(plane->weight, mu * plane->gap_slope[l], by[3], change[l]);
+        if (l < 3)
+        {
+            for (int i = 0; i < 3; i++)
+            {
+                const double(*g)[3] = near->flow->gradient_jacobian[i];
+
+                moved[i] = g[0][l] * n[0] + g[1][l] * n[1] + g[2][l] * n[2];
+            }
+            project(n, moved);
+            ellipsoid_product(near->frame->axis, moved, of_shear);
+        }
+        else
+        {
+            ellipsoid_product(near->frame->by_q[l - 3], lab, of_shear);
+        }
+        ellipsoid_plane_action(&effect, none, of_shear, driven, NULL);
+        add_weighted(plane->weight, mu, driven, change[l]);
+    }
 }
 
 /* (R^T first, second) */
@@ -104,37 +181,6 @@ static void add_column(double axis[3][3], const double action[6], double *of_u,
     }
 }
 
-/* How the action on given rates changes with the pose. */
-static void pose_changes(const ellipsoid_model *m,
-                         const ellipsoid_planes *planes, const double rates[6],
-                         double change[ELLIPSOID_POSE_SIZE][6])
-{
-    memset(change, 0, ELLIPSOID_POSE_SIZE * sizeof(*change));
-    for (int p = 0; p < planes->count; p++)
-    {
-        const ellipsoid_plane *plane = &planes->at[p];
-        double action[6], by[4][6];
-
-        ellipsoid_plane_resistance(m, plane->normal, plane->height.value, rates,
-                                   action, by);
-        for (int n = 0; n < ELLIPSOID_POSE_SIZE; n++)
-        {
-            const double *turn = plane->normal_slope[n];
-            const double weight = m->viscosity * plane->weight.value;
-            const double of_weight = m->viscosity * plane->weight.slope[n];
-
-            for (int i = 0; i < 6; i++)
-            {
-                change[n][i] += of_weight * action[i]
-                              + weight
-                                    * (turn[0] * by[0][i] + turn[1] * by[1][i]
-                                       + turn[2] * by[2][i]
-                                       + plane->height.slope[n] * by[3][i]);
-            }
-        }
-    }
-}
-
 /* action = matrix rates, with a symmetric matrix. */
 static void apply(double matrix[6][6], const double rates[6], double action[6])
 {
@@ -145,43 +191,20 @@ static void apply(double matrix[6][6], const double rates[6], double action[6])
     }
 }
 
-/* The drag in the body frame, and what it comes from. */
-typedef struct wall_drag
+static void add_blocks(const ellipsoid_near_walls *near, const double slip[3],
+                       const double rates[6], const double action[6],
+                       ellipsoid_jacobian_blocks *b)
 {
-    double slip[3];  /* lab */
-    double rates[6]; /* (R^T slip, omega_free - w^) */
-    double action[6];
-} wall_drag;
+    const ellipsoid_model *m = near->model;
+    const ellipsoid_free_motion *free = near->free;
+    ellipsoid_frame *frame = near->frame;
+    double(*axis)[3] = frame->axis, matrix[6][6], change[POSE][6] = {{0}};
 
-static void set_rates(ellipsoid_frame *frame,
-                      const ellipsoid_free_motion *free,
-                      const ellipsoid_state *state, wall_drag *drag)
-{
-    double turn[3];
-
-    ellipsoid_difference(free->u, state->u, drag->slip);
-    ellipsoid_difference(free->omega, state->omega, turn);
-    to_body(frame->axis, drag->slip, turn, drag->rates);
-}
-
-void ellipsoid_wall_rates(ellipsoid_frame *frame,
-                          const ellipsoid_free_motion *free,
-                          const ellipsoid_state *state, double rates[6])
-{
-    wall_drag drag;
-
-    set_rates(frame, free, state, &drag);
-    memcpy(rates, drag.rates, sizeof(drag.rates));
-}
-
-/* change: of the action with the pose; of none if that is NULL */
-static void add_blocks(const ellipsoid_model *m, double matrix[6][6],
-                       double (*change)[6], ellipsoid_frame *frame,
-                       const ellipsoid_free_motion *free,
-                       const wall_drag *drag, ellipsoid_jacobian_blocks *b)
-{
-    double(*axis)[3] = frame->axis;
-
+    ellipsoid_wall_matrix(m, near->planes, matrix);
+    for (int p = 0; p < near->planes->count; p++)
+    {
+        add_pose_changes(near, &near->planes->at[p], rates, change);
+    }
     for (int l = 0; l < 3; l++)
     {
         const double minus[3] = {-axis[0][l], -axis[1][l], -axis[2][l]};
@@ -202,16 +225,13 @@ static void add_blocks(const ellipsoid_model *m, double matrix[6][6],
         to_body(axis, u_x, omega_x, moved);
         apply(matrix, moved, column);
         add_column(axis, column, &b->ux[0][l], &b->wx[0][l], 3);
-        if (change)
-        {
-            add_column(axis, change[l], &b->ux[0][l], &b->wx[0][l], 3);
-        }
+        add_column(axis, change[l], &b->ux[0][l], &b->wx[0][l], 3);
     }
     for (int n = 0; n < 4; n++)
     {
         double moved[6], column[6], turned[3];
 
-        ellipsoid_product(frame->by_q[n], drag->slip, moved);
+        ellipsoid_product(frame->by_q[n], slip, moved);
         for (int i = 0; i < 3; i++)
         {
             moved[i] += m->flow_points > 0
@@ -223,12 +243,9 @@ static void add_blocks(const ellipsoid_model *m, double matrix[6][6],
         }
         apply(matrix, moved, column);
         add_column(axis, column, &b->uq[0][n], &b->wq[0][n], 4);
-        if (change)
-        {
-            add_column(axis, change[n + 3], &b->uq[0][n], &b->wq[0][n], 4);
-        }
-        ellipsoid_combination(frame->by_q[n], drag->action[0], drag->action[1],
-                              drag->action[2], turned);
+        add_column(axis, change[n + 3], &b->uq[0][n], &b->wq[0][n], 4);
+        ellipsoid_combination(frame->by_q[n], action[0], action[1], action[2],
+                              turned);
         for (int i = 0; i < 3; i++)
         {
             b->uq[i][n] += turned[i];
@@ -236,134 +253,73 @@ static void add_blocks(const ellipsoid_model *m, double matrix[6][6],
     }
 }
 
-ellipsoid_status ellipsoid_add_wall_drag(const ellipsoid_model *model,
-                                         const ellipsoid_planes *planes,
-                                         ellipsoid_frame *frame,
-                                         const ellipsoid_free_motion *free,
-                                         const ellipsoid_state *state,
-                                         ellipsoid_body_wrench *wrench,
-                                         ellipsoid_jacobian_blocks *blocks)
-{
-    wall_drag drag;
-
-    set_rates(frame, free, state, &drag);
-    if (!ellipsoid_wall_action(model, planes, drag.rates, drag.action))
-    {
-        return ELLIPSOID_NON_FINITE;
-    }
-    add_lab(frame->axis, drag.action, wrench->force);
-    ellipsoid_add(wrench->torque, drag.action + 3);
-    if (blocks)
-    {
-        double matrix[6][6], change[ELLIPSOID_POSE_SIZE][6];
-
-        set_matrix(model, planes, matrix);
-        pose_changes(model, planes, drag.rates, change);
-        add_blocks(model, matrix, change, frame, free, &drag, blocks);
-    }
-    return ELLIPSOID_OK;
-}
-
-/*
-    While a body is moved by forces that are weak against the drag, it goes with
-    the fluid, whatever the resistance. If all that walls add to it went away,
-    the displacement relative to the fluid in a step of h would change by the
-    walls' part of it: that is to be below half the tolerance, and what they add
-    changes by a part of itself alone, as no gap becomes less by a quarter. The
-    relative velocity is taken for twice that at the start, and what constant
-    forces do besides, as it may pass through zero there.
-*/
-ellipsoid_status ellipsoid_keep_resistance(const ellipsoid_model *model,
-                                           const ellipsoid_planes *planes,
-                                           ellipsoid_frame *frame,
-                                           const ellipsoid_free_motion *free,
-                                           const ellipsoid_state *state,
-                                           double gap,
-                                           ellipsoid_kept_resistance *kept)
-{
-    static const double small = 0.5;       /* part of the tolerance */
-    static const double least = 0.1;       /* walls' part; they may come */
-    static const double nearer = 0.25;     /* part of the gap */
-    const double *k = model->resistance, *c = model->rotation_resistance;
-    const double *a = model->options.semi_axes, mu = model->viscosity;
-    const double longest = fmax(a[0], fmax(a[1], a[2]));
-    const double speed = ellipsoid_length(state->u)
-                       + longest * ellipsoid_length(state->omega);
-    double part = least, spin_part = least, slip, spin;
-    wall_drag drag;
-
-    kept->longest = 0;
-    gap = fmin(gap, model->options.wall_range); /* planes may come there */
-    kept->acts = planes->count > 0;
-    if (!set_matrix(model, planes, kept->matrix))
-    {
-        return ELLIPSOID_NON_FINITE;
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        part = fmax(part, kept->matrix[i][i] / (mu * k[i]) - 1);
-        spin_part =
-            fmax(spin_part, kept->matrix[i + 3][i + 3] / (mu * c[i]) - 1);
-    }
-    for (int p = 0; p < planes->count; p++)
-    {
-        const double *m = planes->at[p].normal;
-        const double along[3] = {a[0] * m[0], a[1] * m[1], a[2] * m[2]};
-
-        gap = fmin(gap,
-                   planes->at[p].height.value - ellipsoid_length(along));
-    }
-    set_rates(frame, free, state, &drag);
-    slip = 2 * ellipsoid_length(drag.rates)
-         + ellipsoid_length(model->constant_force)
-               / (mu * fmin(k[0], fmin(k[1], k[2])));
-    spin = 2 * ellipsoid_length(drag.rates + 3)
-         + ellipsoid_length(model->options.external_torque)
-               / (mu * fmin(c[0], fmin(c[1], c[2])));
-    kept->longest = fmin(small * model->options.tolerance
-                             / fmax(part * slip / longest, spin_part * spin),
-                         nearer * fmax(gap, 0) / speed);
-    return ELLIPSOID_OK;
-}
-
-void ellipsoid_add_kept_drag(const ellipsoid_model *model,
-                             const ellipsoid_kept_resistance *kept,
-                             ellipsoid_frame *frame,
-                             const ellipsoid_free_motion *free,
+void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
                              const ellipsoid_state *state,
                              ellipsoid_body_wrench *wrench,
                              ellipsoid_jacobian_blocks *blocks)
 {
-    double matrix[6][6];
-    wall_drag drag;
+    const ellipsoid_model *m = near->model;
+    double slip[3], turn[3], rates[6], action[6];
 
-    memcpy(matrix, kept->matrix, sizeof(matrix));
-    set_rates(frame, free, state, &drag);
-    apply(matrix, drag.rates, drag.action);
-    add_lab(frame->axis, drag.action, wrench->force);
-    ellipsoid_add(wrench->torque, drag.action + 3);
+    ellipsoid_difference(near->free->u, state->u, slip);
+    ellipsoid_difference(near->free->omega, state->omega, turn);
+    to_body(near->frame->axis, slip, turn, rates);
+    for (int i = 0; i < 3; i++)
+    {
+        action[i] = m->viscosity * m->resistance[i] * rates[i];
+        action[i + 3] =
+            m->viscosity * m->rotation_resistance[i] * rates[i + 3];
+    }
+    add_planes(near, rates, action);
+    add_lab(near->frame->axis, action, wrench->force);
+    ellipsoid_add(wrench->torque, action + 3);
     if (blocks)
     {
-        add_blocks(model, matrix, NULL, frame, free, &drag, blocks);
+        add_blocks(near, slip, rates, action, blocks);
     }
 }
 
-ellipsoid_status
-ellipsoid_add_wall_mobility(const ellipsoid_model *model,
-                            const ellipsoid_planes *planes,
-                            ellipsoid_frame *frame,
-                            const ellipsoid_body_wrench *wrench,
-                            ellipsoid_state *state)
+/* Adds to u and omega what a push does, body frame. */
+static ellipsoid_status add_mobility(const ellipsoid_model *model,
+                                     const ellipsoid_planes *planes,
+                                     double axis[3][3], const double push[6],
+                                     ellipsoid_state *state)
 {
-    double matrix[6][6], push[6], rates[6];
+    double matrix[6][6], rates[6];
 
-    if (!set_matrix(model, planes, matrix) || !ellipsoid_invert6(matrix))
+    ellipsoid_wall_matrix(model, planes, matrix);
+    if (!ellipsoid_invert6(matrix))
     {
         return ELLIPSOID_NON_FINITE;
     }
-    to_body(frame->axis, wrench->force, wrench->torque, push);
     apply(matrix, push, rates);
-    add_lab(frame->axis, rates, state->u);
+    add_lab(axis, rates, state->u);
     ellipsoid_add(state->omega, rates + 3);
     return ELLIPSOID_OK;
+}
+
+ellipsoid_status ellipsoid_add_wall_mobility(const ellipsoid_model *model,
+                                             const ellipsoid_planes *planes,
+                                             ellipsoid_frame *frame,
+                                             const ellipsoid_body_wrench *wrench,
+                                             ellipsoid_state *state)
+{
+    double push[6];
+
+    to_body(frame->axis, wrench->force, wrench->torque, push);
+    return add_mobility(model, planes, frame->axis, push, state);
+}
+
+ellipsoid_status ellipsoid_balance_wall_drag(const ellipsoid_near_walls *near,
+                                             const ellipsoid_body_wrench *wrench,
+                                             ellipsoid_state *state)
+{
+    double push[6];
+
+    to_body(near->frame->axis, wrench->force, wrench->torque, push);
+    add_planes(near, none, push);
+    ellipsoid_copy(near->free->u, state->u);
+    ellipsoid_copy(near->free->omega, state->omega);
+    return add_mobility(near->model, near->planes, near->frame->axis, push,
+                        state);
 }

@@ -3,292 +3,133 @@
     Copyright (C) 2026 the ellipsoidTrapFoam authors
     SPDX-License-Identifier: GPL-3.0-or-later
 
-    wallPlanes.c - which planes stand for the walls near a cell.
-
-    Each point where the grown body would meet a facet (wallFeatures.c) gives
-    one (featurePlane.c). Over a flat seam the facet across has the same plane.
-    How planes of nearly one normal share is told in planeWeights.c.
+    wallPlanes.c - the walls near a body as planes. Facets of one plane are one
+    wall; how much of it is there is told in wallParts.c.
 */
-#include "drag/wallResistance.h"
+#include "drag/wallParts.h"
+
+/* How far from a body facets are looked for, in ranges; how far the centre may
+   move before they are listed again, the less where there are too many. */
+static const double looked = 1.25;
+static const double margin_parts[] = {0.4, 0.1};
+
+/* What makes two planes one: an angle [rad], a part of the range. */
+static const double in_plane = 1e-6;
 
 enum
 {
-    POSE = ELLIPSOID_POSE_SIZE
+    FAR = ELLIPSOID_PLANE_FAR,
+    NEAR = ELLIPSOID_PLANE_NEAR
 };
 
-/* What makes two planes one, and the angle [rad] to a plane that is the mesh's
-   rounding, as in facets.c. */
-static const double same = 1e-8, in_plane = 1e-6;
+typedef ellipsoid_wall wall;
+typedef ellipsoid_wall_view view;
 
-static int is_same(const ellipsoid_wall_search *s, const ellipsoid_plane *a,
-                   const ellipsoid_plane *b)
+/* Lists facets anew if the centre has moved too far. Where walls are refused
+   far off, or too many, those nearer may do. */
+static ellipsoid_status
+collect(const ellipsoid_surroundings *surroundings, const double x[3],
+        double range, double reach, ellipsoid_facet_cache *cache)
 {
+    const int tries = sizeof(margin_parts) / sizeof(*margin_parts);
+    ellipsoid_status status = ELLIPSOID_OK;
     double d[3];
 
-    ellipsoid_difference(a->normal, b->normal, d);
-    return ellipsoid_dot(d, d) < same * same
-        && fabs(a->height.value - b->height.value) < same * s->range;
-}
-
-/* Is it the same face, edge or vertex? Facets of one plane are one face. */
-static int is_one_feature(const ellipsoid_wall_search *s,
-                          const ellipsoid_plane *a, const ellipsoid_plane *b)
-{
-    const size_t size = sizeof(double[3]);
-
-    if (a->feature != b->feature)
+    ellipsoid_difference(x, cache->near_x, d);
+    if (cache->near_count >= 0
+        && ellipsoid_dot(d, d) <= cache->near_margin * cache->near_margin)
     {
-        return 0;
+        return ELLIPSOID_OK;
     }
-    switch (a->feature)
+    for (int k = 0; k < tries; k++)
     {
-        case ELLIPSOID_ON_FACE:
-            return is_same(s, a, b);
-        case ELLIPSOID_ON_EDGE:
-            return (memcmp(a->vertex[0], b->vertex[0], size) == 0
-                    && memcmp(a->vertex[1], b->vertex[1], size) == 0)
-                || (memcmp(a->vertex[0], b->vertex[1], size) == 0
-                    && memcmp(a->vertex[1], b->vertex[0], size) == 0);
-        default:
-            return memcmp(a->vertex[0], b->vertex[0], size) == 0;
-    }
-}
+        const double margin = margin_parts[k] * range;
+        ellipsoid_facet_list list;
 
-/* Which of all has the feature of the plane behind them; -1: none. Whether
-   planes of others are nearly the same must not matter: they fade in
-   gradually. */
-static int seen(const ellipsoid_wall_search *s, const ellipsoid_planes *all)
-{
-    for (int i = 0; i < all->count; i++)
-    {
-        if (is_one_feature(s, &all->at[i], &all->at[all->count]))
-        {
-            return i;
-        }
-    }
-    return -1;
-}
-
-/* Takes the plane behind all; where there are too many the farthest goes. */
-static void keep(ellipsoid_planes *all)
-{
-    const ellipsoid_plane *plane = &all->at[all->count];
-    int farthest = 0;
-
-    if (all->count < ELLIPSOID_MAX_PLANES)
-    {
-        all->count++;
-        return;
-    }
-    for (int i = 1; i < all->count; i++)
-    {
-        if (all->at[i].height.value > all->at[farthest].height.value)
-        {
-            farthest = i;
-        }
-    }
-    if (plane->height.value < all->at[farthest].height.value)
-    {
-        all->at[farthest] = *plane;
-    }
-}
-
-/* Does edge k of a facet end on the line of edge j of another? */
-static int ends_on_line(const ellipsoid_facet *facet, int k,
-                        const ellipsoid_facet *other, int j, double nothing)
-{
-    double along[3];
-
-    for (int end = 0; end < 2; end++)
-    {
-        const double *vertex = facet->vertex[(k + end) % 3];
-
-        if (fabs(ellipsoid_beyond(other, vertex, j, along))
-            <= nothing * ellipsoid_length(along))
-        {
-            return 1;
-        }
-    }
-    return 0;
-}
-
-/* Is there a convex edge of this facet, in the plane, too, that ends at the
-   seam over which the face goes on, between that and the plane's point? */
-static int is_parted_by(const ellipsoid_wall_search *s,
-                        const ellipsoid_wall_feature *p,
-                        const ellipsoid_facet *facet)
-{
-    const ellipsoid_facet *face = p->facet;
-    const double nothing = in_plane * s->range;
-    double turn[3], away[3], along[3], middle[3];
-
-    ellipsoid_difference(face->normal, facet->normal, turn);
-    if (fabs(turn[0]) > in_plane || fabs(turn[1]) > in_plane
-        || fabs(turn[2]) > in_plane
-        || !ellipsoid_facet_has_convex_edge(facet))
-    {
-        return 0;
-    }
-    ellipsoid_difference(face->middle, facet->middle, away);
-    if (fabs(ellipsoid_dot(facet->normal, away)) > nothing
-        || ellipsoid_squared_rim_distance(facet, s->x) >= s->range * s->range)
-    {
-        return 0;
-    }
-    for (int j = 0; j < 3; j++)
-    {
-        if (!p->over[j])
+        cache->near_count = -1;
+        status = ellipsoid_list_facets(surroundings, x, reach + margin, &list);
+        if (status == ELLIPSOID_STEP_UNDERFLOW)
         {
             continue;
         }
-        for (int i = 0; i < 3; i++)
+        if (status != ELLIPSOID_OK)
         {
-            middle[i] =
-                0.5 * (face->vertex[j][i] + face->vertex[(j + 1) % 3][i]);
+            return status;
         }
-        for (int k = 0; k < 3; k++)
+        cache->near_facets = list.facets;
+        ellipsoid_copy(x, cache->near_x);
+        cache->near_count = 0;
+        for (int i = 0; i < list.count; i++)
         {
-            if (facet->edge[k] == ELLIPSOID_EDGE_CONVEX
-                && ellipsoid_beyond(facet, p->place, k, along) > 0
-                && ellipsoid_beyond(facet, middle, k, along) < 0
-                && ends_on_line(facet, k, face, j, nothing))
+            const ellipsoid_facet *facet = &list.facets[list.index[i]];
+            double height;
+
+            ellipsoid_difference(x, facet->middle, d);
+            height = ellipsoid_dot(d, facet->normal);
+            if (facet->mirror || !(height > -margin && height < range + margin))
             {
-                return 1;
+                continue;
             }
-        }
-    }
-    return 0;
-}
-
-/* A face goes on beside its facet no farther than its wall would: where a
-   convex edge ends at the seam, that edge goes on, or the face across it. */
-static int is_past_wall(const ellipsoid_wall_search *s,
-                        const ellipsoid_wall_feature *p, const short which[],
-                        int count, const ellipsoid_facet_cache *cache)
-{
-    if (p->feature != ELLIPSOID_ON_FACE)
-    {
-        return 0;
-    }
-    for (int k = 0; k < count; k++)
-    {
-        if (is_parted_by(s, p,
-                         &cache->near_facets[cache->near_facet[which[k]]]))
-        {
-            return 1;
-        }
-    }
-    return 0;
-}
-
-/* Of features seen twice the one that fades less is kept. Returns 0 if there is
-   nothing of this one, whatever the others are. */
-static int add_plane(const ellipsoid_wall_search *s,
-                     const ellipsoid_wall_feature *p, const short which[],
-                     int count, const ellipsoid_facet_cache *cache,
-                     ellipsoid_planes *all)
-{
-    ellipsoid_plane *plane = &all->at[all->count];
-    int before;
-
-    if (!ellipsoid_begin_plane(s, p, plane))
-    {
-        return 0; /* too far */
-    }
-    before = seen(s, all);
-    if (before >= 0 && all->at[before].extent.value == 1)
-    {
-        return 1;
-    }
-    ellipsoid_complete_plane(s, p, plane);
-    if (!(plane->window.value * plane->extent.value > 0)
-        || (plane->extent.value < 1 && is_past_wall(s, p, which, count, cache)))
-    {
-        return 0;
-    }
-    if (before < 0)
-    {
-        keep(all);
-    }
-    else if (plane->extent.value > all->at[before].extent.value)
-    {
-        all->at[before] = *plane;
-    }
-    return 1;
-}
-
-/* What planes that are the same add to the resistance is evaluated once. */
-static void join_same(const ellipsoid_wall_search *s, ellipsoid_planes *all)
-{
-    int count = 0;
-
-    for (int i = 0; i < all->count; i++)
-    {
-        int k = 0;
-
-        while (k < count && !is_same(s, &all->at[k], &all->at[i]))
-        {
-            k++;
-        }
-        if (k == count)
-        {
-            if (count < i)
+            if (cache->near_count == ELLIPSOID_MAX_NEAR)
             {
-                all->at[count] = all->at[i];
+                status = ELLIPSOID_TOO_MANY_FACETS;
+                break;
             }
-            count++;
-            continue;
+            cache->near_facet[cache->near_count++] = list.index[i];
         }
-        all->at[k].weight.value += all->at[i].weight.value;
-        for (int n = 0; s->turned && n < POSE; n++)
+        if (status == ELLIPSOID_OK)
         {
-            all->at[k].weight.slope[n] += all->at[i].weight.slope[n];
+            cache->near_margin = list.count == 0 && list.reach > reach + margin
+                                   ? list.reach - reach
+                                   : margin;
+            return ELLIPSOID_OK;
         }
     }
-    all->count = count;
+    cache->near_count = -1;
+    return status;
 }
 
-/* Adds the planes of facets that may be met, and keeps which are. */
-static void look_at(const ellipsoid_wall_search *s, const short which[],
-                    int count, ellipsoid_facet_cache *cache,
-                    ellipsoid_planes *planes)
+/* The wall of this facet among those found, or a new one; NULL: it is too far.
+   Where there are too many, the farthest goes. */
+static wall *find_wall(view *s, const ellipsoid_facet *facet,
+                       double height, wall *walls, int *count)
 {
-    ellipsoid_wall_view view = {.along = {0}};
-    int met = 0;
+    const double same = in_plane * s->model->options.wall_range;
+    int at = *count;
 
-    for (int k = 0; k < count; k++)
+    for (int k = 0; k < *count; k++)
     {
-        const short near = which[k]; /* may be one of those kept */
-        ellipsoid_wall_feature found;
+        double d[3];
 
-        if (ellipsoid_find_feature(
-                s, &cache->near_facets[cache->near_facet[near]], &view, &found)
-            && add_plane(s, &found, which, count, cache, planes))
+        ellipsoid_difference(facet->normal, walls[k].facet->normal, d);
+        if (ellipsoid_dot(d, d) < in_plane * in_plane
+            && fabs(height - walls[k].height) < same)
         {
-            if (met < ELLIPSOID_MAX_MET)
-            {
-                cache->met[met] = near;
-            }
-            met++;
+            return &walls[k];
         }
     }
-    cache->met_count = met <= ELLIPSOID_MAX_MET ? met : -1;
-    ellipsoid_copy(s->x, cache->met_x);
-    memcpy(cache->met_axis, s->axis, sizeof(cache->met_axis));
-}
-
-/* A pose is often looked at twice, for resistance and for slopes. */
-static int is_looked_at(const ellipsoid_wall_search *s,
-                        const ellipsoid_facet_cache *cache)
-{
-    return cache->met_count >= 0
-        && memcmp(s->x, cache->met_x, sizeof(cache->met_x)) == 0
-        && memcmp(s->axis, cache->met_axis, sizeof(cache->met_axis)) == 0;
+    if (*count < ELLIPSOID_MAX_PLANES)
+    {
+        (*count)++;
+    }
+    else
+    {
+        at = 0;
+        for (int k = 1; k < *count; k++)
+        {
+            at = walls[k].height > walls[at].height ? k : at;
+        }
+        if (walls[at].height <= height)
+        {
+            return NULL;
+        }
+    }
+    ellipsoid_wall_begin(s, facet, height, &walls[at]);
+    return &walls[at];
 }
 
 /* Axes of length one, and their derivatives, from those of any q. */
-static void normalise_axes(const double q[4], ellipsoid_frame *frame,
-                           double unit[3][3], double turned[4][3][3])
+static void set_axes(const double q[4], const ellipsoid_frame *frame, view *s)
 {
     const double per = 1 / ellipsoid_square4(q);
 
@@ -296,55 +137,89 @@ static void normalise_axes(const double q[4], ellipsoid_frame *frame,
     {
         for (int l = 0; l < 3; l++)
         {
-            unit[i][l] = per * frame->axis[i][l];
+            s->axis[i][l] = per * frame->axis[i][l];
             for (int n = 0; frame->by_q && n < 4; n++)
             {
-                turned[n][i][l] =
-                    per * (frame->by_q[n][i][l] - 2 * q[n] * unit[i][l]);
+                s->turned[n][i][l] =
+                    per * (frame->by_q[n][i][l] - 2 * q[n] * s->axis[i][l]);
             }
         }
     }
 }
 
+/* Has it nothing of which anything is seen? */
+static int is_unseen(const wall *w)
+{
+    return w->sum[FAR].inside + w->sum[FAR].edges + w->sum[NEAR].inside
+            + w->sum[NEAR].edges
+        == 0;
+}
+
+static int has_seam(const ellipsoid_facet *facet)
+{
+    return facet->edge[0] != ELLIPSOID_EDGE_FLAT
+        || facet->edge[1] != ELLIPSOID_EDGE_FLAT
+        || facet->edge[2] != ELLIPSOID_EDGE_FLAT;
+}
+
 ellipsoid_status
 ellipsoid_find_planes(const ellipsoid_model *model,
                       const ellipsoid_surroundings *surroundings,
-                      const ellipsoid_state *state, ellipsoid_frame *frame,
+                      const ellipsoid_state *state,
+                      const ellipsoid_frame *frame,
                       ellipsoid_facet_cache *cache, ellipsoid_planes *planes)
 {
-    const double *a = model->options.semi_axes;
+    const double *a = model->options.semi_axes, *x = state->x;
     const double range = model->options.wall_range;
     const double longest = fmax(a[0], fmax(a[1], a[2]));
-    const double shortest = fmin(a[0], fmin(a[1], a[2]));
-    const ellipsoid_status status =
-        ellipsoid_collect_near(surroundings, state->x, range,
-                               longest / shortest, cache);
-    double unit[3][3], turned[4][3][3];
+    const ellipsoid_status status = collect(
+        surroundings, x, range, looked * range + longest, cache);
+    wall walls[ELLIPSOID_MAX_PLANES];
+    view s = {.model = model, .x = x};
+    int count = 0;
 
     planes->count = 0;
     if (status != ELLIPSOID_OK || cache->near_count == 0)
     {
         return status;
     }
-    normalise_axes(state->q, frame, unit, turned);
-
-    const ellipsoid_wall_search s = {
-        state->x, {a[0] * a[0], a[1] * a[1], a[2] * a[2]},
-        unit,     frame->by_q ? turned : NULL,
-        range,    longest, shortest};
-
-    if (is_looked_at(&s, cache))
+    set_axes(state->q, frame, &s);
+    for (int k = 0; k < cache->near_count; k++)
     {
-        look_at(&s, cache->met, cache->met_count, cache, planes);
-    }
-    else
-    {
-        const int level = ellipsoid_look_closer(&s, cache);
+        const ellipsoid_facet *facet =
+            &cache->near_facets[cache->near_facet[k]];
+        double d[3], height, off, width;
+        int before;
+        wall *w;
 
-        look_at(&s, cache->live[level], cache->live_count[level], cache,
-                planes);
+        ellipsoid_difference(x, facet->middle, d);
+        height = ellipsoid_dot(d, facet->normal);
+        if (!(height > 0 && height < range))
+        {
+            continue;
+        }
+        /* beyond what both kernels see; without seams it is to hold a foot */
+        off = ellipsoid_dot(d, d) - height * height;
+        width = (has_seam(facet) ? ELLIPSOID_WALL_BESIDE * range : 0) + longest
+              + facet->radius;
+        if (off > width * width * (1 + 1e-9))
+        {
+            continue;
+        }
+        before = count;
+        w = find_wall(&s, facet, height, walls, &count);
+        if (w)
+        {
+            ellipsoid_wall_add(&s, facet, w);
+        }
+        /* which facets are listed must not tell whose plane it is */
+        count = count > before && is_unseen(w) ? before : count;
     }
-    ellipsoid_weigh_planes(model, planes, s.turned != NULL);
-    join_same(&s, planes);
+    for (int k = 0; k < count; k++)
+    {
+        planes->count += ellipsoid_wall_plane(&s, &walls[k],
+                                              frame->by_q != NULL,
+                                              &planes->at[planes->count]);
+    }
     return ELLIPSOID_OK;
 }

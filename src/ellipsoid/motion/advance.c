@@ -77,57 +77,13 @@ static int is_one_held_back(ellipsoid_group *g, double h)
     return 0;
 }
 
-static int blocks_kind(const ellipsoid_group *g)
-{
-    return g->kept_last ? ELLIPSOID_KEEPING : ELLIPSOID_BLOCKS;
-}
-
-/* Keeps the resistance near walls over a step for which it may be kept, or sees
-   to it that its derivatives are in the blocks. Whether they were before does
-   not matter. */
-static ellipsoid_status keep_or_not(ellipsoid_group *g,
-                                    const ellipsoid_plan *planned)
-{
-    const ellipsoid_kept_resistance *kept = &g->start[0].resistance;
-    ellipsoid_status status = ELLIPSOID_OK;
-
-    g->kept_last = planned->h <= kept->longest;
-    if (g->kept_last != kept->in_blocks)
-    {
-        status = ellipsoid_group_evaluate(g, planned->start, g->start, 0,
-                                          blocks_kind(g));
-    }
-    g->cell[0].kept = g->kept_last ? kept : NULL;
-    return status;
-}
-
-/* Of a free cell planes may be linear over a step that is longer by this than
-   one over which the resistance may be kept: whatever walls do in it is then a
-   matter of one tolerance. */
-static const double longer = 2;
-
-/* A step from blocks that are there, to where the next states are; over it
-   planes are linear in the pose, if they may be. */
+/* A step from blocks that are there, to where the next states are. */
 static ellipsoid_status solve_step(ellipsoid_group *g,
-                                   const ellipsoid_plan *planned, int *linear,
-                                   double *error)
+                                   const ellipsoid_plan *planned, double *error)
 {
-    const ellipsoid_linear_planes *planes = &g->start[0].planes;
-    ellipsoid_status status;
+    ellipsoid_status status = ellipsoid_rosenbrock_step(g, planned);
 
     *error = 0;
-    status = g->keeps ? keep_or_not(g, planned) : ELLIPSOID_OK;
-    *linear =
-        *linear && !g->kept_last && planes->count >= 0
-        && (ellipsoid_in_contact(&g->start[0].contact)
-            || planned->h <= longer * g->start[0].resistance.longest);
-    g->cell[0].planes = *linear ? planes : NULL;
-    if (status == ELLIPSOID_OK)
-    {
-        status = ellipsoid_rosenbrock_step(g, planned);
-    }
-    g->cell[0].kept = NULL;
-    g->cell[0].planes = NULL;
     if (status == ELLIPSOID_OK)
     {
         status = ellipsoid_judge_step(g, planned->h, error);
@@ -151,33 +107,11 @@ static ellipsoid_status evaluate_end(ellipsoid_group *g,
     const int with_blocks = !planned->last;
     const ellipsoid_status status =
         ellipsoid_group_evaluate(g, planned->end, g->next, !g->inertial,
-                                 with_blocks ? blocks_kind(g) : 0);
+                                 with_blocks);
 
     g->next_has_blocks = with_blocks;
     /* there is room for the couplings of one time only */
     g->has_blocks = g->has_blocks && !(g->pairs && with_blocks);
-    return status;
-}
-
-/* To the end of a step, which is to be taken again if planes were linear that
-   may not be. */
-static ellipsoid_status take_to_end(ellipsoid_group *g,
-                                    const ellipsoid_plan *planned, int *linear,
-                                    double *error, int *again)
-{
-    ellipsoid_status status = solve_step(g, planned, linear, error);
-
-    *again = 0;
-    if (status != ELLIPSOID_OK || *error > 1)
-    {
-        return status;
-    }
-    status = evaluate_end(g, planned);
-    if (status == ELLIPSOID_OK && *linear)
-    {
-        *linear = ellipsoid_planes_are_linear(g, planned->h);
-        *again = !*linear;
-    }
     return status;
 }
 
@@ -188,21 +122,21 @@ static ellipsoid_status take_to_end(ellipsoid_group *g,
 static ellipsoid_status
 try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
 {
-    int linear = g->keeps, again = 1;
     ellipsoid_status status = ELLIPSOID_OK;
 
-    while (status == ELLIPSOID_OK && again)
+    if (!g->has_blocks)
     {
-        if (!g->has_blocks)
-        {
-            status = ellipsoid_group_evaluate(g, planned->start, g->start,
-                                              !g->inertial, blocks_kind(g));
-            g->has_blocks = status == ELLIPSOID_OK;
-        }
-        if (status == ELLIPSOID_OK)
-        {
-            status = take_to_end(g, planned, &linear, error, &again);
-        }
+        status = ellipsoid_group_evaluate(g, planned->start, g->start,
+                                          !g->inertial, 1);
+        g->has_blocks = status == ELLIPSOID_OK;
+    }
+    if (status == ELLIPSOID_OK)
+    {
+        status = solve_step(g, planned, error);
+    }
+    if (status == ELLIPSOID_OK && *error <= 1)
+    {
+        status = evaluate_end(g, planned);
     }
     if (status != ELLIPSOID_OK || *error > 1)
     {
@@ -441,7 +375,7 @@ static ellipsoid_status begin(ellipsoid_group *g,
     {
         g->has_blocks = g->inertial;
         status = ellipsoid_group_evaluate(g, t, g->start, !g->inertial,
-                                          g->has_blocks ? blocks_kind(g) : 0);
+                                          g->has_blocks);
     }
     /* no step is short enough for a callback that has no answer here */
     return status == ELLIPSOID_STEP_UNDERFLOW ? ELLIPSOID_OUTSIDE : status;

@@ -215,27 +215,42 @@ static void add_drag_blocks(evaluation *e, double d[4][3][3],
 }
 
 /*
-    Drag where walls are near; where none is, *acted is 0 and nothing done. The
-    copies are for those who want an address: so the compiler need not give the
-    originals one.
+    Drag where walls are near, or the u and omega that balance it; where none is,
+    *acted is 0 and nothing done. The copies are for those who want an address:
+    so the compiler need not give the originals one.
 */
 static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
                                       ellipsoid_evaluation *at, int balanced,
-                                      double d[4][3][3], int with_blocks,
+                                      double d[4][3][3],
+                                      ellipsoid_jacobian_blocks *blocks,
                                       int *acted)
 {
     const ellipsoid_free_motion free = e->free;
-    ellipsoid_frame frame = {.by_q = with_blocks ? d : NULL};
-    ellipsoid_near_drag asked = {balanced, with_blocks, 0};
+    ellipsoid_frame frame = {.by_q = blocks ? d : NULL};
+    ellipsoid_planes planes;
+    const ellipsoid_near_walls near = {e->model, &planes, &frame, &free,
+                                       e->flow};
     ellipsoid_body_wrench wrench;
     ellipsoid_status status;
 
     memcpy(frame.axis, e->axis, sizeof(frame.axis));
+    status = ellipsoid_find_planes(e->model, &cell->surroundings, e->state,
+                                   &frame, cell->cache, &planes);
+    *acted = status == ELLIPSOID_OK && planes.count > 0;
+    if (!*acted)
+    {
+        return status;
+    }
     ellipsoid_copy(e->force, wrench.force);
     ellipsoid_copy(e->torque, wrench.torque);
-    status =
-        ellipsoid_add_near_drag(cell, at, &frame, &free, &wrench, &asked);
-    *acted = asked.acted;
+    if (balanced)
+    {
+        status = ellipsoid_balance_wall_drag(&near, &wrench, &at->state);
+    }
+    if (status == ELLIPSOID_OK && (blocks || !balanced))
+    {
+        ellipsoid_add_wall_drag(&near, &at->state, &wrench, blocks);
+    }
     ellipsoid_copy(wrench.force, e->force);
     ellipsoid_copy(wrench.torque, e->torque);
     return status;
@@ -541,7 +556,7 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
     if (status == ELLIPSOID_OK
         && ellipsoid_has_near_walls(model, surroundings))
     {
-        status = add_wall_drag(&e, cell, at, balanced, d, with_blocks,
+        status = add_wall_drag(&e, cell, at, balanced, d, blocks,
                                &resisted_by_walls);
     }
     if (status != ELLIPSOID_OK)
@@ -570,9 +585,7 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
                                     ellipsoid_evaluation *at, int balanced,
                                     int with_blocks)
 {
-    return with_blocks == ELLIPSOID_KEEPING
-             ? evaluate(cell, at, balanced, ELLIPSOID_KEEPING)
-         : with_blocks ? evaluate(cell, at, balanced, 1)
+    return with_blocks ? evaluate(cell, at, balanced, 1)
          : balanced    ? evaluate(cell, at, 1, 0)
                        : evaluate(cell, at, 0, 0);
 }

@@ -78,6 +78,58 @@ static int is_complete(const ellipsoid_member *m)
                  || ellipsoid_has_near_walls(m->model, m->surroundings)));
 }
 
+/* The noise of all cells from t on, and until when. Near walls the interval ends
+   with the run, too, as it cannot be continued: the resistance was that of its
+   start. What is left until then is divided evenly, so that no interval is much
+   shorter than it has to be: the force grows as it gets shorter. */
+static ellipsoid_status set_noise(ellipsoid_group *g,
+                                  const ellipsoid_member members[], double t,
+                                  double end, double *until)
+{
+    ellipsoid_status status = ELLIPSOID_OK;
+    double whole = end;
+    int near = 0;
+
+    *until = end;
+    for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
+    {
+        const ellipsoid_cell *p = &g->cell[cell];
+        ellipsoid_noise *noise = &g->noise[cell];
+
+        status = ellipsoid_noise_at(p->model, &p->surroundings, t, noise);
+        if (noise->end < whole - noise->tolerance)
+        {
+            whole = noise->end;
+        }
+        if (status == ELLIPSOID_OK
+            && ellipsoid_has_near_walls(p->model, &p->surroundings))
+        {
+            status = ellipsoid_wall_noise_begin(p->model, &p->surroundings,
+                                                members[cell].state, p->cache,
+                                                t, noise);
+        }
+        if (noise->end < *until - noise->tolerance)
+        {
+            *until = noise->end;
+        }
+        near = near || noise->near;
+    }
+    if (status == ELLIPSOID_OK && near && *until < whole)
+    {
+        *until = t + (whole - t) / ceil((whole - t) / (*until - t));
+    }
+    for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
+    {
+        if (g->noise[cell].near)
+        {
+            ellipsoid_wall_noise_set(g->cell[cell].model,
+                                     &g->cell[cell].surroundings, *until,
+                                     &g->noise[cell]);
+        }
+    }
+    return status;
+}
+
 /* From noise interval to noise interval, to the end. */
 static ellipsoid_status advance(ellipsoid_group *g,
                                 const ellipsoid_member members[], double *t,
@@ -114,27 +166,14 @@ static ellipsoid_status advance(ellipsoid_group *g,
     }
     g->inertial = g->cell[0].inertial;
     g->third_order = !g->inertial && g->piecewise;
-    g->keeps = g->inertial && g->count == 1
-            && ellipsoid_has_near_walls(g->cell[0].model,
-                                        &g->cell[0].surroundings);
-    g->cell[0].keeps = g->kept_last = g->keeps;
     status = check(g);
     while (status == ELLIPSOID_OK && *t < end)
     {
         double until = end;
 
-        for (int cell = 0; g->cell[0].noise && cell < g->count; cell++)
+        if (g->cell[0].noise)
         {
-            if (status == ELLIPSOID_OK)
-            {
-                status = ellipsoid_noise_at(members[cell].model,
-                                            members[cell].surroundings, *t,
-                                            &noise[cell]);
-            }
-            if (noise[cell].end < end - noise[cell].tolerance)
-            {
-                until = noise[cell].end;
-            }
+            status = set_noise(g, members, *t, end, &until);
         }
         if (status == ELLIPSOID_OK)
         {
@@ -155,7 +194,7 @@ ellipsoid_status ellipsoid_advance(const ellipsoid_member *alone, double *t,
     ellipsoid_stages stages;
     ellipsoid_stage_matrix system;
     ellipsoid_step step;
-    ellipsoid_noise noise = {{0}, {0}, 0, 0, 0};
+    ellipsoid_noise noise = {.near = 0};
     ellipsoid_group g = {
         .count = 1,
         .cell = &cell,

@@ -85,11 +85,6 @@ typedef struct ellipsoid_cell
     double rate;                  /* [1/s] 1/tau of u, 0 in vacuum */
     double rotation_rate;         /* [1/s] 1/tau of omega, 0 in vacuum */
     const ellipsoid_noise *noise; /* NULL: none */
-    const ellipsoid_kept_resistance *kept; /* that of a step; NULL: of each
-                                              pose */
-    int keeps; /* may it be kept over a step at all? */
-    const ellipsoid_linear_planes *planes; /* of the walls, linear about a pose;
-                                              NULL: those of each pose */
     int inertial;
     int walls;
 } ellipsoid_cell;
@@ -110,33 +105,7 @@ typedef struct ellipsoid_evaluation
     };
     ellipsoid_jacobian_blocks blocks;
     ellipsoid_contact contact; /* left as it is where there are no walls */
-    ellipsoid_kept_resistance resistance; /* of ELLIPSOID_KEEPING */
-    ellipsoid_linear_planes planes; /* as found there, if it `keeps` */
 } ellipsoid_evaluation;
-
-/* Are derivatives wanted? With KEEPING those of the resistance near walls are
-   left out where that may be kept over a step (equations.c). */
-enum
-{
-    ELLIPSOID_PLAIN,
-    ELLIPSOID_BLOCKS,
-    ELLIPSOID_KEEPING
-};
-
-/* What is asked of the drag near walls, and whether any is near. */
-typedef struct ellipsoid_near_drag
-{
-    int balanced, with_blocks, acted;
-} ellipsoid_near_drag;
-
-/* Adds it to the wrench and, if wanted, to the blocks, or balances the wrench
-   (nearDrag.c). */
-ellipsoid_status ellipsoid_add_near_drag(const ellipsoid_cell *cell,
-                                         ellipsoid_evaluation *at,
-                                         ellipsoid_frame *frame,
-                                         const ellipsoid_free_motion *free,
-                                         ellipsoid_body_wrench *wrench,
-                                         ellipsoid_near_drag *asked);
 
 /*
     The equations of one cell in the state of `at`, without contact with other
@@ -259,8 +228,6 @@ typedef struct ellipsoid_group
     int third_order; /* are Rosenbrock steps those of Rodas3? */
     int stiff;       /* is one a dipole in a field or under a given force? */
     int unsteady; /* do the surroundings of one depend on time? */
-    int keeps;       /* may the resistance near walls be kept over a step? */
-    int kept_last;   /* was it, in the last step? */
     int dissipative; /* do forces other than drag depend on velocities? */
     int observed; /* is the whole of ellipsoid_step asked for? */
     int piecewise; /* does the gradient of a flow jump? */
@@ -460,10 +427,6 @@ ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *group, double t,
 /* Displaces the pose by what velocities do until they have decayed. */
 void ellipsoid_displace(const ellipsoid_model *model, const double u[3],
                         const double omega[3], ellipsoid_state *state);
-
-/* Were planes of walls that were linear over a step of h good enough, by those
-   at its end (nearDrag.c)? */
-int ellipsoid_planes_are_linear(const ellipsoid_group *group, double h);
 
 /* -------------------------------------------------------- step control */
 

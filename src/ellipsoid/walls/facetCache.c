@@ -50,7 +50,7 @@ static void invalidate(ellipsoid_facet_cache *cache)
 void ellipsoid_facet_cache_clear(ellipsoid_facet_cache *cache)
 {
     invalidate(cache);
-    cache->near_count = cache->live_count[0] = cache->met_count = -1;
+    cache->near_count = -1;
     cache->about_count = -1;
     cache->about_nearest = 0;
     cache->half_box[0] = -1; /* not known */

@@ -1,0 +1,66 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    wallParts.h - how much of a plane a wall covers, for wallPlanes.c.
+*/
+#ifndef ELLIPSOID_WALL_PARTS_H
+#define ELLIPSOID_WALL_PARTS_H
+
+#include "drag/drag.h"
+
+/* How far from the foot a wall is looked for at most, and so from a body in
+   range, in ranges. */
+#define ELLIPSOID_WALL_BESIDE 0.75
+
+/* Where a kernel sees a point v of the wall, from the centre in the body frame:
+   r = scale (shrink v + shift). */
+typedef struct ellipsoid_wall_kernel
+{
+    double scale, shrink[3], shift[3], normal[3];
+    double cut, k, n; /* c, k and N above */
+    double cut_slope; /* of ln c by ln scale */
+} ellipsoid_wall_kernel;
+
+/* Sums along the rim: of Phi - 1 over the angle, of the weight times the
+   outward normal, of its product with v (lab), and with r; what the cut is
+   worth. */
+typedef struct ellipsoid_wall_rim
+{
+    int inside, edges; /* edges that are seen */
+    double value, normal[3], moment[3][3], stretch, of_cut;
+} ellipsoid_wall_rim;
+
+/* One wall of a pose. */
+typedef struct ellipsoid_wall
+{
+    const ellipsoid_facet *facet; /* the first */
+    double height, support, gap;
+    ellipsoid_wall_kernel seen[2];
+    ellipsoid_wall_rim sum[2];
+} ellipsoid_wall;
+
+typedef struct ellipsoid_wall_view
+{
+    const ellipsoid_model *model;
+    const double *x;
+    double axis[3][3];      /* unit */
+    double turned[4][3][3]; /* their derivatives by q */
+} ellipsoid_wall_view;
+
+/* Begins a wall with its first facet; the centre is `height` above it. */
+void ellipsoid_wall_begin(ellipsoid_wall_view *view,
+                          const ellipsoid_facet *facet, double height,
+                          ellipsoid_wall *wall);
+
+/* Adds a facet of its plane, the first one, too. */
+void ellipsoid_wall_add(ellipsoid_wall_view *view, const ellipsoid_facet *facet,
+                        ellipsoid_wall *wall);
+
+/* The plane of a wall; 0 if it does not count. It fades where it goes out of
+   range, and where it cuts the body, which then is beside its wall. */
+int ellipsoid_wall_plane(ellipsoid_wall_view *view, const ellipsoid_wall *wall,
+                         int slopes, ellipsoid_plane *plane);
+
+#endif

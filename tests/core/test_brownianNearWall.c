@@ -1,0 +1,293 @@
+/*
+    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
+    Copyright (C) 2026 the ellipsoidTrapFoam authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    test_brownianNearWall.c - Brownian motion where the resistance knows of a
+    wall: drift, diffusion and equilibrium.
+*/
+#include "brownianProfile.h"
+#include "wallMesh.h"
+
+static const double radius = 0.499999e-6; /* [m] of the sphere's one bead */
+static const double scale = 0.2e-6;       /* [m] kT/weight of the sphere */
+
+static wall_mesh wall;
+static ellipsoid_facet_cache cache;
+
+static int build_wall(void **unused)
+{
+    const double corner[3] = {-1e-3, -1e-3, 0};
+    const double u[3] = {2e-3, 0, 0}, v[3] = {0, 2e-3, 0};
+
+    (void)unused;
+    wall_mesh_init(&wall);
+    wall_mesh_plane(&wall, corner, u, v, 1, 1, 0, 0);
+    wall_mesh_finish(&wall);
+    return 0;
+}
+
+static int free_wall(void **unused)
+{
+    (void)unused;
+    wall_mesh_free(&wall);
+    return 0;
+}
+
+static ellipsoid_options near_wall(ellipsoid_motion motion, double interval)
+{
+    ellipsoid_options o = test_brownian(motion, interval);
+
+    o.wall_resistance = ELLIPSOID_WALL_RESISTANCE_PLANE;
+    o.tolerance = 1e-5;
+    return o;
+}
+
+static test_walk walk(const ellipsoid_options *options, uint64_t seed,
+                      uint32_t id, double height)
+{
+    test_walk w = test_walk_of(options, seed, id);
+
+    w.around.walls = wall_mesh_list;
+    w.around.walls_context = &wall;
+    w.cache = &cache;
+    w.state.x[2] = height;
+    ellipsoid_facet_cache_clear(&cache);
+    return w;
+}
+
+/* The mobility [s/kg, ...] in the body frame. */
+static void mobility_at(test_walk *w, double matrix[6][6])
+{
+    const double *q = w->state.q, opposite[4] = {q[0], q[1], q[2], -q[3]};
+    ellipsoid_frame frame = {.by_q = NULL};
+    ellipsoid_planes planes;
+
+    ellipsoid_rotation(opposite, frame.axis);
+    assert_ok(ellipsoid_find_planes(&w->model, &w->around, &w->state, &frame,
+                                    w->cache, &planes));
+    ellipsoid_wall_matrix(&w->model, &planes, matrix);
+    assert_true(ellipsoid_invert6(matrix));
+}
+
+/* kT div M along x3: how that component changes with the place, and with small
+   turns about the axes of the lab. */
+static double drift_of(test_walk w)
+{
+    static const double step = 1e-9, turn = 1e-3;
+    const ellipsoid_state state = w.state;
+    double sum = 0;
+
+    for (int j = 0; j < 8; j++)
+    {
+        const double sign = j % 2 ? -1 : 1;
+        double matrix[6][6], r[3][3], across[3], change[4] = {0};
+
+        w.state = state;
+        if (j < 2)
+        {
+            w.state.x[2] += sign * step;
+        }
+        else
+        {
+            /* half the turn, times q from the left */
+            double half[3] = {0};
+
+            half[j / 2 - 1] = 0.5 * sign * turn;
+            ellipsoid_cross(half, state.q, change);
+            for (int i = 0; i < 3; i++)
+            {
+                change[i] += half[i] * state.q[3];
+            }
+            change[3] = -ellipsoid_dot(half, state.q);
+        }
+        for (int n = 0; n < 4; n++)
+        {
+            w.state.q[n] += change[n];
+        }
+        ellipsoid_normalise(w.state.q);
+        mobility_at(&w, matrix);
+        ellipsoid_rotation(w.state.q, r);
+        for (int l = 0; l < 3; l++)
+        {
+            across[l] = 0;
+            for (int i = 0; i < 3; i++)
+            {
+                across[l] += r[2][i] * matrix[i][l + (j < 2 ? 0 : 3)];
+            }
+        }
+        /* along x3, or the axis of the turn */
+        sum += sign * ellipsoid_dot(r[j < 2 ? 2 : j / 2 - 1], across)
+             / (2 * (j < 2 ? step : turn));
+    }
+    return test_kt * sum;
+}
+
+/* ------------------------------------------------- drift and diffusion */
+
+/*
+    Over one interval the cell, lying above the wall, moves by M0 F dt, of the
+    covariance 2 kT M dt, and by the change of M on the way: in the mean by kT
+    div M dt, with the height and with turns. The first part is known and taken off, so
+    that few cells tell the second: it is of its size, each, five times its
+    standard error.
+*/
+static void check_interval(ellipsoid_motion motion, long count)
+{
+    const ellipsoid_options o = near_wall(motion, 1e-3);
+    const double height = 0.7e-6;
+    double matrix[6][6], drift, square = 0;
+    test_sample off = {0};
+    double dt = 0;
+    test_walk w = walk(&o, 1, 0, height);
+
+    mobility_at(&w, matrix);
+    drift = drift_of(w);
+    for (long id = 0; id < count; id++)
+    {
+        ellipsoid_noise noise;
+        double rates[6] = {0}, action[6];
+
+        w = walk(&o, 1, (uint32_t)id, height);
+        assert_ok(ellipsoid_noise_at(&w.model, &w.around, 0, &noise));
+        assert_ok(ellipsoid_wall_noise_begin(&w.model, &w.around, &w.state,
+                                             &cache, 0, &noise));
+        assert_true(noise.near);
+        dt = noise.end;
+        ellipsoid_wall_noise_set(&w.model, &w.around, dt, &noise);
+        ellipsoid_copy(noise.force, action);
+        ellipsoid_copy(noise.torque, action + 3);
+        for (int i = 0; i < 6; i++)
+        {
+            for (int k = 0; k < 6; k++)
+            {
+                rates[i] += matrix[i][k] * action[k];
+            }
+        }
+        assert_ok(test_walk_to(&w, dt));
+        test_sample_add(&off, w.state.x[2] - height - rates[2] * dt);
+        square += rates[2] * rates[2] * dt * dt / (double)count;
+    }
+    print_message("# %s: dt = %.2e s, drift %.3e +- %.1e m/s of %.3e, "
+                  "<dh^2>/2 dt %.4e of %.4e m2/s\n",
+                  test_motion_name(motion), dt, off.mean / dt,
+                  test_sample_sigma(&off) / dt, drift, square / (2 * dt),
+                  test_kt * matrix[2][2]);
+    assert_near(off.mean, drift * dt, 5 * test_sample_sigma(&off));
+    assert_true(drift * dt > 10 * test_sample_sigma(&off));
+    assert_near(square / (2 * dt), test_kt * matrix[2][2],
+                5 * sqrt(2.0 / (double)count) * test_kt * matrix[2][2]);
+}
+
+static void test_interval(void **unused)
+{
+    (void)unused;
+    check_interval(ELLIPSOID_MOTION_INERTIALESS, test_count(400, 2000, 20000));
+    check_interval(ELLIPSOID_MOTION_INERTIAL, test_count(400, 1000, 10000));
+}
+
+/* Where no wall is in range it is that of the interval's number, to the last
+   bit; else of its start. */
+static void test_numbers(void **unused)
+{
+    const ellipsoid_options o = near_wall(ELLIPSOID_MOTION_INERTIALESS, 1e-3);
+    test_walk w = walk(&o, 1, 7, 11e-6);
+    ellipsoid_noise far, near;
+
+    (void)unused;
+    assert_ok(ellipsoid_noise_at(&w.model, &w.around, 0.0305, &far));
+    near = far;
+    assert_ok(ellipsoid_wall_noise_begin(&w.model, &w.around, &w.state, &cache,
+                                         0.0305, &near));
+    assert_memory_equal(&far, &near, sizeof(far));
+    w.state.x[2] = 0.6e-6;
+    assert_ok(ellipsoid_wall_noise_begin(&w.model, &w.around, &w.state, &cache,
+                                         0.0305, &near));
+    assert_true(near.near && near.start == 0.0305 && near.end <= far.end);
+}
+
+/* --------------------------------------------------------- equilibrium */
+
+/*
+    Heavy spheres over a soft wall, drawn from Boltzmann's distribution of height,
+    whatever the mobility: 0.5 s later, in which a sphere moves by two scale
+    heights far from the wall and by one near it, they still have it, by
+    Kolmogorov & Smirnov's test at a significance of 1e-4. Without the drift
+    they crowd at the wall.
+*/
+static void check_profile(ellipsoid_motion motion, int cells)
+{
+    const double dt = 4e-3;
+    ellipsoid_options o = near_wall(motion, dt);
+    double *height = calloc((size_t)cells, sizeof(*height)), distance;
+    test_sample mean = {0};
+    ellipsoid_model m;
+    uint64_t seed = 12;
+    long tried = 0;
+    profile p;
+
+    assert_non_null(height);
+    o.contact = 1;
+    o.buoyancy = 1;
+    o.contact_modulus = 3.4;
+    o.bead_count = 1;
+    o.semi_axes[1] = o.semi_axes[0];
+    o.bead_radius = radius;
+    o.tolerance = 1e-4;
+    o.density = o.fluid_density
+              - test_kt
+                    / (scale * 4 * test_pi / 3 * pow(o.semi_axes[0], 3)
+                       * o.gravity[2]);
+    m = test_model(&o);
+    p = boltzmann(&m, 0, radius + 20 * scale);
+    for (int id = 0; id < cells; id++)
+    {
+        const double part = test_uniform(&seed);
+        int n = 0;
+        test_walk w;
+
+        while (n < CELLS && p.sum[n + 1] < part)
+        {
+            n++;
+        }
+        w = walk(&o, 3, (uint32_t)id,
+                 p.low + p.width * (n + test_uniform(&seed)));
+        while (w.n < 125)
+        {
+            test_walk_on(&w);
+        }
+        height[id] = w.state.x[2];
+        test_sample_add(&mean, height[id]);
+        tried += w.statistics.accepted + w.statistics.rejected;
+    }
+    distance = test_kolmogorov(height, cells, height_distribution, &p);
+    print_message("# %s, %d spheres: height %.4f +- %.4f of %.4f um, sqrt(n) D "
+                  "= %.2f (2.225 allowed), %.2f steps an interval\n",
+                  test_motion_name(motion), cells, 1e6 * mean.mean,
+                  1e6 * test_sample_sigma(&mean), 1e6 * p.mean, distance,
+                  (double)tried / cells / 125);
+    free(height);
+    assert_true(distance < 2.225);
+    assert_near(mean.mean, p.mean, 5 * test_sample_sigma(&mean));
+}
+
+static void test_profile(void **unused)
+{
+    (void)unused;
+    check_profile(ELLIPSOID_MOTION_INERTIALESS, (int)test_count(20, 400, 6000));
+    if (test_count(0, 0, 1))
+    {
+        check_profile(ELLIPSOID_MOTION_INERTIAL, 1000);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_interval),
+        cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_profile),
+    };
+
+    return cmocka_run_group_tests(tests, build_wall, free_wall);
+}
