@@ -46,6 +46,33 @@ static bool isOpen(const fvPatchVectorField& Up)
      && !polyPatch::constraintType(Up.patch().type());
 }
 
+
+// The first boundary condition of a field that is none of these, the type of a
+// patch that fixes it apart
+template<class Type>
+static string unknownCondition
+(
+    const GeometricField<Type, fvPatchField, volMesh>& field,
+    const wordHashSet& known
+)
+{
+    for (const fvPatchField<Type>& pf : field.boundaryField())
+    {
+        if
+        (
+            pf.type() != pf.patch().type()
+         && !known.found(pf.type())
+        )
+        {
+            return
+                "the condition " + pf.type() + " of " + field.name()
+              + " at patch " + pf.patch().name();
+        }
+    }
+
+    return string();
+}
+
 } // End namespace Foam
 
 
@@ -162,7 +189,44 @@ Foam::string Foam::coupledStokes::refusal
             " the pressure";
     }
 
-    return string();
+    // Tried against simpleFoam (tests/cases/conditions.test). Others may have to
+    // be told of every step of SIMPLE, or follow the flow from iteration to
+    // iteration
+    const string ofU
+    (
+        unknownCondition
+        (
+            U,
+            {
+                "cylindricalInletVelocity", "fixedGradient", "fixedMean",
+                "fixedNormalSlip", "fixedValue", "flowRateInletVelocity",
+                "flowRateOutletVelocity", "fluxCorrectedVelocity",
+                "inletOutlet", "matchedFlowRateOutletVelocity",
+                "movingWallVelocity", "noSlip", "partialSlip",
+                "pressureDirectedInletOutletVelocity",
+                "pressureDirectedInletVelocity",
+                "pressureInletOutletParSlipVelocity",
+                "pressureInletOutletVelocity", "pressureInletUniformVelocity",
+                "pressureInletVelocity", "pressureNormalInletOutletVelocity",
+                "rotatingWallVelocity", "slip", "surfaceNormalFixedValue",
+                "swirlFlowRateInletVelocity", "translatingWallVelocity",
+                "uniformFixedValue", "uniformNormalFixedValue", "zeroGradient"
+            }
+        )
+    );
+
+    return
+        ofU.size()
+      ? ofU
+      : unknownCondition
+        (
+            p,
+            {
+                "fixedGradient", "fixedMean", "fixedValue", "mixed",
+                "outletInlet", "slip", "totalPressure",
+                "uniformFixedValue", "uniformTotalPressure", "zeroGradient"
+            }
+        );
 }
 
 

@@ -375,8 +375,8 @@ void Foam::flowFields::checkPatches() const
               + ": phi carries " + text(flux) + " m3/s out, U " + text(ofU[i])
             );
 
-            // A mixed condition may be meant to differ
-            if (!Up.fixesValue())
+            // The flow may change what is given there
+            if (Up.assignable())
             {
                 Warning
                     << what.c_str() << ". Cells enter there by U and go on"

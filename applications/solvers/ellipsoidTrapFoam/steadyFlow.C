@@ -11,6 +11,7 @@ License
 #include "steadyFlow.H"
 #include "checkedEntries.H"
 #include "findRefCell.H"
+#include "fixedFluxPressureFvPatchScalarField.H"
 #include "fvcDiv.H"
 #include "fvcGrad.H"
 #include "fvmDiv.H"
@@ -65,18 +66,10 @@ static dictionary readIfPresent
 //- Set the clock of a case while it lives
 class clockAt
 {
-    Time& time_;
+    //- Without the files of that time, which setTime would look at
+    dimensionedScalar& time_;
 
     const scalar value_;
-
-
-    void set(const scalar value)
-    {
-        if (value != time_.value())
-        {
-            time_.setTime(value, time_.timeIndex());
-        }
-    }
 
 
 public:
@@ -86,12 +79,12 @@ public:
         time_(const_cast<Time&>(time)),
         value_(time.value())
     {
-        set(value);
+        time_.value() = value;
     }
 
     ~clockAt()
     {
-        set(value_);
+        time_.value() = value_;
     }
 };
 
@@ -128,6 +121,16 @@ static void tellOfClock
 {
     const Time& time = field.time();
     const scalar left = time.endTime().value() - value;
+
+    // One that a solver feeds cannot be evaluated apart from it
+    for (const fvPatchField<Type>& pf : field.boundaryField())
+    {
+        if (isA<fixedFluxPressureFvPatchScalarField>(pf))
+        {
+            return;
+        }
+    }
+
     const FieldField<Field, Type> now(valuesAt(field, value));
     string changing;
 
@@ -536,6 +539,11 @@ void Foam::steadyFlow::solve(const bool scaled)
     Info<< "flow: solved from that in " << instance_ << " by "
         << (how_.coupled ? "corrections of U and p together, checked by " : "")
         << (how_.consistent ? "SIMPLEC" : "SIMPLE") << endl;
+    if (!how_.coupled && !controls_.found("coupled"))
+    {
+        Info<< "flow: U and p are not corrected together, which does not deal"
+            << " with " << coupledStokes::refusal(U_, p_).c_str() << endl;
+    }
 
     const clockAt then(mesh_.time(), clock_);
     const coupledStokes::outcome end = solver_.solve(scaled);

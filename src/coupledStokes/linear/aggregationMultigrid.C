@@ -54,6 +54,7 @@ void Foam::aggregationMultigrid<Type>::coarsen()
             fine.matrix.smoothed
             (
                 threshold,
+                n,
                 SubList<label>(aggregates, fine.matrix.size())
             );
 

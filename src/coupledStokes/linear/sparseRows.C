@@ -394,6 +394,7 @@ template<class Type>
 Foam::aggregateWeights Foam::sparseRows<Type>::smoothed
 (
     const float threshold,
+    const label nAggregates,
     const labelUList& aggregates
 ) const
 {
@@ -405,7 +406,7 @@ Foam::aggregateWeights Foam::sparseRows<Type>::smoothed
     result.start.setSize(size() + 1, Zero);
     DynamicList<label> columns(3*size());
     DynamicList<float> weights(3*size());
-    labelList place(max(aggregates) + 1, -1);
+    labelList place(nAggregates, -1);
 
     for (label i = 0; i < size(); ++i)
     {
