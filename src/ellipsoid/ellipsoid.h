@@ -519,7 +519,9 @@ typedef struct ellipsoid_member
     motion needs a flow: BAD_OPTION. OUTSIDE: a callback has no answer where the
     cell is at *t.
     With Brownian motion steps end where noise intervals do; the noise is that
-    of the interval, whatever the steps. Returns OK, STOPPED (by the observer;
+    of the interval, whatever the steps. Near walls, with wall_resistance, it is
+    of the pose where the call or an interval begins: a call from where an
+    observer stopped draws other noise. Returns OK, STOPPED (by the observer;
     *t is the end of that step), or why it could not go on.
 */
 ellipsoid_status ellipsoid_advance(const ellipsoid_member *cell,

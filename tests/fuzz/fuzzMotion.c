@@ -242,13 +242,15 @@ static ellipsoid_status go(run *r, ellipsoid_facet_cache *cache,
     return status;
 }
 
-/* Who stops where the random force has just jumped starts with the jump. */
+/* Who stops where the random force has just jumped starts with the jump; near
+   walls, whose noise is of the pose where it begins, anywhere. */
 static int is_at_jump(const ellipsoid_model *model, double t)
 {
     const double place = t / model->options.noise_interval;
 
     return model->options.brownian
-        && fabs(place - round(place)) < 2e-15 * fmax(1, fabs(place));
+        && (model->options.wall_resistance
+            || fabs(place - round(place)) < 2e-15 * fmax(1, fabs(place)));
 }
 
 /* The last step's contact is that of the pose where it ended; and so, without
