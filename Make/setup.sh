@@ -166,6 +166,7 @@ setup_missing_packages()    # LEVEL OPENFOAM_DIR ('' for Debian's)
     if [ "$1" != full ]; then return; fi
     command -v clang > /dev/null || echo clang
     setup_has_clang_runtime || echo libclang-rt-dev
+    command -v clang-format > /dev/null || echo clang-format
     command -v valgrind > /dev/null || echo valgrind
     command -v cppcheck > /dev/null || echo cppcheck
     command -v shellcheck > /dev/null || echo shellcheck
@@ -451,7 +452,7 @@ setup_environment()     # build|run|test|full
             "Needed: $setup_needed;" \
             "also gcc, g++, make, an MPI and Random123;" \
             "for pictures Python 3 with numpy, matplotlib and vtk; for tests cmocka and h5py;" \
-            "for all tests (--full) clang with compiler-rt, valgrind, cppcheck, shellcheck, chromium, SUNDIALS."
+            "for all tests (--full) clang with compiler-rt, clang-format, valgrind, cppcheck, shellcheck, chromium, SUNDIALS."
         return
     fi
 

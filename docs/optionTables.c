@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     optionTables.c - a filter: copies Markdown and writes the tables of options
     in it anew, between a line '<!-- options: SECTION... -->' and a line
     '<!-- end of options -->'. Without a SECTION: the top of the dictionary.
@@ -36,24 +35,25 @@ static void print_default(const ellipsoid_option *o,
     memcpy(&value, (const char *)defaults + o->offset, sizeof value);
     switch (o->type)
     {
-        case ELLIPSOID_OPTION_SWITCH:
-            printf("`%s`", value ? "yes" : "no");
-            break;
-        case ELLIPSOID_OPTION_CHOICE:
-            printf("`%s`", o->words[value]);
-            break;
-        case ELLIPSOID_OPTION_VECTOR:
-            putchar('`');
-            for (const char *c = o->default_text; *c; c++)
+    case ELLIPSOID_OPTION_SWITCH:
+        printf("`%s`", value ? "yes" : "no");
+        break;
+    case ELLIPSOID_OPTION_CHOICE:
+        printf("`%s`", o->words[value]);
+        break;
+    case ELLIPSOID_OPTION_VECTOR:
+        putchar('`');
+        for (const char *c = o->default_text; *c; c++)
+        {
+            if (*c != ',')
             {
-                if (*c != ',')
-                {
-                    putchar(*c);
-                }
+                putchar(*c);
             }
-            putchar('`');
-            break;
-        default: printf("%s", o->default_text);
+        }
+        putchar('`');
+        break;
+    default:
+        printf("%s", o->default_text);
     }
 }
 

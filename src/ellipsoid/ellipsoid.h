@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     ellipsoid.h - the public header of the core; statuses, options and model are
     in ellipsoidModel.h, which comes with it.
 
@@ -53,15 +52,15 @@ extern "C" {
 */
 typedef struct ellipsoid_flow_sample
 {
-    double velocity[3];                /* [m/s] */
-    double gradient[3][3];             /* [1/s] */
-    double pressure_gradient[3];       /* [Pa/m]; only for PRESSURE_GRADP */
-    double local_acceleration[3];      /* [m/s2] du/dt where x is fixed; only
+    double velocity[3];                 /* [m/s] */
+    double gradient[3][3];              /* [1/s] */
+    double pressure_gradient[3];        /* [Pa/m]; only for PRESSURE_GRADP */
+    double local_acceleration[3];       /* [m/s2] du/dt where x is fixed; only
                                           for PRESSURE_DUDT where the
                                           surroundings are unsteady */
-    double velocity_jacobian[3][3];    /* [1/s] */
-    double gradient_jacobian[3][3][3]; /* [1/(m s)] */
-    double pressure_jacobian[3][3];    /* [Pa/m2] d(grad p)_i/dx_j; likewise */
+    double velocity_jacobian[3][3];     /* [1/s] */
+    double gradient_jacobian[3][3][3];  /* [1/(m s)] */
+    double pressure_jacobian[3][3];     /* [Pa/m2] d(grad p)_i/dx_j; likewise */
     double acceleration_jacobian[3][3]; /* [1/s2] of the local one; likewise */
 } ellipsoid_flow_sample;
 
@@ -69,10 +68,8 @@ typedef struct ellipsoid_flow_sample
     Samples the flow at the time t [s] and x [m, lab]. derivatives: 0 or 1.
     Returns 0; > 0: not here, shorten the step; < 0: give up.
 */
-typedef int (*ellipsoid_flow_function)(void *context,
-                                       double t,
-                                       const double x[3],
-                                       int derivatives,
+typedef int (*ellipsoid_flow_function)(void *context, double t,
+                                       const double x[3], int derivatives,
                                        ellipsoid_flow_sample *sample);
 
 /*
@@ -82,8 +79,7 @@ typedef int (*ellipsoid_flow_function)(void *context,
     The centre is where the flow was sampled last. Returns 0; > 0: shorten the
     step; < 0: give up.
 */
-typedef int (*ellipsoid_velocities_function)(void *context,
-                                             double t,
+typedef int (*ellipsoid_velocities_function)(void *context, double t,
                                              const double centre[3], int count,
                                              double (*points)[3],
                                              double (*velocity)[3],
@@ -95,7 +91,8 @@ typedef int (*ellipsoid_velocities_function)(void *context,
     called. Returns as above.
 */
 typedef int (*ellipsoid_field_function)(void *context, double t,
-             const double x[3], double field[3], double (*jacobian)[3]);
+                                        const double x[3], double field[3],
+                                        double (*jacobian)[3]);
 
 /* --------------------------------------------------------------- walls */
 
@@ -112,13 +109,13 @@ typedef enum ellipsoid_edge
 typedef struct ellipsoid_facet
 {
     double middle[3], radius; /* [m] lab, of a ball that holds it */
-    double normal[3];    /* unit, into the fluid */
+    double normal[3];         /* unit, into the fluid */
     double vertex[3][3]; /* [m] lab, counter-clockwise seen from the fluid */
     ellipsoid_edge edge[3];
     double edge_inward[3][3]; /* unit, perpendicular to edge k, in the plane of
                                  the facet ACROSS edge k, pointing into it */
     double neighbour_normal[3][3]; /* unit normal of the facet across edge k */
-    const double (*star[3])[3]; /* star[k]: unit directions of all wall edges
+    const double (*star[3])[3];    /* star[k]: unit directions of all wall edges
                                    that leave vertex k */
     int star_count[3];
     int surface; /* label of the wall patch, for reports */
@@ -165,10 +162,8 @@ typedef struct ellipsoid_facet_list
     it does the flow must refuse, too.
     Returns 0; > 0: shorten the step; < 0: give up.
 */
-typedef int (*ellipsoid_walls_function)(void *context,
-                                        double t,
-                                        const double centre[3],
-                                        double reach,
+typedef int (*ellipsoid_walls_function)(void *context, double t,
+                                        const double centre[3], double reach,
                                         ellipsoid_facet_list *list);
 
 /* -------------------------------------------------------- other forces */
@@ -228,7 +223,7 @@ typedef struct ellipsoid_surroundings
     int piecewise; /* does the gradient of the velocity jump, as where it is
                       interpolated piece by piece? 0; explicit steps are of
                       another method then */
-    double time;  /* [s] when callbacks are asked by functions that are given no
+    double time; /* [s] when callbacks are asked by functions that are given no
                      time, such as ellipsoid_rhs(); 0 */
     /* The key of the cell's Brownian motion. Noise interval n begins at the
        time n noise_interval. */
@@ -282,16 +277,16 @@ typedef struct ellipsoid_facet_cache
 {
     int valid;
     int uses, listed; /* since it was filled; facets listed then */
-    double margin;      /* [m] how far a bead may move */
+    double margin;    /* [m] how far a bead may move */
     double rotation[3][3], half_box[3]; /* R(q) there; the beads' box [m] */
-    double x[3], q[4];  /* pose at which it was filled */
-    double clearance;   /* [m] > 0: no facet while the centre moves less */
+    double x[3], q[4];                  /* pose at which it was filled */
+    double clearance; /* [m] > 0: no facet while the centre moves less */
     const ellipsoid_facet *facets;
     double nearest[ELLIPSOID_MAX_BEADS]; /* [m] no facet nearer to a centre */
-    double nearest_of_all;                 /* [m] the least of these */
+    double nearest_of_all;               /* [m] the least of these */
     int bead_count, bead[ELLIPSOID_MAX_BEADS]; /* with facets, ascending */
-    int first[ELLIPSOID_MAX_BEADS + 1];  /* bead b: first[b] to first[b+1] of */
-    int facet[ELLIPSOID_MAX_PAIRS];      /* facets, ascending for each bead */
+    int first[ELLIPSOID_MAX_BEADS + 1]; /* bead b: first[b] to first[b+1] of */
+    int facet[ELLIPSOID_MAX_PAIRS];     /* facets, ascending for each bead */
     float away[ELLIPSOID_MAX_PAIRS]; /* [m] at least, from its bead; of beads */
     /* All facets within `about_reach` [m] of a point, ascending, for several
        searches; about_count -1: not looked up */
@@ -299,8 +294,8 @@ typedef struct ellipsoid_facet_cache
     int about_nearest; /* which of a list was nearest last: it comes first */
     double about_x[3], about_reach;
     const ellipsoid_facet *about_facets;
-    int near_count;   /* of facets about the wall_range; -1: not looked up */
-    double near_x[3]; /* where they were looked up */
+    int near_count;     /* of facets about the wall_range; -1: not looked up */
+    double near_x[3];   /* where they were looked up */
     double near_margin; /* [m] how far the centre may move from there */
     const ellipsoid_facet *near_facets;
     int near_facet[ELLIPSOID_MAX_NEAR]; /* ascending */
@@ -317,26 +312,26 @@ void ellipsoid_facet_cache_clear(ellipsoid_facet_cache *cache);
 /* The action of the walls, and of the other cells of its group, on a cell. */
 typedef struct ellipsoid_contact
 {
-    double force[3];        /* [N] lab, of the walls */
-    double torque[3];       /* [N m] body, of the walls */
-    double deepest;         /* [m] deepest overlap of a bead, 0 if none */
-    double gap;             /* [m] smallest gap between a bead and the walls,
+    double force[3];   /* [N] lab, of the walls */
+    double torque[3];  /* [N m] body, of the walls */
+    double deepest;    /* [m] deepest overlap of a bead, 0 if none */
+    double gap;        /* [m] smallest gap between a bead and the walls,
                                -deepest where they overlap; at most the bead
                                radius, beyond which nobody looks; HUGE_VAL
                                without walls. Of contact_shape ELLIPSOID, of
                                the ellipsoid in place of a bead */
-    int bead_contacts;      /* beads that overlap the walls or are pulled by
+    int bead_contacts; /* beads that overlap the walls or are pulled by
                                them; 1 if the ellipsoid is */
-    int surface_count;      /* distinct ones, at most MAX_SURFACES listed */
+    int surface_count; /* distinct ones, at most MAX_SURFACES listed */
     int surface[ELLIPSOID_MAX_SURFACES]; /* labels, in the order of the beads
                                             that are in contact */
 
-    double cell_force[3];   /* [N] lab, of the other cells */
-    double cell_torque[3];  /* [N m] body */
-    double cell_deepest;    /* [m] deepest overlap with another cell */
-    double cell_gap;        /* [m] smallest gap to a bead of another cell; as
+    double cell_force[3];  /* [N] lab, of the other cells */
+    double cell_torque[3]; /* [N m] body */
+    double cell_deepest;   /* [m] deepest overlap with another cell */
+    double cell_gap;       /* [m] smallest gap to a bead of another cell; as
                                for walls */
-    int cell_count;         /* in contact, at most MAX_SURFACES listed */
+    int cell_count;        /* in contact, at most MAX_SURFACES listed */
     uint32_t cell_id[ELLIPSOID_MAX_SURFACES]; /* in the order of the group */
 } ellipsoid_contact;
 
@@ -353,12 +348,9 @@ typedef struct ellipsoid_contact
     before. STEP_UNDERFLOW: the walls ask for a shorter step.
 */
 ellipsoid_status ellipsoid_contact_evaluate(
-    const ellipsoid_model *model,
-    const ellipsoid_surroundings *surroundings,
-    const ellipsoid_state *state,
-    ellipsoid_facet_cache *cache,
-    ellipsoid_contact *contact,
-    ellipsoid_wrench_jacobian *jacobian);
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const ellipsoid_state *state, ellipsoid_facet_cache *cache,
+    ellipsoid_contact *contact, ellipsoid_wrench_jacobian *jacobian);
 
 /*
     Contact of one bead [m, lab] of given radius with the listed facets: force
@@ -441,7 +433,7 @@ ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
 /* The drag [N, lab] on a body of orientation q held still where the flow has
    this velocity [m/s, lab]: mu R K^ R^T u_f, far from walls. */
 void ellipsoid_drag_at_rest(const ellipsoid_model *model, const double q[4],
-                         const double velocity[3], double drag[3]);
+                            const double velocity[3], double drag[3]);
 
 /*
     Derivatives by the thirteen unknowns, row-major: of INERTIAL motion those of
@@ -452,8 +444,7 @@ void ellipsoid_drag_at_rest(const ellipsoid_model *model, const double q[4],
 ellipsoid_status
 ellipsoid_jacobian(const ellipsoid_model *model,
                    const ellipsoid_surroundings *surroundings,
-                   const ellipsoid_state *state,
-                   ellipsoid_facet_cache *cache,
+                   const ellipsoid_state *state, ellipsoid_facet_cache *cache,
                    double jacobian[ELLIPSOID_STATE_SIZE][ELLIPSOID_STATE_SIZE]);
 
 /* ------------------------------------------------------------- advance */
@@ -482,10 +473,10 @@ typedef struct ellipsoid_statistics
 */
 typedef struct ellipsoid_step
 {
-    double start, end;           /* [s] */
+    double start, end; /* [s] */
     ellipsoid_state before, after;
     double dense[3][ELLIPSOID_STATE_SIZE]; /* continuous extension */
-    ellipsoid_contact contact;   /* at the end */
+    ellipsoid_contact contact;             /* at the end */
 } ellipsoid_step;
 
 /* The state at time start <= t <= end: of third order, or fourth in x and q
@@ -506,7 +497,7 @@ typedef struct ellipsoid_member
     const ellipsoid_surroundings *surroundings; /* its id names the cell */
     ellipsoid_state *state;
     ellipsoid_controller *controller;
-    ellipsoid_facet_cache *cache;     /* NULL only where there are no walls */
+    ellipsoid_facet_cache *cache; /* NULL only where there are no walls */
     void *observer_context;
     ellipsoid_statistics *statistics; /* NULL: not wanted, of a cell alone */
 } ellipsoid_member;
@@ -524,10 +515,8 @@ typedef struct ellipsoid_member
     observer stopped draws other noise. Returns OK, STOPPED (by the observer;
     *t is the end of that step), or why it could not go on.
 */
-ellipsoid_status ellipsoid_advance(const ellipsoid_member *cell,
-                                   double *t,
-                                   double end,
-                                   ellipsoid_observer observer);
+ellipsoid_status ellipsoid_advance(const ellipsoid_member *cell, double *t,
+                                   double end, ellipsoid_observer observer);
 
 /* -------------------------------------------------------------- groups */
 
@@ -554,11 +543,9 @@ size_t ellipsoid_group_size(int count);
 */
 ellipsoid_status ellipsoid_advance_group(int count,
                                          const ellipsoid_member members[],
-                                         double *t,
-                                         double end,
+                                         double *t, double end,
                                          ellipsoid_observer observer,
-                                         void *memory,
-                                         int *which);
+                                         void *memory, int *which);
 
 /*
     The smallest gap [m] between two cells in given poses, of their beads or of

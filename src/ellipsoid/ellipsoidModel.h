@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     ellipsoidModel.h - what a body is and what acts on it: statuses, options,
     and the model made of them. A part of ellipsoid.h: include that.
 */
@@ -53,8 +52,7 @@ const char *ellipsoid_version(void);
 #define ELLIPSOID_STATUS_ENUM(name, text) ELLIPSOID_##name,
 typedef enum ellipsoid_status
 {
-    ELLIPSOID_STATUS_LIST(ELLIPSOID_STATUS_ENUM)
-    ELLIPSOID_STATUS_COUNT
+    ELLIPSOID_STATUS_LIST(ELLIPSOID_STATUS_ENUM) ELLIPSOID_STATUS_COUNT
 } ellipsoid_status;
 #undef ELLIPSOID_STATUS_ENUM
 
@@ -70,7 +68,7 @@ const char *ellipsoid_status_text(ellipsoid_status status);
     enumerator means.
 */
 #define ELLIPSOID_WORDS(member, words)                                         \
-    typedef enum ellipsoid_##member { words } ellipsoid_##member;
+    typedef enum ellipsoid_##member{words} ellipsoid_##member;
 #define ELLIPSOID_WORD(enumerator, word, meaning) enumerator,
 #include "options.def"
 
@@ -153,9 +151,9 @@ ellipsoid_options ellipsoid_options_resized(const ellipsoid_options *options,
 
 typedef struct ellipsoid_plane_table
 {
-    int axis;      /* of the body: that of the spheroid */
-    double radius; /* [m] across it */
-    double ratio;  /* [-] semi-axis along it, over that */
+    int axis;       /* of the body: that of the spheroid */
+    double radius;  /* [m] across it */
+    double ratio;   /* [-] semi-axis along it, over that */
     double free[4]; /* resistance, lengths by radius */
     double at[ELLIPSOID_PLANE_TILTS][ELLIPSOID_PLANE_GAPS]
              [ELLIPSOID_PLANE_FUNCTIONS]; /* coefficients */
@@ -165,28 +163,28 @@ typedef struct ellipsoid_plane_table
 typedef struct ellipsoid_model
 {
     ellipsoid_options options;
-    double volume;          /* [m3] V = 4/3 pi a1 a2 a3 */
-    double mass;            /* [kg] m_p */
-    double fluid_mass;      /* [kg] m_f, displaced */
-    double viscosity;       /* [Pa s] mu = rho_f nu, dynamic */
-    double inertia[3];      /* [kg m2] body axes */
+    double volume;            /* [m3] V = 4/3 pi a1 a2 a3 */
+    double mass;              /* [kg] m_p */
+    double fluid_mass;        /* [kg] m_f, displaced */
+    double viscosity;         /* [Pa s] mu = rho_f nu, dynamic */
+    double inertia[3];        /* [kg m2] body axes */
     double constant_force[3]; /* [N] lab: (m_p - m_f) g and the external one */
-    double resistance[3];   /* [m] K^_i: F = mu R K^ R^T (u_f - u) */
+    double resistance[3];     /* [m] K^_i: F = mu R K^ R^T (u_f - u) */
     double rotation_resistance[3]; /* [m3] C_i = c_i (a_j^2 + a_k^2) / mu:
                                       T^_i = mu C_i (W^_i - w^_i + ...) */
-    double strain_factor[3]; /* [-] (a_j^2 - a_k^2)/(a_j^2 + a_k^2), cyclic:
+    double strain_factor[3];     /* [-] (a_j^2 - a_k^2)/(a_j^2 + a_k^2), cyclic:
                                T^_1 = mu C_1 (s_1 e^23 + W^_1 - w^_1) */
-    double mobility[3];     /* [s/kg] 1/(mu K^_i) */
+    double mobility[3];          /* [s/kg] 1/(mu K^_i) */
     double rotation_mobility[3]; /* [1/(J s)] 1/(mu C_i) */
-    double relaxation_time;          /* [s] slowest translational m/(mu K^) */
+    double relaxation_time;      /* [s] slowest translational m/(mu K^) */
     double rotation_relaxation_time; /* [s] slowest I/(mu C) */
-    double noise_force[3];  /* [N] body, standard deviation of a component */
-    double noise_torque[3]; /* [N m] likewise */
+    double noise_force[3];    /* [N] body, standard deviation of a component */
+    double noise_torque[3];   /* [N m] likewise */
     int electric, has_dipole; /* does a field act? On a dipole? */
-    int dissipative;        /* do contacts depend on velocities? */
+    int dissipative;          /* do contacts depend on velocities? */
     ellipsoid_plane_table plane; /* unless WALL_RESISTANCE_NONE */
-    double reach;           /* [m] farthest contact surface from the centre */
-    int flow_points;        /* 0 unless FLOW_BODY */
+    double reach;    /* [m] farthest contact surface from the centre */
+    int flow_points; /* 0 unless FLOW_BODY */
     double flow_point[ELLIPSOID_MAX_FLOW_POINTS][3]; /* [m] body, on surface */
     double flow_weight[ELLIPSOID_MAX_FLOW_POINTS];   /* [-] they add up to 1 */
     int bead_count;
@@ -202,8 +200,7 @@ ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
     semi-axes [m] in Stokes flow: K^ [m] and C [m3] as in ellipsoid_model.
     Sphere of radius a: K^ = 6 pi a, C = 8 pi a^3.
 */
-void ellipsoid_resistance(const double semi_axes[3],
-                          double resistance[3],
+void ellipsoid_resistance(const double semi_axes[3], double resistance[3],
                           double rotation_resistance[3]);
 
 /* Carlson's symmetric integrals R_F(x,y,z) and R_D(x,y,z), to rounding. */

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     coefficients.c - sets of Rosenbrock coefficients side by side (README.md).
 
     Each set is in a copy of the core of its own, whose ellipsoid_advance() and
@@ -105,8 +104,8 @@ static void step(const ellipsoid_rosenbrock_table *m, double k[S][TREES])
 
 /* Largest residual of the weights a_6j + last K_6, for trees up to `to`; with
    the continuous extension at s. */
-static double residual(const ellipsoid_rosenbrock_table *m,
-                       double k[S][TREES], double last, double s, int to)
+static double residual(const ellipsoid_rosenbrock_table *m, double k[S][TREES],
+                       double last, double s, int to)
 {
     double worst = 0;
 

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     contactShapes.c - beads against the ellipsoid itself: force, torque, place
     at rest and cost (docs/validation.md).
 
@@ -330,8 +329,8 @@ static double cost(scene s[SCENES], const ellipsoid_model *model, int jacobian,
 
         start[n][7] = s[n % SCENES].width * (2 * uniform() - 1);
         ellipsoid_quaternion_from_uniform(three, start[n] + 3);
-        start[n][0] = loaded(model, &s[n % SCENES], start[n][7], start[n] + 3,
-                             f, t);
+        start[n][0] =
+            loaded(model, &s[n % SCENES], start[n][7], start[n] + 3, f, t);
     }
     for (int r = 0; r < repeats; r++)
     {
@@ -347,8 +346,8 @@ static double cost(scene s[SCENES], const ellipsoid_model *model, int jacobian,
             memcpy(at.q, start[n] + 3, sizeof(at.q));
             for (int i = 0; i < 3; i++)
             {
-                at.x[i] = (i == 0 ? start[n][7] : 0)
-                     + start[n][0] * where->away[i];
+                at.x[i] =
+                    (i == 0 ? start[n][7] : 0) + start[n][0] * where->away[i];
             }
             for (int k = 0; k < steps; k++)
             {

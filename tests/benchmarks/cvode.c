@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     cvode.c - the core beside CVODE at equal error (README.md).
 */
 #include "peer.h"
@@ -44,8 +43,8 @@ static double rhs_seconds(const benchmark_journey *journey)
             sum += rate.q[0];
         }
     }
-    start = (benchmark_clock() - start)
-          / ((double)rounds * BENCHMARK_TRAJECTORIES);
+    start =
+        (benchmark_clock() - start) / ((double)rounds * BENCHMARK_TRAJECTORIES);
     return isfinite(sum) ? start : NAN;
 }
 
@@ -56,9 +55,8 @@ static void set_reference(const benchmark_journey *journey,
 {
     static ellipsoid_state other[BENCHMARK_TRAJECTORIES];
     benchmark_core core = {.motion = motion, .advance = ellipsoid_advance};
-    benchmark_peer peer = {.motion = motion,
-                           .weights = BENCHMARK_BY_FLOW,
-                           .exact_jacobian = 1};
+    benchmark_peer peer = {
+        .motion = motion, .weights = BENCHMARK_BY_FLOW, .exact_jacobian = 1};
     const benchmark_method ours = benchmark_core_method("the core", &core);
     const benchmark_method theirs = benchmark_peer_method("CVODE", &peer);
     double x, q;

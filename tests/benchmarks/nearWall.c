@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     nearWall.c - a sphere in shear flow along a plane wall, and what the choices
     of drag make of it: flow centre or body, wallResistance none or plane.
 
@@ -59,8 +58,7 @@ static result exact(const struct known *k)
     const double h = k->height, f_w = 4.0 / 3 * k->torque_u;
     const double determinant =
         k->force_u * 2 * k->torque_omega - f_w * 2 * k->torque_u;
-    const double u = (h * k->force_s * 2 * k->torque_omega
-                      + f_w * k->torque_s)
+    const double u = (h * k->force_s * 2 * k->torque_omega + f_w * k->torque_s)
                    / determinant;
     const double omega =
         (k->force_u * k->torque_s + 2 * k->torque_u * h * k->force_s)

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     peer.c - the core's equations solved by SUNDIALS CVODE.
 
     The solver is made once and started anew for every trajectory, so that no
@@ -32,7 +31,7 @@ enum
 /* 1: the solver may try a shorter step */
 static int answer(ellipsoid_status status)
 {
-    return status == ELLIPSOID_OK               ? 0
+    return status == ELLIPSOID_OK             ? 0
          : status == ELLIPSOID_STEP_UNDERFLOW ? 1
                                               : -1;
 }
@@ -75,8 +74,8 @@ static int jacobian(sunrealtype t, N_Vector y, N_Vector rate, SUNMatrix matrix,
     const benchmark_peer *p = context;
     const ellipsoid_state state = state_of(NV_DATA_S(y));
     double j[SIZE][SIZE];
-    const ellipsoid_status status = ellipsoid_jacobian(
-        &p->model, &p->journey->around, &state, NULL, j);
+    const ellipsoid_status status =
+        ellipsoid_jacobian(&p->model, &p->journey->around, &state, NULL, j);
 
     (void)t, (void)rate, (void)a, (void)b, (void)c;
     for (int n = 0; n < SIZE; n++)
@@ -118,8 +117,8 @@ static void set_scales(benchmark_peer *p)
 
     for (int i = 0; i < 3; i++)
     {
-        scale[U + i] = by_effect ? length / p->model.relaxation_time
-                                 : flow->speed;
+        scale[U + i] =
+            by_effect ? length / p->model.relaxation_time : flow->speed;
         scale[X + i] = length;
         scale[W + i] = by_effect ? 1 / p->model.rotation_relaxation_time
                                  : flow->speed / flow->size;
@@ -230,8 +229,7 @@ static int run(void *context, ellipsoid_state *state, benchmark_cost *cost)
     normalise(state->q);
     CVodeGetNumSteps(p->solver, &cost->steps);
     CVodeGetNumRhsEvals(p->solver, &evaluations);
-    cost->rhs =
-        evaluations + differences + (p->exact_jacobian ? jacobians : 0);
+    cost->rhs = evaluations + differences + (p->exact_jacobian ? jacobians : 0);
     return 0;
 }
 

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     peer.h - the core's equations solved by SUNDIALS CVODE.
 */
 #ifndef BENCHMARK_PEER_H
@@ -27,11 +26,11 @@ typedef enum benchmark_weights
 
 typedef struct benchmark_peer
 {
-    ellipsoid_motion motion;   /* INERTIAL: thirteen unknowns by BDF and dense
+    ellipsoid_motion motion; /* INERTIAL: thirteen unknowns by BDF and dense
                                   Newton; INERTIALESS: seven by Adams and
                                   fixed-point iteration */
     benchmark_weights weights;
-    int exact_jacobian;        /* ellipsoid_jacobian(), or differences */
+    int exact_jacobian; /* ellipsoid_jacobian(), or differences */
 
     const benchmark_journey *journey;
     ellipsoid_model model;

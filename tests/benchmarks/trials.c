@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     trials.c - the same trajectories by several methods: errors and times.
 */
 #define _POSIX_C_SOURCE 200809L
@@ -108,8 +107,7 @@ static int core_prepare(void *context, const benchmark_journey *journey,
     return 0;
 }
 
-static int core_run(void *context, ellipsoid_state *state,
-                    benchmark_cost *cost)
+static int core_run(void *context, ellipsoid_state *state, benchmark_cost *cost)
 {
     benchmark_core *core = context;
     ellipsoid_controller controller = {0, 0};
@@ -319,10 +317,7 @@ static double seconds_of(const benchmark_point *point)
     return point->seconds;
 }
 
-static double steps_of(const benchmark_point *point)
-{
-    return point->steps;
-}
+static double steps_of(const benchmark_point *point) { return point->steps; }
 
 /* From the loosest pair of neighbours with the error between them. */
 static double at_error(const benchmark_series *series, double q, quantity of)

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     contactTest.h - bodies that touch walls, for the tests of friction, damping
     and statics.
 */
@@ -42,11 +41,11 @@ static inline void contact_start(contact_run *r,
                                  const ellipsoid_options *options, int vacuum)
 {
     r->model = test_model(options);
-    r->around = (ellipsoid_surroundings){
-        .flow = vacuum ? NULL : test_quadratic_flow,
-        .flow_context = &r->flow,
-        .walls = wall_mesh_list,
-        .walls_context = &r->mesh};
+    r->around =
+        (ellipsoid_surroundings){.flow = vacuum ? NULL : test_quadratic_flow,
+                                 .flow_context = &r->flow,
+                                 .walls = wall_mesh_list,
+                                 .walls_context = &r->mesh};
     memset(&r->state, 0, sizeof(r->state));
     r->state.q[3] = 1;
     r->t = 0;

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     coreTest.h - what the tests of the core share.
 */
 #ifndef CORE_TEST_H
@@ -183,12 +182,10 @@ static inline void test_add_moment(const ellipsoid_state *state,
 }
 
 /* Advances without walls or observer. */
-static inline ellipsoid_status test_advance(const ellipsoid_model *model,
-                                            test_quadratic *flow,
-                                            ellipsoid_state *state, double *t,
-                                            double end,
-                                            ellipsoid_controller *controller,
-                                            ellipsoid_statistics *statistics)
+static inline ellipsoid_status
+test_advance(const ellipsoid_model *model, test_quadratic *flow,
+             ellipsoid_state *state, double *t, double end,
+             ellipsoid_controller *controller, ellipsoid_statistics *statistics)
 {
     const ellipsoid_surroundings surroundings = {
         .flow = flow ? test_quadratic_flow : NULL, .flow_context = flow};

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     nearWallTest.h - cells with the drag near walls made of facets.
 */
 #ifndef NEAR_WALL_TEST_H
@@ -42,8 +41,7 @@ static inline double brenner_towards(double height)
 
         sum += n * (n + 1.0) / ((2 * n - 1.0) * (2 * n + 3.0))
              * ((2 * sinh(odd * alpha) + odd * sinh(2 * alpha))
-                    / (4 * wide * wide
-                       - odd * odd * sinh(alpha) * sinh(alpha))
+                    / (4 * wide * wide - odd * odd * sinh(alpha) * sinh(alpha))
                 - 1);
     }
     return 4.0 / 3 * sinh(alpha) * sum;

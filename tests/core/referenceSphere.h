@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     referenceSphere.h - a Brownian sphere over the wall x3 = 0 with the noise of
     a cell, by formulas of its own.
 
@@ -77,8 +76,7 @@ static inline double reference_rate(const ellipsoid_model *m, double height,
     const double depth = fmax(0, o->bead_radius - height);
 
     return push
-         + m->mobility[2]
-               * (k * depth * sqrt(depth) + m->constant_force[2]);
+         + m->mobility[2] * (k * depth * sqrt(depth) + m->constant_force[2]);
 }
 
 /* An interval by the classical Runge-Kutta method, in steps of 0.3 of the time
@@ -88,8 +86,8 @@ static inline void reference_on(reference *r)
 {
     const ellipsoid_options *o = &r->model.options;
     const double dt = o->noise_interval;
-    const double stiffest = r->model.mobility[2] * 2 * o->contact_modulus
-                          * o->bead_radius;
+    const double stiffest =
+        r->model.mobility[2] * 2 * o->contact_modulus * o->bead_radius;
     const int steps = 1 + (int)(dt * stiffest / 0.3);
     const double h = dt / steps;
     double push[3];

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     roomTest.h - a room for cells to touch, and their force's derivatives.
 */
 #ifndef ROOM_TEST_H
@@ -14,12 +13,11 @@
 static const double um = 1e-6;
 
 /* The contact of a cell at rest. */
-static inline ellipsoid_status evaluate_pose(const ellipsoid_model *model,
-                                      const ellipsoid_surroundings *around_it,
-                                      const double x[3], const double q[4],
-                                      ellipsoid_facet_cache *cache,
-                                      ellipsoid_contact *contact,
-                                      ellipsoid_wrench_jacobian *jacobian)
+static inline ellipsoid_status
+evaluate_pose(const ellipsoid_model *model,
+              const ellipsoid_surroundings *around_it, const double x[3],
+              const double q[4], ellipsoid_facet_cache *cache,
+              ellipsoid_contact *contact, ellipsoid_wrench_jacobian *jacobian)
 {
     ellipsoid_state state = {.u = {0}};
 
@@ -70,8 +68,8 @@ static inline int assert_jacobian(const ellipsoid_model *model,
     int smooth;
 
     memcpy(y, pose, sizeof y);
-    assert_ok(evaluate_pose(model, surroundings, y, y + 3, cache,
-                                         &contact, &exact));
+    assert_ok(
+        evaluate_pose(model, surroundings, y, y + 3, cache, &contact, &exact));
     smooth = contact.deepest > 0.002 * um && contact.deepest < 0.2 * um;
     for (int k = 0; k < 7; k++)
     {
@@ -81,8 +79,8 @@ static inline int assert_jacobian(const ellipsoid_model *model,
         for (int side = -1; side <= 1; side += 2)
         {
             y[k] = middle + side * h;
-            assert_ok(evaluate_pose(model, surroundings, y, y + 3,
-                                                 cache, &moved, NULL));
+            assert_ok(evaluate_pose(model, surroundings, y, y + 3, cache,
+                                    &moved, NULL));
             smooth = smooth && moved.bead_contacts == contact.bead_contacts;
             for (int i = 0; i < 3; i++)
             {

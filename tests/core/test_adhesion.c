@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_adhesion.c - cells held at a wall by adhesion, and the rest of a heavy
     ellipsoid on it: Hertz, F = 4/3 E* sqrt(R) d^1.5 (Johnson, Contact Mechanics
     (1985), eq. 4.23) against weight, pull and adhesion.
@@ -50,10 +49,10 @@ static void advance_to(const ellipsoid_model *model,
     double t = 0;
 
     ellipsoid_facet_cache_clear(&cache);
-    assert_ok(ellipsoid_advance(
-        &(ellipsoid_member){model, surroundings, state, &controller, &cache,
-                            NULL, &statistics},
-        &t, end, NULL));
+    assert_ok(ellipsoid_advance(&(ellipsoid_member){model, surroundings, state,
+                                                    &controller, &cache, NULL,
+                                                    &statistics},
+                                &t, end, NULL));
 }
 
 /* Lying under its weight in fluid at rest; slightly tilted at first. */
@@ -97,9 +96,9 @@ static void test_pull_off_force(void **unused)
     (void)unused;
     for (int shape = 0; shape < 2; shape++)
     {
-        const ellipsoid_options options =
-            cell_of(shape ? ELLIPSOID_CONTACT_ELLIPSOID
-                          : ELLIPSOID_CONTACT_BEADS, pull);
+        const ellipsoid_options options = cell_of(
+            shape ? ELLIPSOID_CONTACT_ELLIPSOID : ELLIPSOID_CONTACT_BEADS,
+            pull);
         const ellipsoid_model model = test_model(&options);
         double strongest = 0, work = 0, q[4];
 
@@ -111,8 +110,8 @@ static void test_pull_off_force(void **unused)
             const double x[3] = {-3 * um, 1 * um, 2 * um + gap};
             ellipsoid_contact contact;
 
-            assert_ok(evaluate_pose(&model, &surroundings, x, q,
-                                                 &cache, &contact, NULL));
+            assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
+                                    &contact, NULL));
             assert_near(contact.gap, gap, 1e-20);
             strongest = fmin(strongest, contact.force[2]);
             if (n >= 0)
@@ -147,13 +146,13 @@ static void test_pulled_off(void **unused)
     (void)unused;
     for (int n = 0; n < 8; n++)
     {
-        ellipsoid_options options =
-            cell_of(n & 1 ? ELLIPSOID_CONTACT_ELLIPSOID
-                          : ELLIPSOID_CONTACT_BEADS, pull);
+        ellipsoid_options options = cell_of(n & 1 ? ELLIPSOID_CONTACT_ELLIPSOID
+                                                  : ELLIPSOID_CONTACT_BEADS,
+                                            pull);
         ellipsoid_state state = {.x = {-3 * um, 1 * um, 1.999 * um}};
 
-        options.motion = n & 4 ? ELLIPSOID_MOTION_INERTIALESS
-                               : ELLIPSOID_MOTION_INERTIAL;
+        options.motion =
+            n & 4 ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL;
         options.buoyancy = 0;
         options.external_force[2] = (n & 2 ? 1.01 : 0.99) * pull;
         orient(1, state.q);
@@ -168,8 +167,8 @@ static void test_pulled_off(void **unused)
         else
         {
             /* where Hertz bears a hundredth of the pull */
-            const double depth = pow(
-                0.01 * pull / (4.0 / 3 * 1e6 * sqrt(0.285 * um)), 2.0 / 3);
+            const double depth =
+                pow(0.01 * pull / (4.0 / 3 * 1e6 * sqrt(0.285 * um)), 2.0 / 3);
 
             assert_relative(2 * um - state.x[2], depth, 1e-4);
         }
@@ -187,9 +186,9 @@ static void test_adhesion_jacobian(void **unused)
     (void)unused;
     for (int shape = 0; shape < 2; shape++)
     {
-        ellipsoid_options options =
-            cell_of(shape ? ELLIPSOID_CONTACT_ELLIPSOID
-                          : ELLIPSOID_CONTACT_BEADS, 1e-8);
+        ellipsoid_options options = cell_of(shape ? ELLIPSOID_CONTACT_ELLIPSOID
+                                                  : ELLIPSOID_CONTACT_BEADS,
+                                            1e-8);
         uint64_t seed = 8;
         int checked = 0;
 

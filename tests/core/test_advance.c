@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_advance.c - step control: where a run ends, what it does when the
     callbacks fail, and that it can be cut and continued.
 */
@@ -68,10 +67,10 @@ static ellipsoid_status go(run *r, double end, ellipsoid_observer observer,
     const ellipsoid_surroundings around = {.flow = troubled_flow,
                                            .flow_context = &r->trouble};
 
-    return ellipsoid_advance(
-        &(ellipsoid_member){&r->model, &around, &r->state, &r->controller, NULL,
-                            context, &r->statistics},
-        &r->t, end, observer);
+    return ellipsoid_advance(&(ellipsoid_member){&r->model, &around, &r->state,
+                                                 &r->controller, NULL, context,
+                                                 &r->statistics},
+                             &r->t, end, observer);
 }
 
 /* --------------------------------------------------------------- the end */
@@ -333,15 +332,15 @@ static void test_null(void **unused)
     run r = new_run();
     const ellipsoid_surroundings around = {.flow = troubled_flow,
                                            .flow_context = &r.trouble};
-    const ellipsoid_member all = {&r.model, &around, &r.state,
-                                  &r.controller, NULL, NULL, NULL};
+    const ellipsoid_member all = {&r.model, &around, &r.state, &r.controller,
+                                  NULL,     NULL,    NULL};
     double t = 0;
 
     (void)unused;
-    assert_ok(ellipsoid_advance(
-        &(ellipsoid_member){all.model, all.surroundings, all.state,
-                            all.controller, NULL, NULL, NULL},
-        &t, 1e-4, NULL));
+    assert_ok(ellipsoid_advance(&(ellipsoid_member){all.model, all.surroundings,
+                                                    all.state, all.controller,
+                                                    NULL, NULL, NULL},
+                                &t, 1e-4, NULL));
     assert_true(t == 1e-4);
     assert_int_equal(ellipsoid_advance(NULL, &t, 2e-4, NULL),
                      ELLIPSOID_BAD_ARGUMENT);
@@ -349,11 +348,10 @@ static void test_null(void **unused)
     {
         assert_int_equal(
             ellipsoid_advance(
-                &(ellipsoid_member){n == 0 ? NULL : all.model,
-                                    n == 1 ? NULL : all.surroundings,
-                                    n == 2 ? NULL : all.state,
-                                    n == 4 ? NULL : all.controller, NULL, NULL,
-                                    NULL},
+                &(ellipsoid_member){
+                    n == 0 ? NULL : all.model, n == 1 ? NULL : all.surroundings,
+                    n == 2 ? NULL : all.state, n == 4 ? NULL : all.controller,
+                    NULL, NULL, NULL},
                 n == 3 ? NULL : &t, 2e-4, NULL),
             ELLIPSOID_BAD_ARGUMENT);
         assert_true(t == 1e-4);
@@ -394,10 +392,10 @@ static void test_passing_trouble(void **unused)
                                            .flow_context = &r.trouble};
 
     (void)unused;
-    assert_ok(ellipsoid_advance(
-        &(ellipsoid_member){&r.model, &around, &r.state, &r.controller, NULL,
-                            NULL, &r.statistics},
-        &r.t, 0.001, NULL));
+    assert_ok(ellipsoid_advance(&(ellipsoid_member){&r.model, &around, &r.state,
+                                                    &r.controller, NULL, NULL,
+                                                    &r.statistics},
+                                &r.t, 0.001, NULL));
     assert_true(r.t == 0.001);
     assert_true(r.statistics.rejected > 5);
 }

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_beadContact.c - the wall's force on one bead, against plane geometry and
     Hertz's law f = k d^1.5 (Johnson, Contact Mechanics (1985), eq. 4.23).
 
@@ -144,8 +143,8 @@ static void test_concave_corner(void **unused)
 
     (void)unused;
     assert_force(&wall, edge, pow(0.05, 1.5), 0, -pow(0.1, 1.5), 1e-15);
-    assert_force(&wall, corner, pow(0.05, 1.5), -pow(0.01, 1.5),
-                 -pow(0.1, 1.5), 1e-15);
+    assert_force(&wall, corner, pow(0.05, 1.5), -pow(0.01, 1.5), -pow(0.1, 1.5),
+                 1e-15);
     wall_mesh_free(&wall);
 }
 
@@ -335,8 +334,8 @@ static void test_energy_is_kept(void **unused)
 
             for (int i = 0; i < 3; i++)
             {
-                x[i] = middles[m][i] + 0.04 * cos(a + 2 * i)
-                     + 0.01 * sin(3 * a);
+                x[i] =
+                    middles[m][i] + 0.04 * cos(a + 2 * i) + 0.01 * sin(3 * a);
             }
             touch(&wall, x, force);
             if (s > 0)

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_beads.c - the envelope of the bead layouts against the figures that
     docs/validation.md gives for them, and what is refused.
 */
@@ -11,10 +10,10 @@
 /* What a plane, or an edge, meets on a body of beads. */
 typedef struct envelope
 {
-    double length, width;    /* along x^2; largest across it */
-    double narrowest;        /* gap between parallel plates it can pass */
-    double over, under;      /* plane against the ellipsoid's own support */
-    double valley;           /* deepest, along the ellipsoid's normal */
+    double length, width; /* along x^2; largest across it */
+    double narrowest;     /* gap between parallel plates it can pass */
+    double over, under;   /* plane against the ellipsoid's own support */
+    double valley;        /* deepest, along the ellipsoid's normal */
 } envelope;
 
 static double extent(double bead[][3], int n, const double u[3])
@@ -230,8 +229,8 @@ static void test_resized(void **unused)
         for (int l = -3; l <= 3; l++)
         {
             const double length = 4e-6 * exp(0.2 * l);
-            const ellipsoid_options other = ellipsoid_options_resized(
-                &options, length, 1e-6 * widths[w]);
+            const ellipsoid_options other =
+                ellipsoid_options_resized(&options, length, 1e-6 * widths[w]);
 
             assert_ok(ellipsoid_options_check(&other, NULL, NULL));
             assert_relative(other.semi_axes[0], 0.5e-6 * widths[w], 1e-15);

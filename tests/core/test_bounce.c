@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_bounce.c - impacts on a wall in vacuum: energy, duration, restitution.
 
     In vacuum the step control bounds errors of the velocities against the
@@ -173,12 +172,13 @@ static void test_duration(void **unused)
 
         throw_down(&r, 1, e, 0, &seed);
         start = r.state.x[2] - 1; /* the speed is 1 */
-        depth = pow(1.25 * r.model.mass
-                        / contact_stiffness(&r.model.options), 0.4);
+        depth =
+            pow(1.25 * r.model.mass / contact_stiffness(&r.model.options), 0.4);
         bounce(&r);
         end = r.t - (r.state.x[2] - 1) / r.state.u[2];
-        assert_relative(end - start, 2.87 * pow(r.model.mass * r.model.mass
-                                                    / (e * e), 0.2), 1e-3);
+        assert_relative(end - start,
+                        2.87 * pow(r.model.mass * r.model.mass / (e * e), 0.2),
+                        1e-3);
         /* integral of 2 dx/sqrt(1 - x^2.5) from 0 to 1; x errs by tolerance L
            in each of the steps of an impact */
         assert_near(end - start, 2.9432751843 * depth, 1e-5);

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_brownian.c - Brownian motion of a free cell: equilibrium and diffusion.
 */
 #include "brownianTest.h"
@@ -329,8 +328,8 @@ static void check_drift(ellipsoid_motion motion, double dt, int length,
                 if (n < followed)
                 {
                     test_sample_add(&apart[i], moved[i] - exact[i]);
-                    test_sample_add(&squares[i], moved[i] * moved[i]
-                                                     - exact[i] * exact[i]);
+                    test_sample_add(&squares[i],
+                                    moved[i] * moved[i] - exact[i] * exact[i]);
                 }
             }
         }

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_brownianPath.c - the numbers behind Brownian motion, and that a path is
     a function of them alone: not of calls, steps, restarts or other cells.
 */

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_contact.c - the walls' force and torque on a cell in one pose, and that
     the cache changes nothing but the cost.
 */
@@ -67,8 +66,8 @@ static void test_sphere_on_a_plane(void **unused)
     const double x[3] = {-2 * um, 1 * um, 0.45 * um - depth};
 
     ellipsoid_facet_cache_clear(&cache);
-    assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
-                                         &contact, NULL));
+    assert_ok(
+        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
     /* depth is 4e-7 of the radius, so it is known to 1e-9 of itself */
     assert_relative(contact.force[2], weight, 1e-8);
     assert_relative(contact.deepest, depth, 1e-8);
@@ -98,16 +97,16 @@ static void test_standing_and_lying(void **unused)
     (void)unused;
     ellipsoid_facet_cache_clear(&cache);
     ellipsoid_quaternion_from_axis(up, 0.3, q);
-    assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
-                                         &contact, NULL));
+    assert_ok(
+        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
     assert_int_equal(contact.bead_contacts, 1);
     assert_relative(contact.force[2], k * pow(1e-9, 1.5), 1e-6);
     assert_near(contact.torque[0], 0, 1e-9 * contact.force[2] * um);
 
     lay(q, 0.7);
     x[2] = 0.5 * um;
-    assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
-                                         &contact, NULL));
+    assert_ok(
+        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
     assert_true(contact.gap > -0.03 * um && contact.gap < 0.06 * um);
     wall_mesh_free(&mesh);
 }
@@ -170,8 +169,8 @@ static void test_sum_over_beads(void **unused)
         double x[3], q[4];
 
         random_pose(&seed, x, q);
-        assert_ok(evaluate_pose(&model, &surroundings, x, q,
-                                             &cache, &contact, NULL));
+        assert_ok(
+            evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
         assert_sum(&model, &mesh, x, q, &contact);
         touched += contact.bead_contacts > 0;
     }
@@ -199,8 +198,8 @@ static void test_cache_changes_nothing(void **unused)
     for (int run = 0; run < 3; run++)
     {
         options.bead_count = run == 1 ? 128 : 32;
-        options.contact_shape = run == 2 ? ELLIPSOID_CONTACT_ELLIPSOID
-                                         : ELLIPSOID_CONTACT_BEADS;
+        options.contact_shape =
+            run == 2 ? ELLIPSOID_CONTACT_ELLIPSOID : ELLIPSOID_CONTACT_BEADS;
 
         const ellipsoid_model model = test_model(&options);
 
@@ -226,10 +225,10 @@ static void test_cache_changes_nothing(void **unused)
                     q[i] += 0.005 * test_signed(&seed);
                 }
                 ellipsoid_facet_cache_clear(&fresh);
-                assert_ok(evaluate_pose(&model, &surroundings, x,
-                                                     q, &kept, &a, &ja));
-                assert_ok(evaluate_pose(&model, &emptied, x, q,
-                                                     &fresh, &b, &jb));
+                assert_ok(
+                    evaluate_pose(&model, &surroundings, x, q, &kept, &a, &ja));
+                assert_ok(
+                    evaluate_pose(&model, &emptied, x, q, &fresh, &b, &jb));
                 assert_memory_equal(&a, &b, sizeof a);
                 assert_memory_equal(&ja, &jb, sizeof ja);
                 touched += a.bead_contacts > 0;
@@ -295,8 +294,8 @@ static void test_far_from_walls(void **unused)
     {
         ellipsoid_contact contact;
 
-        assert_ok(evaluate_pose(&model, &surroundings, x, q,
-                                             &cache, &contact, NULL));
+        assert_ok(
+            evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
         assert_true(contact.gap == options.bead_radius);
         assert_int_equal(contact.bead_contacts, 0);
         assert_true(ellipsoid_dot(contact.force, contact.force) == 0);
@@ -310,8 +309,8 @@ static void test_far_from_walls(void **unused)
     {
         ellipsoid_contact contact;
 
-        assert_ok(evaluate_pose(&model, &surroundings, x, q,
-                                             &cache, &contact, NULL));
+        assert_ok(
+            evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
     }
     assert_true(walls.calls < 8);
     wall_mesh_free(&mesh);
@@ -397,9 +396,8 @@ static void test_no_walls(void **unused)
     {
         const ellipsoid_model model = test_model(&options);
 
-        assert_ok(evaluate_pose(
-            &model, options.contact ? &without : &with, x, q, NULL, &contact,
-            &jacobian));
+        assert_ok(evaluate_pose(&model, options.contact ? &without : &with, x,
+                                q, NULL, &contact, &jacobian));
         assert_true(contact.gap == HUGE_VAL);
         assert_true(contact.deepest == 0);
         assert_true(ellipsoid_dot(contact.force, contact.force) == 0);
@@ -425,25 +423,25 @@ static void test_failures_have_names(void **unused)
     (void)unused;
     ellipsoid_facet_cache_clear(&cache);
     walls.answer = 1;
-    assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
-                                                &cache, &contact, NULL),
-                     ELLIPSOID_STEP_UNDERFLOW);
+    assert_int_equal(
+        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL),
+        ELLIPSOID_STEP_UNDERFLOW);
     walls.answer = -1;
-    assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
-                                                &cache, &contact, NULL),
-                     ELLIPSOID_WALLS_FAILED);
+    assert_int_equal(
+        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL),
+        ELLIPSOID_WALLS_FAILED);
     walls.answer = 0;
     x[1] = NAN;
-    assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
-                                                &cache, &contact, NULL),
-                     ELLIPSOID_NON_FINITE);
+    assert_int_equal(
+        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL),
+        ELLIPSOID_NON_FINITE);
     x[1] = 0;
     mesh.facets[0].middle[2] = INFINITY;
     walls.farther = 100 * um;
     ellipsoid_facet_cache_clear(&cache);
-    assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
-                                                &cache, &contact, NULL),
-                     ELLIPSOID_NON_FINITE);
+    assert_int_equal(
+        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL),
+        ELLIPSOID_NON_FINITE);
     wall_mesh_free(&mesh);
 
     /* facets of 10 nm: smaller margins, and then too many */
@@ -453,22 +451,22 @@ static void test_failures_have_names(void **unused)
     walls.farther = 0;
     lay(q, 0.1);
     ellipsoid_facet_cache_clear(&cache);
-    assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
-                                         &contact, NULL));
+    assert_ok(
+        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
     /* nor does a cache that holds facets take it for a pose near its own */
     x[1] = NAN;
-    assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
-                                                &cache, &contact, NULL),
-                     ELLIPSOID_NON_FINITE);
+    assert_int_equal(
+        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL),
+        ELLIPSOID_NON_FINITE);
     x[1] = 0;
     wall_mesh_free(&mesh);
     wall_mesh_init(&mesh);
     wall_mesh_plane(&mesh, corner, u, v, 4, 40000, 0, 0);
     wall_mesh_finish(&mesh);
     ellipsoid_facet_cache_clear(&cache);
-    assert_int_equal(evaluate_pose(&model, &surroundings, x, q,
-                                                &cache, &contact, NULL),
-                     ELLIPSOID_TOO_MANY_FACETS);
+    assert_int_equal(
+        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL),
+        ELLIPSOID_TOO_MANY_FACETS);
     wall_mesh_free(&mesh);
 }
 
@@ -491,8 +489,8 @@ static void test_touched_surfaces(void **unused)
     (void)unused;
     ellipsoid_facet_cache_clear(&cache);
     ellipsoid_quaternion_from_axis(across, 0, q);
-    assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
-                                         &contact, NULL));
+    assert_ok(
+        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
     assert_int_equal(contact.surface_count, 2);
     assert_int_equal(contact.surface[0] + contact.surface[1], 3);
     assert_true(contact.bead_contacts > 2);

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_contactJacobian.c - the Jacobian of a group of cells in contact with
     walls and with one another, friction, damping and adhesion included.
 
@@ -35,9 +34,10 @@ typedef struct scene
 static void set_scene(scene *s, const ellipsoid_options options[CELLS],
                       test_quadratic *flow, wall_mesh *mesh)
 {
-    s->around = (ellipsoid_surroundings){
-        .flow = test_quadratic_flow, .flow_context = flow,
-        .walls = wall_mesh_list, .walls_context = mesh};
+    s->around = (ellipsoid_surroundings){.flow = test_quadratic_flow,
+                                         .flow_context = flow,
+                                         .walls = wall_mesh_list,
+                                         .walls_context = mesh};
     s->memory = malloc(ellipsoid_group_size(CELLS));
     ellipsoid_group_lay_out(CELLS, s->memory, &s->group, &s->pairs);
     s->group.inertial = 1;
@@ -47,11 +47,11 @@ static void set_scene(scene *s, const ellipsoid_options options[CELLS],
         s->model[c] = test_model(&options[c]);
         ellipsoid_facet_cache_clear(&s->cache[c]);
         s->group.cell[c] = (ellipsoid_cell){.model = &s->model[c],
-                                               .surroundings = s->around,
-                                               .cache = &s->cache[c],
-                                               .statistics = &s->statistics,
-                                               .inertial = 1,
-                                               .walls = 1};
+                                            .surroundings = s->around,
+                                            .cache = &s->cache[c],
+                                            .statistics = &s->statistics,
+                                            .inertial = 1,
+                                            .walls = 1};
     }
 }
 
@@ -62,8 +62,7 @@ static void accelerations(scene *s, double all[6 * CELLS], int touching[CELLS])
     for (int c = 0; c < CELLS; c++)
     {
         memcpy(all + 6 * c, s->point[c].derivative.u, 3 * sizeof(*all));
-        memcpy(all + 6 * c + 3, s->point[c].derivative.omega,
-               3 * sizeof(*all));
+        memcpy(all + 6 * c + 3, s->point[c].derivative.omega, 3 * sizeof(*all));
         touching[c] = s->point[c].contact.bead_contacts;
     }
 }

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_contactLaw.c - the normal force as a function of the gap, friction and
     damping, and what two unequal cells have between them.
 */
@@ -154,7 +153,7 @@ static void test_the_law_takes_power(void **unused)
     for (int n = 0; n < 10000; n++)
     {
         const ellipsoid_friction_law law = {2 * test_uniform(&seed), 0.1,
-                                           2 * test_uniform(&seed)};
+                                            2 * test_uniform(&seed)};
         double push[3], velocity[3];
         ellipsoid_traction t;
 
@@ -221,8 +220,7 @@ static void test_unequal_cells(void **unused)
         speed = fmax(slip_speed[0], slip_speed[1]);
         normal = 4.0 / 3 * 50 * sqrt(0.5) * pow(overlap, 1.5)
                * (1 - 1.5 * 0.5 * (damping[0] + damping[1]) * parting);
-        tangential =
-            -mu * normal * slip / sqrt(slip * slip + speed * speed);
+        tangential = -mu * normal * slip / sqrt(slip * slip + speed * speed);
         for (int n = 0; n < 2; n++)
         {
             const double sign = n == 0 ? 1 : -1;

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_electric.c - charges and dipoles in electric fields: F_E = charge E,
     T_E = dipole x E.
 */
@@ -69,10 +68,10 @@ static ellipsoid_state advance(const ellipsoid_model *m,
     ellipsoid_statistics statistics = {0};
     double t = 0;
 
-    assert_ok(ellipsoid_advance(
-        &(ellipsoid_member){m, surroundings, &s, &controller, NULL, NULL,
-                            &statistics},
-        &t, end, NULL));
+    assert_ok(
+        ellipsoid_advance(&(ellipsoid_member){m, surroundings, &s, &controller,
+                                              NULL, NULL, &statistics},
+                          &t, end, NULL));
     return s;
 }
 
@@ -377,11 +376,11 @@ static void test_statuses(void **unused)
 
     field.u[1] = 0;
     s.field = ending_field;
-    assert_int_equal(ellipsoid_advance(
-        &(ellipsoid_member){&m, &s, &state, &controller, NULL, NULL,
-                            &statistics},
-        &t, 1e3, NULL),
-                     ELLIPSOID_STEP_UNDERFLOW);
+    assert_int_equal(
+        ellipsoid_advance(&(ellipsoid_member){&m, &s, &state, &controller, NULL,
+                                              NULL, &statistics},
+                          &t, 1e3, NULL),
+        ELLIPSOID_STEP_UNDERFLOW);
     assert_true(state.x[0] <= 1 && state.x[0] > 1 - 1e-12);
     assert_relative(t, sqrt(2 * m.mass), 1e-12);
 }

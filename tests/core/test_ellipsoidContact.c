@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_ellipsoidContact.c - the walls' force on the ellipsoid itself: against the force
     on a bead where it is a sphere, against geometry, and against brute force.
 */
@@ -94,12 +93,12 @@ static void test_sphere_is_a_bead(void **unused)
             for (int i = 0; i < 3; i++)
             {
                 x[i] = ground == 2 ? 1.7 * test_signed(&seed)
-                       : i == 2    ? 0.6 + 0.9 * test_uniform(&seed)
+                     : i == 2      ? 0.6 + 0.9 * test_uniform(&seed)
                                    : 12 + 16 * test_uniform(&seed);
             }
             test_orientation(&seed, q);
-            assert_ok(evaluate_pose(&model, &surroundings, x, q,
-                                                 &cache, &contact, &jacobian));
+            assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache,
+                                    &contact, &jacobian));
             ellipsoid_bead_force(x, r, 1, &facets, force, force_x);
             count_kinds(&model, &wall, x, q, &found);
             touching += contact.bead_contacts;
@@ -133,8 +132,7 @@ static void test_sphere_is_a_bead(void **unused)
 */
 static void test_lying_standing_tilted(void **unused)
 {
-    const ellipsoid_options options =
-        exact_options(0.5 * um, 2 * um, 0.8 * um);
+    const ellipsoid_options options = exact_options(0.5 * um, 2 * um, 0.8 * um);
     const ellipsoid_model model = test_model(&options);
     wall_mesh mesh = room_of(0);
     const ellipsoid_surroundings surroundings = inside(&mesh);
@@ -157,8 +155,8 @@ static void test_lying_standing_tilted(void **unused)
         ellipsoid_rotation(q, rotation);
 
         const double *up = rotation[2]; /* z in the body frame */
-        const double h = sqrt(pow(a * up[0], 2) + pow(b * up[1], 2)
-                              + pow(c * up[2], 2));
+        const double h =
+            sqrt(pow(a * up[0], 2) + pow(b * up[1], 2) + pow(c * up[2], 2));
         const double x[3] = {-2 * um, 1 * um, h - depth};
         const double f = stiffness_of(&options) * pow(depth, 1.5);
         const double arm[3] = {-a * a * up[0] / h, -b * b * up[1] / h,
@@ -167,8 +165,8 @@ static void test_lying_standing_tilted(void **unused)
         double torque[3];
 
         ellipsoid_cross(arm, force, torque);
-        assert_ok(evaluate_pose(&model, &surroundings, x, q,
-                                             &cache, &contact, NULL));
+        assert_ok(
+            evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
         assert_int_equal(contact.bead_contacts, 1);
         assert_int_equal(contact.surface_count, 1);
         assert_int_equal(contact.surface[0], 1);
@@ -189,8 +187,8 @@ static void test_lying_standing_tilted(void **unused)
 }
 
 /* n.d - h(n) for n along v, which becomes of length one */
-static double tried_direction(const ellipsoid_surface *body,
-                              const double d[3], double v[3])
+static double tried_direction(const ellipsoid_surface *body, const double d[3],
+                              double v[3])
 {
     const double length = sqrt(ellipsoid_dot(v, v));
     double squared = 0;
@@ -214,8 +212,8 @@ static double tried_direction(const ellipsoid_surface *body,
 
 /* Signed distance of a point from the ellipsoid by trial: the best direction of
    a coarse lattice, then ever smaller changes of it. */
-static double tried_distance(const ellipsoid_surface *body,
-                             const double w[3], double n[3])
+static double tried_distance(const ellipsoid_surface *body, const double w[3],
+                             double n[3])
 {
     double d[3], best = -HUGE_VAL, size = 0.3;
 
@@ -356,8 +354,8 @@ static void test_edge_and_corner_by_trial(void **unused)
         const double f = d < 0 ? pow(-d, 1.5) : 0;
 
         ellipsoid_facet_cache_clear(&cache);
-        assert_ok(evaluate_pose(&model, &surroundings, x, q,
-                                             &cache, &contact, NULL));
+        assert_ok(
+            evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
         assert_near(contact.gap, d, 1e-9);
         for (int i = 0; i < 3; i++)
         {
@@ -373,8 +371,7 @@ static void test_edge_and_corner_by_trial(void **unused)
    another way. */
 static void test_gap_agrees_with_overlap(void **unused)
 {
-    const ellipsoid_options options =
-        exact_options(0.5 * um, 2 * um, 0.8 * um);
+    const ellipsoid_options options = exact_options(0.5 * um, 2 * um, 0.8 * um);
     const ellipsoid_model model = test_model(&options);
     wall_mesh mesh = room_of(1);
     const ellipsoid_surroundings surroundings = inside(&mesh);
@@ -396,10 +393,10 @@ static void test_gap_agrees_with_overlap(void **unused)
         {
             continue; /* within the ridge */
         }
-        assert_ok(evaluate_pose(&model, &surroundings, x, q,
-                                             &cache, &contact, NULL));
-        assert_ok(ellipsoid_overlaps_walls(&model, &surroundings, x, q,
-                                           &overlaps));
+        assert_ok(
+            evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
+        assert_ok(
+            ellipsoid_overlaps_walls(&model, &surroundings, x, q, &overlaps));
         assert_int_equal(contact.gap < 0, overlaps);
         cut += overlaps;
     }
@@ -543,8 +540,8 @@ static void test_no_contact_beyond_the_body(void **unused)
     count_kinds(&model, &wall, x, q, &found);
     assert_int_equal(found.face + found.edge + found.vertex, 0);
     ellipsoid_facet_cache_clear(&cache);
-    assert_ok(evaluate_pose(&model, &surroundings, x, q, &cache, &contact,
-                            NULL));
+    assert_ok(
+        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
     assert_int_equal(contact.bead_contacts, 0);
     assert_true(contact.gap > 0);
     wall_mesh_free(&wall);
@@ -553,8 +550,7 @@ static void test_no_contact_beyond_the_body(void **unused)
 /* All kinds of contacts, alone and mixed. */
 static void test_exact_jacobian(void **unused)
 {
-    const ellipsoid_options options =
-        exact_options(0.5 * um, 2 * um, 0.8 * um);
+    const ellipsoid_options options = exact_options(0.5 * um, 2 * um, 0.8 * um);
     const ellipsoid_model model = test_model(&options);
     wall_mesh mesh = room_of(0);
     const ellipsoid_surroundings surroundings = inside(&mesh);

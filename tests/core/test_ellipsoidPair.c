@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_ellipsoidPair.c - depth and distance of two ellipsoids, and derivatives.
 */
 #include "coreTest.h"
@@ -47,8 +46,8 @@ static double phi(const ellipsoid_surface *a, const ellipsoid_surface *b,
 
 /* The least phi on the sphere by search: 3000 directions, then ever finer about
    the best, to 1e-8 in direction, which leaves 1e-15 in phi. */
-static double searched(const ellipsoid_surface *a,
-                       const ellipsoid_surface *b, uint64_t *seed)
+static double searched(const ellipsoid_surface *a, const ellipsoid_surface *b,
+                       uint64_t *seed)
 {
     double best[3] = {1, 0, 0}, least = HUGE_VAL;
 
@@ -129,7 +128,7 @@ static void test_against_search(void **unused)
 
 /* Turns a body about the lab's axis k, or moves it along. */
 static ellipsoid_surface changed(const ellipsoid_surface *body, int k,
-                                    double by)
+                                 double by)
 {
     ellipsoid_surface result;
     double x[3], q[4];
@@ -188,7 +187,7 @@ static void test_derivatives(void **unused)
                     k < 6 ? changed(&a, k, by) : changed(&b, k - 3, by);
 
                 ellipsoid_surface_pair_set(k < 6 ? &moved : &a,
-                                         k < 6 ? &b : &moved, 0, &side[s]);
+                                           k < 6 ? &b : &moved, 0, &side[s]);
             }
             assert_near((side[1].depth - side[0].depth) / (2 * h),
                         pair.depth_slope[k], 1e-8);

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_ellipsoidSeams.c - the walls' force on the ellipsoid itself does not depend
     on how they are cut and does not jump over seams, edges and corners.
 
@@ -33,8 +32,7 @@ static void evaluate(const ellipsoid_model *model, wall_mesh *wall,
     const ellipsoid_surroundings surroundings = {.walls = wall_mesh_list,
                                                  .walls_context = wall};
 
-    assert_ok(evaluate_pose(model, &surroundings, x, q, &cache,
-                                         contact, NULL));
+    assert_ok(evaluate_pose(model, &surroundings, x, q, &cache, contact, NULL));
 }
 
 /* Three cuts of one floor, over seams and vertices. */
@@ -140,7 +138,7 @@ static double largest_change(const ellipsoid_model *model, wall_mesh *wall,
         if (s > 0)
         {
             worst = fmax(worst, distance(contact.force, before.force)
-                              + distance(contact.torque, before.torque));
+                                    + distance(contact.torque, before.torque));
         }
         before = contact;
     }
@@ -179,10 +177,14 @@ static wall_mesh block_of(void)
    factor of four but for what kinks leave; a jump would stay. */
 static void test_nothing_jumps(void **unused)
 {
-    wall_mesh walls[] = {wedge_of(-0.3, 4, 2), wedge_of(-0.02, 4, 2),
-                         wedge_of(0.005, 4, 2), wedge_of(0.05, 4, 2),
-                         wedge_of(0.3, 4, 2), wedge_of(0.7, 4, 2),
-                         slit_of(), block_of()};
+    wall_mesh walls[] = {wedge_of(-0.3, 4, 2),
+                         wedge_of(-0.02, 4, 2),
+                         wedge_of(0.005, 4, 2),
+                         wedge_of(0.05, 4, 2),
+                         wedge_of(0.3, 4, 2),
+                         wedge_of(0.7, 4, 2),
+                         slit_of(),
+                         block_of()};
     const double span[2] = {-0.2, 0.2};
 
     (void)unused;
@@ -193,10 +195,10 @@ static void test_nothing_jumps(void **unused)
             const ellipsoid_model model = cell_of(n % 2 ? 0.0003 : 0);
             const double angle[2] = {0.5 * (n / 2), n % 4 < 2 ? 0 : 0.4};
             const double depth = n % 3 ? 0.003 : 0.01;
-            const double coarse = largest_change(&model, &walls[w], angle, span,
-                                                 depth, 500);
-            const double fine = largest_change(&model, &walls[w], angle, span,
-                                               depth, 2000);
+            const double coarse =
+                largest_change(&model, &walls[w], angle, span, depth, 500);
+            const double fine =
+                largest_change(&model, &walls[w], angle, span, depth, 2000);
 
             assert_true(coarse > 0 && fine < 0.5 * coarse);
         }

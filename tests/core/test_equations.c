@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_equations.c - the right-hand side and its Jacobian.
 */
 #include "coreTest.h"
@@ -99,8 +98,8 @@ static int curved_field(void *context, double t, const double x[3],
 
 static ellipsoid_surroundings without_walls(test_quadratic *flow)
 {
-    const ellipsoid_surroundings around = {.flow =
-                                               flow ? test_quadratic_flow : NULL,
+    const ellipsoid_surroundings around = {.flow = flow ? test_quadratic_flow
+                                                        : NULL,
                                            .flow_context = flow,
                                            .field = curved_field};
 
@@ -124,8 +123,7 @@ static void compare_jacobian(const ellipsoid_model *model, test_quadratic *flow,
                              const ellipsoid_state *state)
 {
     const ellipsoid_surroundings around = without_walls(flow);
-    static const int begin[] = {AT_U, AT_X, AT_OMEGA,
-                                AT_Q, SIZE};
+    static const int begin[] = {AT_U, AT_X, AT_OMEGA, AT_Q, SIZE};
     double jacobian[SIZE][SIZE], differences[SIZE][SIZE];
     const double h = 0.01;
 
@@ -338,9 +336,8 @@ static void test_written_out(void **unused)
 
         for (int i = 0; i < 3; i++)
         {
-            double force =
-                (m.mass - m.fluid_mass) * o->gravity[i] + o->external_force[i]
-                + o->charge * field[i];
+            double force = (m.mass - m.fluid_mass) * o->gravity[i]
+                         + o->external_force[i] + o->charge * field[i];
 
             for (int j = 0; j < 3; j++)
             {
@@ -376,9 +373,8 @@ static void test_written_out(void **unused)
             const double torque =
                 c * ((aj2 - ak2) * strain + (aj2 + ak2) * (turn - s.omega[i]))
                 + m.inertia[j] * s.omega[j] * s.omega[k]
-                - m.inertia[k] * s.omega[k] * s.omega[j]
-                + o->external_torque[i] + o->dipole[j] * in_body[k]
-                - o->dipole[k] * in_body[j];
+                - m.inertia[k] * s.omega[k] * s.omega[j] + o->external_torque[i]
+                + o->dipole[j] * in_body[k] - o->dipole[k] * in_body[j];
 
             assert_near(f[6 + i], torque / m.inertia[i],
                         1e-12 * (1 + fabs(f[6 + i])));

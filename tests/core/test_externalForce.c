@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_externalForce.c - an external force and torque by callback against
     closed forms, and its derivatives against differences.
 */
@@ -59,8 +58,7 @@ static int trap_force(void *context, double t, const ellipsoid_state *state,
     for (int n = 0; jacobian && n < 4; n++)
     {
         jacobian->torque_q[0][n] =
-            p->align
-            * (d[n][1][1] * axis[2][1] + axis[1][1] * d[n][2][1]);
+            p->align * (d[n][1][1] * axis[2][1] + axis[1][1] * d[n][2][1]);
         jacobian->torque_q[2][n] =
             -p->align * (d[n][1][1] * axis[0][1] + axis[1][1] * d[n][0][1]);
     }
@@ -84,12 +82,12 @@ static ellipsoid_options body(ellipsoid_motion motion, double tolerance)
 
 static ellipsoid_surroundings around_of(trap *p, test_quadratic *flow)
 {
-    return (ellipsoid_surroundings){
-        .flow = flow ? test_quadratic_flow : NULL,
-        .flow_context = flow,
-        .force = trap_force,
-        .force_context = p,
-        .force_depends_on_velocity = p->friction > 0};
+    return (ellipsoid_surroundings){.flow = flow ? test_quadratic_flow : NULL,
+                                    .flow_context = flow,
+                                    .force = trap_force,
+                                    .force_context = p,
+                                    .force_depends_on_velocity =
+                                        p->friction > 0};
 }
 
 static ellipsoid_status advance(const ellipsoid_model *model,
@@ -100,10 +98,9 @@ static ellipsoid_status advance(const ellipsoid_model *model,
     ellipsoid_statistics statistics = {0};
     double t = 0;
 
-    return ellipsoid_advance(
-        &(ellipsoid_member){model, around, s, &controller, NULL, NULL,
-                            &statistics},
-        &t, end, NULL);
+    return ellipsoid_advance(&(ellipsoid_member){model, around, s, &controller,
+                                                 NULL, NULL, &statistics},
+                             &t, end, NULL);
 }
 
 /* ------------------------------------------------------------ closed forms */
@@ -271,8 +268,8 @@ static void check_group(ellipsoid_motion motion)
                                         &statistics[c]};
         around[c].id = (uint32_t)c;
     }
-    assert_ok(ellipsoid_advance_group(2, members, &t, 200, NULL, memory,
-                                      &which));
+    assert_ok(
+        ellipsoid_advance_group(2, members, &t, 200, NULL, memory, &which));
     test_free(memory);
 
     /* r_b/2, E/2; F = 4/3 E sqrt(r) d^(3/2) */
@@ -320,13 +317,13 @@ static int general_force(void *context, double t, const ellipsoid_state *state,
 
                 *(n < AT_X       ? row < 3 ? &jacobian->force_u[i][n]
                                            : &jacobian->torque_u[i][n]
-                  : n < AT_OMEGA ? row < 3 ? &jacobian->force_x[i][n - AT_X]
-                                           : &jacobian->torque_x[i][n - AT_X]
-                  : n < AT_Q
-                      ? row < 3 ? &jacobian->force_omega[i][n - AT_OMEGA]
-                                : &jacobian->torque_omega[i][n - AT_OMEGA]
-                  : row < 3 ? &jacobian->force_q[i][n - AT_Q]
-                            : &jacobian->torque_q[i][n - AT_Q]) = slope;
+                        : n < AT_OMEGA ? row < 3 ? &jacobian->force_x[i][n - AT_X]
+                                                 : &jacobian->torque_x[i][n - AT_X]
+                        : n < AT_Q ? row < 3
+                                       ? &jacobian->force_omega[i][n - AT_OMEGA]
+                                       : &jacobian->torque_omega[i][n - AT_OMEGA]
+                        : row < 3 ? &jacobian->force_q[i][n - AT_Q]
+                                 : &jacobian->torque_q[i][n - AT_Q]) = slope;
             }
         }
     }
@@ -409,9 +406,9 @@ static void test_answers(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_trap),       cmocka_unit_test(test_vacuum),
-        cmocka_unit_test(test_alignment),  cmocka_unit_test(test_dissipative),
-        cmocka_unit_test(test_group),      cmocka_unit_test(test_jacobian),
+        cmocka_unit_test(test_trap),      cmocka_unit_test(test_vacuum),
+        cmocka_unit_test(test_alignment), cmocka_unit_test(test_dissipative),
+        cmocka_unit_test(test_group),     cmocka_unit_test(test_jacobian),
         cmocka_unit_test(test_answers),
     };
 

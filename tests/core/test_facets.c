@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_facets.c - facets that meet at an edge, two or many, and walls cut into
     facets of any size: the force on a bead is that of the wall, by plane
     geometry and Hertz's law f = d^1.5.
@@ -57,10 +56,10 @@ static void test_sheets_about_an_edge(void **unused)
         {
             const double left = angle[0] + 2 * test_pi - angle[s - 1];
 
-            angle[s] = s == sheets ? angle[0] + 2 * test_pi
-                                   : angle[s - 1]
-                                         + left * (0.2 + 0.4
-                                                   * test_uniform(&seed));
+            angle[s] =
+                s == sheets
+                    ? angle[0] + 2 * test_pi
+                    : angle[s - 1] + left * (0.2 + 0.4 * test_uniform(&seed));
         }
         wall_mesh_init(&all);
         for (int s = 0; s < 2 * sheets; s++)
@@ -81,11 +80,11 @@ static void test_sheets_about_an_edge(void **unused)
             for (int p = 0; p < 20; p++)
             {
                 const double between = angle[s + 1] - angle[s];
-                const double a = angle[s]
-                               + between * (0.05 + 0.9 * test_uniform(&seed));
+                const double a =
+                    angle[s] + between * (0.05 + 0.9 * test_uniform(&seed));
                 const double nearest =
-                    fmin(1, sin(fmin(test_pi / 2, fmin(a - angle[s],
-                                                       angle[s + 1] - a))));
+                    fmin(1, sin(fmin(test_pi / 2,
+                                     fmin(a - angle[s], angle[s + 1] - a))));
                 const double far = (1 - deep * test_signed(&seed)) / nearest;
                 const double x[3] = {far * cos(a), test_signed(&seed),
                                      far * sin(a)};
@@ -264,7 +263,7 @@ static wall_mesh wall_of(int faces, int fluid, const cuts list[3], int diagonal,
     }
     for (int f = 0; f < mesh.count; f++)
     {
-        double (*vertex)[3] = mesh.facets[f].vertex, last[3];
+        double(*vertex)[3] = mesh.facets[f].vertex, last[3];
 
         for (int k = 0; k < 3; k++)
         {
@@ -341,10 +340,10 @@ static void place(int faces, int fluid, uint64_t *seed, double x[3])
     size = sqrt(ellipsoid_dot(away, away));
     for (int i = 0; i < 3; i++)
     {
-        x[i] = i >= faces    ? 0.2 * test_signed(seed)
-               : fluid > 0   ? 1 - deep * test_signed(seed)
-               : away[i] > 0 ? -far * away[i] / size
-                             : 0.3 * test_uniform(seed);
+        x[i] = i >= faces  ? 0.2 * test_signed(seed)
+             : fluid > 0   ? 1 - deep * test_signed(seed)
+             : away[i] > 0 ? -far * away[i] / size
+                           : 0.3 * test_uniform(seed);
         if (test_uniform(seed) < 0.3 && away[i] < size)
         {
             x[i] = 0.01 * round(100 * x[i]);
@@ -390,8 +389,8 @@ static void test_however_cut(void **unused)
                 for (int i = 0; i < 3; i++)
                 {
                     /* edges go on both ways, a plane all round */
-                    list[i] = cuts_of(i >= faces, ways[way].size,
-                                      ways[way].step[i]);
+                    list[i] =
+                        cuts_of(i >= faces, ways[way].size, ways[way].step[i]);
                 }
                 if (ways[way].size < metre)
                 {

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_faxen.c - the flow over the body: quadrature and Faxen's laws.
 */
 #include "coreTest.h"
@@ -291,9 +290,8 @@ static int shear_above(void *context, double t, const double x[3],
 static int calls;
 
 static int velocities_above(void *context, double t, const double centre[3],
-                            int count,
-                            double (*points)[3], double (*velocity)[3],
-                            double (*jacobian)[3][3])
+                            int count, double (*points)[3],
+                            double (*velocity)[3], double (*jacobian)[3][3])
 {
     (void)t;
     (void)context;
@@ -422,13 +420,15 @@ static long through_vortices(vortices *v, const passage *by, ellipsoid_state *s)
 {
     ellipsoid_model m = body(0.5e-6, 2e-6, 0.5e-6, 26);
     ellipsoid_options o = m.options;
-    const ellipsoid_surroundings around = {
-        .flow = in_vortices, .flow_context = v, .piecewise = by->piecewise,
-        .velocities = velocities_in_vortices};
+    const ellipsoid_surroundings around = {.flow = in_vortices,
+                                           .flow_context = v,
+                                           .piecewise = by->piecewise,
+                                           .velocities =
+                                               velocities_in_vortices};
     ellipsoid_controller controller = {0};
     ellipsoid_statistics statistics = {0};
-    const ellipsoid_member member = {&m, &around, s, &controller,
-                                     NULL, NULL, &statistics};
+    const ellipsoid_member member = {&m,   &around, s,          &controller,
+                                     NULL, NULL,    &statistics};
     ellipsoid_status status = ELLIPSOID_STOPPED;
     double t = 0;
 

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_forceBalance.c - velocities that balance friction and damping as well: of a
     cell, of two, without inertia and over the layer of the noise.
 */
@@ -79,8 +78,8 @@ static void test_nothing_is_left(void **unused)
         assert_ok(ellipsoid_balance(&r.model, &r.around, &r.state, &r.cache));
         assert_ok(ellipsoid_balance(&r.model, &r.around, &other, &r.cache));
         assert_memory_equal(&other, &r.state, sizeof(other));
-        assert_ok(ellipsoid_rhs(&r.model, &r.around, &r.state, &r.cache,
-                                &slope));
+        assert_ok(
+            ellipsoid_rhs(&r.model, &r.around, &r.state, &r.cache, &slope));
         contact = contact_now(&r);
         size = ellipsoid_length(contact.force) + 1e-12;
         for (int i = 0; i < 3; i++)
@@ -160,8 +159,8 @@ static void test_two_cells(void **unused)
     }
     for (int k = 0; k < 2; k++)
     {
-        const ellipsoid_options o = rough_cell(
-            k ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL);
+        const ellipsoid_options o = rough_cell(k ? ELLIPSOID_MOTION_INERTIALESS
+                                                 : ELLIPSOID_MOTION_INERTIAL);
         const ellipsoid_model model = test_model(&o);
         ellipsoid_surroundings around[2];
         ellipsoid_controller controller[2] = {{0}};
@@ -182,8 +181,8 @@ static void test_two_cells(void **unused)
             ellipsoid_quaternion_from_axis(axis, 0.2, s->q);
             ellipsoid_set(s->x, 0.1 * um, (n ? 0.6 : -0.6) * um, 0);
             members[n] = (ellipsoid_member){
-                &model, &around[n], s, &controller[n], NULL, &touching,
-                &statistics[n]};
+                &model,    &around[n],    s, &controller[n], NULL,
+                &touching, &statistics[n]};
         }
         assert_ok(ellipsoid_advance_group(2, members, &t, 0.02, note_touch,
                                           memory, &which));

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_friction.c - bodies that roll, slide, stick and stand with friction,
     and what that costs.
 */
@@ -101,8 +100,8 @@ static void test_ellipsoid_on_an_incline(void **unused)
         double weight, drag_x, drag_z, speed, axis[3];
 
         o.contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;
-        o.motion = n % 2 ? ELLIPSOID_MOTION_INERTIALESS
-                         : ELLIPSOID_MOTION_INERTIAL;
+        o.motion =
+            n % 2 ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL;
         o.friction = mu;
         o.slip_speed = 1e-9;
         ellipsoid_set(o.gravity, 1e4 * s, 0, -1e4 * c);
@@ -116,8 +115,8 @@ static void test_ellipsoid_on_an_incline(void **unused)
         assert_relative(fabs(axis[2] / axis[0]), tilt, 1e-3);
         drag_x = r.model.resistance[1] * axis[0] * axis[0]
                + r.model.resistance[0] * axis[2] * axis[2];
-        drag_z = (r.model.resistance[1] - r.model.resistance[0]) * axis[0]
-               * axis[2];
+        drag_z =
+            (r.model.resistance[1] - r.model.resistance[0]) * axis[0] * axis[2];
         speed = stays ? o.slip_speed * s / sqrt(mu * mu * c * c - s * s)
                       : weight * (s - mu * c)
                             / (r.model.viscosity * (drag_x + mu * drag_z));

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_group.c - several cells as one system: contact between them, its
     derivatives, the coupled linear system.
 */
@@ -91,8 +90,8 @@ static void test_equal_and_opposite(void **unused)
 
             test_add_moment(&c.state[i], contact, moment);
             ellipsoid_cross(c.state[i].x, contact->cell_force, arm);
-            size += ellipsoid_length(contact->cell_torque)
-                  + ellipsoid_length(arm);
+            size +=
+                ellipsoid_length(contact->cell_torque) + ellipsoid_length(arm);
             assert_int_equal(contact->cell_count, 1);
             assert_int_equal(contact->cell_id[0], 101 - i);
             assert_near(contact->cell_deepest, 2e-8, 1e-12);
@@ -222,9 +221,9 @@ static void test_jacobian(void **unused)
                 const int cell = row / 13, k = row % 13;
                 const int rows = k < 3 ? 0 : k < 6 ? 1 : k < 9 ? 2 : 3;
                 const int columns = m < 3 ? 0 : m < 6 ? 1 : m < 9 ? 2 : 3;
-                const ellipsoid_jacobian_blocks *b = cell == of
-                                              ? &g.start[cell].blocks
-                                              : &pairs.coupling[cell].blocks;
+                const ellipsoid_jacobian_blocks *b =
+                    cell == of ? &g.start[cell].blocks
+                               : &pairs.coupling[cell].blocks;
                 const double difference = (up[row] - down[row]) / (2 * h);
                 double value;
 
@@ -287,9 +286,9 @@ static void test_coupled_system(void **unused)
             for (int column = 0; column < 26; column++)
             {
                 const int of = column / 13, m = column % 13;
-                const ellipsoid_jacobian_blocks *b = cell == of
-                                              ? &g.start[cell].blocks
-                                              : &pairs.coupling[cell].blocks;
+                const ellipsoid_jacobian_blocks *b =
+                    cell == of ? &g.start[cell].blocks
+                               : &pairs.coupling[cell].blocks;
                 double value;
 
                 if (is_coupled(m, b, k, &value))
@@ -332,10 +331,10 @@ static void test_group_of_one(void **unused)
     c.state[0].x[1] = 5e-6;
     alone = c.state[0];
     crowd_advance(&c, &t, 0.01, NULL);
-    assert_ok(ellipsoid_advance(
-        &(ellipsoid_member){&c.model, &c.around[0], &alone, &controller, NULL,
-                            NULL, &statistics},
-        &t_alone, 0.01, NULL));
+    assert_ok(ellipsoid_advance(&(ellipsoid_member){&c.model, &c.around[0],
+                                                    &alone, &controller, NULL,
+                                                    NULL, &statistics},
+                                &t_alone, 0.01, NULL));
     assert_memory_equal(&alone, &c.state[0], sizeof(alone));
     assert_memory_equal(&controller, &c.controller[0], sizeof(controller));
     crowd_free(&c);
@@ -404,9 +403,12 @@ static void test_inertialess(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        BOTH(test_equal_and_opposite), BOTH(test_two_spheres),
-        BOTH(test_jacobian),           BOTH(test_coupled_system),
-        cmocka_unit_test_setup(test_group_of_one, with_beads),       BOTH(test_converges),
+        BOTH(test_equal_and_opposite),
+        BOTH(test_two_spheres),
+        BOTH(test_jacobian),
+        BOTH(test_coupled_system),
+        cmocka_unit_test_setup(test_group_of_one, with_beads),
+        BOTH(test_converges),
         BOTH(test_inertialess),
     };
 

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_guard.c - long steps beside walls: none is passed unseen, a cell at
     rest costs nothing, and a run beside walls can be cut and continued.
 */
@@ -155,7 +154,7 @@ static ellipsoid_motion inertialess = ELLIPSOID_MOTION_INERTIALESS;
 #define WITH_BOTH(test)                                                        \
     {#test ", inertial", test, NULL, NULL, &inertial},                         \
     {                                                                          \
-        #test ", inertialess", test, NULL, NULL, &inertialess                  \
+#test ", inertialess", test, NULL, NULL, &inertialess                  \
     }
 
 int main(void)

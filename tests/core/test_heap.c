@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_heap.c - many cells that a flow presses into a heap.
 */
 #include "groupTest.h"
@@ -50,7 +49,8 @@ static void test_fifty(void **unused)
     }
     print_message("# fifty: %ld steps in %ld ms, deepest %.2g r_b, centres "
                   "within %.2g m\n",
-                  crowd_steps(&c), milliseconds, deepest / c.model.options.bead_radius, far);
+                  crowd_steps(&c), milliseconds,
+                  deepest / c.model.options.bead_radius, far);
     assert_true(deepest > 0 && deepest < 0.05 * c.model.options.bead_radius);
     assert_true(far < 5e-6);
     crowd_free(&c);

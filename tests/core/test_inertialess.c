@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_inertialess.c - motion without inertia: seven equations, explicit
     where nothing touches, by the Rosenbrock method where something does.
 */
@@ -77,8 +76,9 @@ static void check_orbit(double ratio, double height)
         const double phase = 2 * test_pi * (double)n / 8;
         double expected[3], length;
 
-        assert_ok(test_advance(&model, &flow, &state, &t, (double)n * period / 8,
-                               &controller, &statistics));
+        assert_ok(test_advance(&model, &flow, &state, &t,
+                               (double)n * period / 8, &controller,
+                               &statistics));
         test_long_axis(&state, axis);
         /* the projection on the plane of shear runs on an ellipse */
         ellipsoid_set(expected, ratio * along * sin(phase), along * cos(phase),
@@ -140,10 +140,10 @@ static test_errors distance_between_motions(double density)
         model = test_model(&o);
         s[n] = test_vortex_state(&model, &flow);
         assert_ok(ellipsoid_balance(&model, &around, &s[n], NULL));
-        assert_ok(ellipsoid_advance(
-            &(ellipsoid_member){&model, &around, &s[n], &controller, NULL, NULL,
-                                &statistics},
-            &t, 2e-3, NULL));
+        assert_ok(ellipsoid_advance(&(ellipsoid_member){&model, &around, &s[n],
+                                                        &controller, NULL, NULL,
+                                                        &statistics},
+                                    &t, 2e-3, NULL));
     }
     return test_difference(&s[0], &s[1]);
 }
@@ -240,10 +240,10 @@ static ellipsoid_step explicit_step(double h, int piecewise)
 
     model.options.motion = ELLIPSOID_MOTION_INERTIALESS;
     model.options.tolerance = 0.1;
-    assert_ok(ellipsoid_advance(
-        &(ellipsoid_member){&model, &around, &s, &controller, NULL, &kept,
-                            &statistics},
-        &t, h, keep_step));
+    assert_ok(
+        ellipsoid_advance(&(ellipsoid_member){&model, &around, &s, &controller,
+                                              NULL, &kept, &statistics},
+                          &t, h, keep_step));
     assert_int_equal(kept.count, 1);
     return kept.last;
 }
@@ -261,10 +261,10 @@ static ellipsoid_state exact_at(double end)
 
     model.options.motion = ELLIPSOID_MOTION_INERTIALESS;
     model.options.tolerance = 1e-14;
-    assert_ok(ellipsoid_advance(
-        &(ellipsoid_member){&model, &around, &s, &controller, NULL, NULL,
-                            &statistics},
-        &t, end, NULL));
+    assert_ok(
+        ellipsoid_advance(&(ellipsoid_member){&model, &around, &s, &controller,
+                                              NULL, NULL, &statistics},
+                          &t, end, NULL));
     return s;
 }
 
@@ -347,10 +347,10 @@ static settling settle(ellipsoid_motion motion, const wall_mesh *floor,
     ellipsoid_quaternion_from_axis((const double[3]){0.9, 0.3, 0.3}, 0.4,
                                    s.state.q);
     ellipsoid_facet_cache_clear(&cache);
-    assert_ok(ellipsoid_advance(
-        &(ellipsoid_member){&s.model, &around, &s.state, &controller, &cache,
-                            NULL, &s.statistics},
-        &s.ends, end, NULL));
+    assert_ok(ellipsoid_advance(&(ellipsoid_member){&s.model, &around, &s.state,
+                                                    &controller, &cache, NULL,
+                                                    &s.statistics},
+                                &s.ends, end, NULL));
     return s;
 }
 
@@ -469,10 +469,10 @@ static void test_refused_derivatives(void **unused)
     o.dipole[0] = 1e-20;
     o.electric_field[1] = 1;
     model = test_model(&o);
-    assert_ok(ellipsoid_advance(
-        &(ellipsoid_member){&model, &around, &s, &controller, NULL, NULL,
-                            &statistics},
-        &t, 1e-3, NULL));
+    assert_ok(
+        ellipsoid_advance(&(ellipsoid_member){&model, &around, &s, &controller,
+                                              NULL, NULL, &statistics},
+                          &t, 1e-3, NULL));
     assert_int_equal(statistics.rejected, 1);
 }
 

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_landing.c - a cell without inertia whose beads land on a wall one after
     another: steps end where they do.
 */
@@ -30,17 +29,17 @@ static void test_time_of_landing(void **unused)
     run.state.u[2] = -w;
     (void)contact_now(&run);
     moved = 0;
-    assert_near(ellipsoid_landing(&run.model, &run.state, &run.cache, moved,
-                                  depth, 1),
-                (gap + depth) / w, 1e-9 * gap / w);
+    assert_near(
+        ellipsoid_landing(&run.model, &run.state, &run.cache, moved, depth, 1),
+        (gap + depth) / w, 1e-9 * gap / w);
     /* no later than asked, and never away from the wall */
     assert_true(ellipsoid_landing(&run.model, &run.state, &run.cache, moved,
                                   depth, 1e-5)
                 == 1e-5);
     run.state.u[2] = w;
-    assert_true(ellipsoid_landing(&run.model, &run.state, &run.cache, moved,
-                                  depth, 1)
-                == 1);
+    assert_true(
+        ellipsoid_landing(&run.model, &run.state, &run.cache, moved, depth, 1)
+        == 1);
     wall_mesh_free(&run.mesh);
 }
 

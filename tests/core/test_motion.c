@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_motion.c - the motion of a free cell against known solutions.
 */
 #include "coreTest.h"
@@ -227,10 +226,10 @@ static void test_length_of_q(void **unused)
 
         model = test_model(&o);
         s.q[0] *= 1.001; /* also a careless start is mended */
-        assert_ok(ellipsoid_advance(
-            &(ellipsoid_member){&model, &around, &s, &controller, NULL, NULL,
-                                &statistics},
-            &t, 1, check_length));
+        assert_ok(ellipsoid_advance(&(ellipsoid_member){&model, &around, &s,
+                                                        &controller, NULL, NULL,
+                                                        &statistics},
+                                    &t, 1, check_length));
         assert_near(sqrt(ellipsoid_dot(s.q, s.q) + s.q[3] * s.q[3]), 1, 1e-15);
     }
 }

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_nearWallMotion.c - motion with the drag near walls made of facets.
 */
 #include "nearWallTest.h"
@@ -37,10 +36,10 @@ static void go(journey *j)
     assert_ok(ellipsoid_balance(&model, &s, &j->state, &cache));
     do
     {
-        status = ellipsoid_advance(
-            &(ellipsoid_member){&model, &s, &j->state, &controller, &cache,
-                                NULL, &j->statistics},
-            &t, j->end, j->observer);
+        status = ellipsoid_advance(&(ellipsoid_member){&model, &s, &j->state,
+                                                       &controller, &cache,
+                                                       NULL, &j->statistics},
+                                   &t, j->end, j->observer);
     } while (status == ELLIPSOID_STOPPED);
     assert_ok(status);
 }
@@ -157,10 +156,10 @@ static void test_without_flow(void **unused)
         model = test_model(&o);
         end[n] = (ellipsoid_state){.x = {0, 0, 3e-6}, .q = {1, 0, 0, 0}};
         ellipsoid_facet_cache_clear(&cache);
-        assert_ok(ellipsoid_advance(
-            &(ellipsoid_member){&model, &s, &end[n], &controller, &cache, NULL,
-                                &statistics[n]},
-            &t, 1e-5, NULL));
+        assert_ok(ellipsoid_advance(&(ellipsoid_member){&model, &s, &end[n],
+                                                        &controller, &cache,
+                                                        NULL, &statistics[n]},
+                                    &t, 1e-5, NULL));
     }
     assert_true(statistics[0].accepted > 1);
     assert_memory_equal(&end[0], &end[1], sizeof(end[0]));
@@ -196,8 +195,7 @@ static void test_two_cells(void **unused)
         double t = 0;
         int which;
 
-        o.motion =
-            n ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL;
+        o.motion = n ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL;
         o.contact = 1;
         model = test_model(&o);
         for (int i = 0; i < 2; i++)

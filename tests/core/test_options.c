@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_options.c - defaults, their checker, and the model made of them.
 */
 #include "coreTest.h"
@@ -179,8 +178,8 @@ static void test_ends_of_ranges(void **unused)
     {
         const int whole = is_whole(o);
 
-        check_value(list, o,
-                     whole ? o->low - 1 : nextafter(o->low, -HUGE_VAL), 0);
+        check_value(list, o, whole ? o->low - 1 : nextafter(o->low, -HUGE_VAL),
+                    0);
         if (!o->related)
         {
             check_value(list, o, o->low, !o->above);
@@ -188,7 +187,7 @@ static void test_ends_of_ranges(void **unused)
         if (o->high < 1e300)
         {
             check_value(list, o,
-                         whole ? o->high + 1 : nextafter(o->high, HUGE_VAL), 0);
+                        whole ? o->high + 1 : nextafter(o->high, HUGE_VAL), 0);
         }
         if (o->high < 1e300 && !o->related)
         {

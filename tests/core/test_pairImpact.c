@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_pairImpact.c - two cells that meet in vacuum: what is conserved, how
     long it takes, what friction and damping take.
 
@@ -40,9 +39,10 @@ static void go(encounter *e, double end)
 
     for (int n = 0; n < 2; n++)
     {
-        members[n] = (ellipsoid_member){
-            &e->model[n], &e->around[n],  &e->state[n], &e->controller[n],
-            NULL,         e,              &e->statistics[n]};
+        members[n] =
+            (ellipsoid_member){&e->model[n],      &e->around[n], &e->state[n],
+                               &e->controller[n], NULL,          e,
+                               &e->statistics[n]};
     }
     assert_ok(ellipsoid_advance_group(2, members, &e->t, end, note_depth,
                                       memory, &which));
@@ -189,8 +189,8 @@ static void check_what_is_kept(ellipsoid_contact_shape shape)
             continue;
         }
         met++;
-        allowed = 10 * options[0].tolerance * options[0].semi_axes[1]
-                / e.deepest;
+        allowed =
+            10 * options[0].tolerance * options[0].semi_axes[1] / e.deepest;
         ellipsoid_difference(after.moment, before.moment, change);
         assert_near(ellipsoid_length(change), 0, allowed * scale);
         if (rough)
@@ -229,8 +229,8 @@ static void test_duration(void **unused)
     }
     meet(&e, options, 1, &seed);
 
-    const double m = e.model[0].mass * e.model[1].mass
-                   / (e.model[0].mass + e.model[1].mass);
+    const double m =
+        e.model[0].mass * e.model[1].mass / (e.model[0].mass + e.model[1].mass);
     const double radius = 1 * 0.5 / (1 + 0.5);
     const double modulus = 1e4 * 3e4 / (1e4 + 3e4);
     const double before = e.state[1].x[0] - e.state[0].x[0] - 1.5;
@@ -282,9 +282,9 @@ static void check_forces_balance(ellipsoid_contact_shape shape)
         {
             e.state[k].x[0] *= 0.3;
             group.cell[k] = (ellipsoid_cell){.model = &e.model[k],
-                                                .surroundings = e.around[k],
-                                                .statistics = &statistics,
-                                                .inertial = 1};
+                                             .surroundings = e.around[k],
+                                             .statistics = &statistics,
+                                             .inertial = 1};
             group.start[k].state = e.state[k];
         }
         assert_ok(ellipsoid_group_evaluate(&group, 0, group.start, 0, 0));
@@ -330,7 +330,8 @@ static void test_over_a_period(void **unused)
         for (int k = 0; k < 2; k++)
         {
             here.model[k].options.contact_shape =
-                n % 4 < 2 ? ELLIPSOID_CONTACT_BEADS : ELLIPSOID_CONTACT_ELLIPSOID;
+                n % 4 < 2 ? ELLIPSOID_CONTACT_BEADS
+                          : ELLIPSOID_CONTACT_ELLIPSOID;
         }
         away = here;
         ellipsoid_add(away.state[n % 2].x, period[n % 3 == 0]);

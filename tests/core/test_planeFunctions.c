@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_planeFunctions.c - what one plane does to a body, from the table:
     against published values and boundary elements.
 */
@@ -63,9 +62,8 @@ static void evaluate_plane(scene *s, double gap, double resistance[6][6],
         }
         for (int part = 0; part < 6; part += 3)
         {
-            ellipsoid_combination(s->axis, action[0][part],
-                                  action[0][part + 1], action[0][part + 2],
-                                  lab + part);
+            ellipsoid_combination(s->axis, action[0][part], action[0][part + 1],
+                                  action[0][part + 2], lab + part);
         }
         for (int i = 0; i < 6; i++)
         {
@@ -150,8 +148,8 @@ static void test_touching_sphere(void **unused)
 
     (void)unused;
     evaluate_plane(&s, height - 1, r, d);
-    assert_relative(d[0][0] + r[0][0] * height + 0.5 * r[0][4],
-                    force * 1.7005, 5e-3);
+    assert_relative(d[0][0] + r[0][0] * height + 0.5 * r[0][4], force * 1.7005,
+                    5e-3);
     assert_relative(d[4][0] + r[4][0] * height + 0.5 * r[4][4],
                     torque * 0.94399, 1e-2);
 }
@@ -322,8 +320,8 @@ static void test_positive(void **unused)
     (void)unused;
     for (int n = 0; n < 4000; n++)
     {
-        scene s = place_body(pow(10, test_uniform(&seed)),
-                             acos(test_uniform(&seed)));
+        scene s =
+            place_body(pow(10, test_uniform(&seed)), acos(test_uniform(&seed)));
         double r[6][6], d[6][2];
 
         evaluate_plane(&s, pow(10, -4 + 6 * test_uniform(&seed)), r, d);
@@ -385,8 +383,8 @@ static ellipsoid_state free_cell(double gap, const double axis[3], int along)
     wall_mesh_finish(&mesh);
     ellipsoid_facet_cache_clear(&cache);
     ellipsoid_quaternion_from_axis(axis, 0.3, state.q);
-    state.x[2] = hypot(0.5e-6 * hypot(axis[0], axis[1]), 2e-6 * axis[2])
-               + 0.5e-6 * gap;
+    state.x[2] =
+        hypot(0.5e-6 * hypot(axis[0], axis[1]), 2e-6 * axis[2]) + 0.5e-6 * gap;
     {
         const ellipsoid_surroundings s = around(&mesh, &flow);
 
@@ -405,13 +403,11 @@ static void test_free_cell_in_shear(void **unused)
     static const struct
     {
         double gap, axis[3], across, along;
-    } known[] = {{0.05, {0, 1, 0}, 0.517, 0.558},
-                 {0.1, {0, 1, 0}, 0.605, 0.645},
-                 {0.5, {0, 1, 0}, 0.845, 0.868},
-                 {1, {0, 1, 0}, 0.926, 0.937},
-                 {2, {0, 1, 0}, 0.973, 0.977},
-                 {0.05, {0, 0, 1}, 0.972, 0.972},
-                 {0.05, {0, root, root}, 0.948, 0.800}};
+    } known[] = {
+        {0.05, {0, 1, 0}, 0.517, 0.558},      {0.1, {0, 1, 0}, 0.605, 0.645},
+        {0.5, {0, 1, 0}, 0.845, 0.868},       {1, {0, 1, 0}, 0.926, 0.937},
+        {2, {0, 1, 0}, 0.973, 0.977},         {0.05, {0, 0, 1}, 0.972, 0.972},
+        {0.05, {0, root, root}, 0.948, 0.800}};
 
     (void)unused;
     for (size_t n = 0; n < sizeof(known) / sizeof(*known); n++)

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_poleVault.c - cells that tumble beside a wall in shear. Nearer than
     half their length they come down on it with one end and lift themselves over it
     (Stover & Cohen, Rheol. Acta 29, 192 (1990)).
@@ -15,10 +14,7 @@ static const double um = 1e-6;
 static const double shear = 1000, half_length = 2e-6;
 
 /* Jeffery (1922): the period of the paper's cell, 4:1. */
-static double jeffery_period(void)
-{
-    return 2 * test_pi * (4 + 0.25) / shear;
-}
+static double jeffery_period(void) { return 2 * test_pi * (4 + 0.25) / shear; }
 
 /* Along the flow at a height above the floor. */
 static void lay_at(contact_run *r, const ellipsoid_options *o, double height)
@@ -57,8 +53,9 @@ static void follow(contact_run *r, tumble *way, int half_turns)
         if (way->angle >= (way->turns + 1) * test_pi)
         {
             way->crossed[way->turns] =
-                r->t - way->step * (way->angle - (way->turns + 1) * test_pi)
-                           / (way->angle - before);
+                r->t
+                - way->step * (way->angle - (way->turns + 1) * test_pi)
+                      / (way->angle - before);
             way->turns++;
         }
     }
@@ -87,8 +84,8 @@ static double delay(const ellipsoid_model *m, double height)
         const double up = s * s * m->mobility[1] + c * c * m->mobility[0];
         const double turning = shear * (16 * s * s + c * c) / 17;
 
-        sum += part * m->rotation_mobility[0] * arm * arm * c * c
-             / (up * turning);
+        sum +=
+            part * m->rotation_mobility[0] * arm * arm * c * c / (up * turning);
     }
     return sum;
 }
@@ -110,10 +107,9 @@ static void test_lift_on_one_end(void **unused)
         lay_at(&r, &o, height * half_length);
         follow(&r, &way, 2);
         /* 2e-5 of it is inertia, what x and q err by, and the depth */
-        assert_relative(way.crossed[0],
-                        jeffery_period() / 2
-                            + delay(&r.model, height * half_length),
-                        1e-4);
+        assert_relative(
+            way.crossed[0],
+            jeffery_period() / 2 + delay(&r.model, height * half_length), 1e-4);
         /* free by now, and just high enough to pass */
         assert_relative(way.crossed[1] - way.crossed[0], jeffery_period() / 2,
                         1e-4);

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_rosenbrock.c - the method itself: its coefficients, its order on the
     thirteen equations, its continuous extension.
 */
@@ -413,10 +412,10 @@ static void test_block_elimination(void **unused)
                                            .flow_context = &flow};
     ellipsoid_statistics statistics = {0};
     ellipsoid_cell problem = {.model = &model,
-                                 .surroundings = around,
-                                 .statistics = &statistics,
-                                 .length = 1.5,
-                                 .inertial = 1};
+                              .surroundings = around,
+                              .statistics = &statistics,
+                              .length = 1.5,
+                              .inertial = 1};
     const double h = 0.7, g = 1 / (ellipsoid_rosenbrock_set.gamma * h);
     double jacobian[SIZE][SIZE], f[SIZE];
     lone_cell cell;
@@ -482,12 +481,12 @@ static void test_elimination_in_contact(void **unused)
         o.contact_modulus = modulus;
         model = test_model(&o);
         ellipsoid_cell problem = {.model = &model,
-                                     .surroundings = around,
-                                     .cache = &cache,
-                                     .statistics = &statistics,
-                                     .length = 2e-6,
-                                     .inertial = 1,
-                                     .walls = 1};
+                                  .surroundings = around,
+                                  .cache = &cache,
+                                  .statistics = &statistics,
+                                  .length = 2e-6,
+                                  .inertial = 1,
+                                  .walls = 1};
         ellipsoid_group group = group_of(&problem, &cell);
 
         memset(state, 0, sizeof(*state));
@@ -548,8 +547,7 @@ static void test_stiff_direction(void **unused)
         }
         for (int i = 0; i < 36; i++)
         {
-            m[i / 6][i % 6] =
-                (i / 6 == i % 6) + stiff * v[i / 6] * v[i % 6];
+            m[i / 6][i % 6] = (i / 6 == i % 6) + stiff * v[i / 6] * v[i % 6];
         }
         assert_true(ellipsoid_invert6(m));
         for (int i = 0; i < 36; i++)

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_seams.c - the wall's force on one bead does not jump as the bead slides
     over seams, edges, corners and steps, and flat seams add none.
 
@@ -170,8 +169,7 @@ static void test_round_wall(void **unused)
                 touch(&wall, x, force);
 
                 const double size = sqrt(ellipsoid_dot(force, force));
-                const double tilt =
-                    atan2(-force[0], force[2]) - angle;
+                const double tilt = atan2(-force[0], force[2]) - angle;
 
                 strongest = fmax(strongest, fabs(size / f0 - 1));
                 steepest_tilt = fmax(steepest_tilt, fabs(tilt));

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_sedimentation.c - ellipsoids that settle in fluid at rest, and that a
     fluid in motion takes along from rest.
 */
@@ -340,10 +339,10 @@ static void relax(relaxation *c, const double axes[3], double tolerance)
         flow.g[k][j] = spin[i];
     }
     memcpy(s.q, c->q, sizeof(s.q));
-    assert_ok(ellipsoid_advance(
-        &(ellipsoid_member){&c->model, &around, &s, &controller, NULL, c,
-                            &statistics},
-        &t, 3e-6, sample));
+    assert_ok(ellipsoid_advance(&(ellipsoid_member){&c->model, &around, &s,
+                                                    &controller, NULL, c,
+                                                    &statistics},
+                                &t, 3e-6, sample));
     assert_int_equal(c->samples, 301);
     assert_near(c->u, 0, 2 * tolerance * longest / c->model.relaxation_time);
     assert_near(c->x, 0, 2 * tolerance * longest);

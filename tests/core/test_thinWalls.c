@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_thinWalls.c - whole cells, 1 um thick and 4 um long, where walls are
     close together: a slit of 0.1 um, a plate of 0.1 um, a baffle; and how often
     a cell far from all walls asks for them.
@@ -49,9 +48,10 @@ static void go(trip *t, test_quadratic *flow, const double force[3], double end)
     static ellipsoid_facet_cache cache;
     ellipsoid_options options = ellipsoid_options_default();
     ellipsoid_controller controller = {0, 0};
-    const ellipsoid_surroundings surroundings = {
-        .flow = test_quadratic_flow, .flow_context = flow, .walls = asked,
-        .walls_context = &t->walls};
+    const ellipsoid_surroundings surroundings = {.flow = test_quadratic_flow,
+                                                 .flow_context = flow,
+                                                 .walls = asked,
+                                                 .walls_context = &t->walls};
 
     options.buoyancy = 0;
     ellipsoid_copy(force, options.external_force);
@@ -69,8 +69,8 @@ static void go(trip *t, test_quadratic *flow, const double force[3], double end)
 static double depth_of(double force)
 {
     const ellipsoid_options options = ellipsoid_options_default();
-    const double k = 4.0 / 3 * options.contact_modulus
-                   * sqrt(options.bead_radius);
+    const double k =
+        4.0 / 3 * options.contact_modulus * sqrt(options.bead_radius);
 
     return pow(force / k, 2.0 / 3);
 }
@@ -91,8 +91,8 @@ static wall_mesh slit_of(double width, int cells, int diagonal)
         const double inner[3] = {side ? 0 : -far, -far, s * half};
         const double up[3] = {0, 0, s * (far - half)};
 
-        wall_mesh_plane(&mesh, lip, side ? y : up, side ? up : y,
-                        cells, cells, diagonal, side);
+        wall_mesh_plane(&mesh, lip, side ? y : up, side ? up : y, cells, cells,
+                        diagonal, side);
         wall_mesh_plane(&mesh, inner, side ? back : depth, y, cells, cells,
                         diagonal, side);
     }
@@ -178,8 +178,8 @@ static void test_thin_plate_from_either_side(void **unused)
             if (side)
             {
                 /* half a turn about x1: back to back with the other */
-                const double q[4] = {t.state.q[3], -t.state.q[2],
-                                     t.state.q[1], -t.state.q[0]};
+                const double q[4] = {t.state.q[3], -t.state.q[2], t.state.q[1],
+                                     -t.state.q[0]};
 
                 memcpy(t.state.q, q, sizeof q);
                 t.state.x[1] *= -1;
@@ -223,8 +223,8 @@ static void test_far_from_walls(void **unused)
     for (int knows = 0; knows < 2; knows++)
     {
         test_quadratic flow = test_shear(100);
-        trip t = {.walls = {.mesh = &mesh,
-                            .distance = knows ? above_floor : NULL}};
+        trip t = {
+            .walls = {.mesh = &mesh, .distance = knows ? above_floor : NULL}};
 
         flow.u[0] = 1e-3;
         t.state.u[0] = 1e-3;
@@ -232,8 +232,8 @@ static void test_far_from_walls(void **unused)
         go(&t, &flow, none, 1);
 
         /* reach: 2 um, and a bead radius of horizon beyond the beads */
-        const double reach = 2.285 * um, margin = knows ? 20 * um - reach
-                                                        : reach;
+        const double reach = 2.285 * um,
+                     margin = knows ? 20 * um - reach : reach;
         const double asks = t.state.x[0] / margin;
 
         print_message("# %g mm, %ld steps, %ld evaluations: %d look-ups, one a "

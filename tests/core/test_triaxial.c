@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_triaxial.c - triaxial ellipsoids: in simple shear against an
     independent integration, and free. The shear is u = (x2, 0, 0) [1/s], the
     viscosity 1: time is counted in units of the inverse shear rate.

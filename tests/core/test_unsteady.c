@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_unsteady.c - surroundings that depend on time: the times at which they
     are asked, closed forms, and the order of both methods.
 */
@@ -13,11 +12,11 @@
 /* A flow times cos(frequency t), and at which times it was asked. */
 typedef struct oscillation
 {
-    test_quadratic flow; /* at the time 0 */
+    test_quadratic flow;    /* at the time 0 */
     test_vortices vortices; /* added */
-    double frequency; /* [rad/s] */
-    double first, last; /* [s] of the times asked */
-    long asked_last; /* how often at `last` */
+    double frequency;       /* [rad/s] */
+    double first, last;     /* [s] of the times asked */
+    long asked_last;        /* how often at `last` */
 } oscillation;
 
 static void note_time(oscillation *o, double t)
@@ -125,10 +124,10 @@ static ellipsoid_state advance(const ellipsoid_model *model,
     ellipsoid_statistics statistics = {0};
     double t = start;
 
-    assert_ok(ellipsoid_advance(
-        &(ellipsoid_member){model, around, &state, &controller, NULL, NULL,
-                            &statistics},
-        &t, end, NULL));
+    assert_ok(ellipsoid_advance(&(ellipsoid_member){model, around, &state,
+                                                    &controller, NULL, NULL,
+                                                    &statistics},
+                                &t, end, NULL));
     return state;
 }
 
@@ -211,10 +210,10 @@ static void check_shear(ellipsoid_force_function force, int cells)
 
         if (cells == 1)
         {
-            assert_ok(ellipsoid_advance(
-                &(ellipsoid_member){&model, around, s, controller, NULL, NULL,
-                                    statistics},
-                &t, n, NULL));
+            assert_ok(ellipsoid_advance(&(ellipsoid_member){&model, around, s,
+                                                            controller, NULL,
+                                                            NULL, statistics},
+                                        &t, n, NULL));
         }
         else
         {
@@ -319,10 +318,10 @@ static void check_times(ellipsoid_motion motion, ellipsoid_force_function force)
         flow.first = HUGE_VAL;
         flow.last = -HUGE_VAL;
         ellipsoid_facet_cache_clear(&cache);
-        assert_ok(ellipsoid_advance(
-            &(ellipsoid_member){&model, &around, &s, &controller, &cache, NULL,
-                                &statistics},
-            &t, end, NULL));
+        assert_ok(ellipsoid_advance(&(ellipsoid_member){&model, &around, &s,
+                                                        &controller, &cache,
+                                                        NULL, &statistics},
+                                    &t, end, NULL));
         assert_true(flow.first == start && flow.last == end);
         assert_true(walls.first >= 0.1 && walls.last <= end);
     }
@@ -380,9 +379,8 @@ static test_errors step_error(const step_kind *kind, double h)
     const double start = 0.5;
     ellipsoid_options options = unit_body(kind->motion, 0.1);
     ellipsoid_model model = test_model(&options);
-    oscillation flow = {.flow.u = {0.3, -0.2, 0.5},
-                        .vortices = {1, 1},
-                        .frequency = 2};
+    oscillation flow = {
+        .flow.u = {0.3, -0.2, 0.5}, .vortices = {1, 1}, .frequency = 2};
     ellipsoid_surroundings around = in_flow(&flow);
     const ellipsoid_state s = test_vortex_state(&model, &flow.vortices);
     ellipsoid_state end = s, exact;
@@ -394,9 +392,9 @@ static test_errors step_error(const step_kind *kind, double h)
     around.force = kind->force;
     around.piecewise = kind->piecewise;
     assert_int_equal(ellipsoid_advance(
-        &(ellipsoid_member){&model, &around, &end, &controller, NULL, &step,
-                            &statistics},
-        &t, start + h, keep_step),
+                         &(ellipsoid_member){&model, &around, &end, &controller,
+                                             NULL, &step, &statistics},
+                         &t, start + h, keep_step),
                      ELLIPSOID_STOPPED);
     assert_near(t, start + h, 0);
     assert_int_equal(statistics.accepted, 1);
@@ -477,12 +475,9 @@ static void test_stage_times(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_uniform_flow),
-        cmocka_unit_test(test_shear_flow),
-        cmocka_unit_test(test_field),
-        cmocka_unit_test(test_times),
-        cmocka_unit_test(test_given_time),
-        cmocka_unit_test(test_order),
+        cmocka_unit_test(test_uniform_flow), cmocka_unit_test(test_shear_flow),
+        cmocka_unit_test(test_field),        cmocka_unit_test(test_times),
+        cmocka_unit_test(test_given_time),   cmocka_unit_test(test_order),
         cmocka_unit_test(test_stage_times),
     };
 

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     test_wallPlanes.c - the drag near walls made of facets: in the equations,
     over seams and edges, in slits and corners.
 */
@@ -70,9 +69,8 @@ static double difference(double a[6][6], double b[6][6])
                 size += a[i][n] * a[i][n];
                 error += pow(a[i][n] - b[i][n], 2);
             }
-            worst = (first == 0) == (n < 3)
-                      ? fmax(worst, sqrt(error / size))
-                      : worst;
+            worst = (first == 0) == (n < 3) ? fmax(worst, sqrt(error / size))
+                                            : worst;
         }
     }
     return worst;
@@ -105,7 +103,7 @@ static int compare_jacobian(const ellipsoid_model *m,
     assert_ok(ellipsoid_jacobian(m, s, state, &cache, jacobian));
     for (int j = 0; j < SIZE; j++)
     {
-        const double step = j < AT_X       ? 1e-3
+        const double step = j < AT_X     ? 1e-3
                           : j < AT_OMEGA ? 2e-11
                           : j < AT_Q     ? 1e3
                                          : 1e-5;
@@ -183,8 +181,8 @@ static void test_jacobian(void **unused)
         {
             ellipsoid_set(frame.axis[i], r[0][i], r[1][i], r[2][i]);
         }
-        assert_ok(ellipsoid_find_planes(&model, &s, &state, &frame, &cache,
-                                        &planes));
+        assert_ok(
+            ellipsoid_find_planes(&model, &s, &state, &frame, &cache, &planes));
         several += planes.count >= 6;
         for (int l = 0; l < 4; l++)
         {
@@ -319,8 +317,7 @@ static void test_continuous(void **unused)
         wall_mesh_finish(&mesh);
         test_orientation(&seed, q);
         ellipsoid_facet_cache_clear(&cache);
-        coarse =
-            largest_change(&model, &mesh, ends[0], ends[1], q, 400);
+        coarse = largest_change(&model, &mesh, ends[0], ends[1], q, 400);
         fine = largest_change(&model, &mesh, ends[0], ends[1], q, 4000);
         print_message("%d: %.1e %.1e\n", n % 4, coarse, fine);
         assert_true(fine < 0.35 * coarse);
@@ -369,10 +366,10 @@ static void test_continuous_over_edges(void **unused)
                 ends[0][i] = from[i] + (to[i] - from[i]) * part / 100;
                 ends[1][i] = from[i] + (to[i] - from[i]) * (part + 1) / 100;
             }
-            coarse = fmax(coarse, largest_change(&model, &mesh, ends[0],
-                                                 ends[1], q, 2));
-            fine = fmax(fine, largest_change(&model, &mesh, ends[0], ends[1],
-                                             q, 40));
+            coarse = fmax(
+                coarse, largest_change(&model, &mesh, ends[0], ends[1], q, 2));
+            fine = fmax(fine,
+                        largest_change(&model, &mesh, ends[0], ends[1], q, 40));
         }
         assert_true(fine < 0.1 * coarse + 1e-12);
     }
@@ -400,10 +397,8 @@ static void add_floor_at_wall(wall_mesh *mesh, double lean, int has_pit)
     const double far[3][3] = {{f, -f, 0}, {f, lean, 0}, {f, f, 0}};
     const double rim[4][3] = {
         {p[0], 0, 0}, {p[1], 0, 0}, {p[1], q, 0}, {p[0], q, 0}};
-    const double bottom[4][3] = {{p[0], 0, -p[0]},
-                                 {p[1], 0, -p[0]},
-                                 {p[1], q, -p[0]},
-                                 {p[0], q, -p[0]}};
+    const double bottom[4][3] = {
+        {p[0], 0, -p[0]}, {p[1], 0, -p[0]}, {p[1], q, -p[0]}, {p[0], q, -p[0]}};
 
     wall_mesh_quad(mesh, seam[0], far[0], far[1], seam[1], 0, 0);
     for (int part = 0; part < 2; part++)
@@ -694,8 +689,8 @@ static void test_cache_at_acute_angles(void **unused)
         }
         wall_mesh_quad(&mesh, crest[part], top[0], top[1], crest[part + 1], 1,
                        0);
-        wall_mesh_quad(&mesh, crest[part], crest[part + 1], side[1], side[0],
-                       1, 0);
+        wall_mesh_quad(&mesh, crest[part], crest[part + 1], side[1], side[0], 1,
+                       0);
     }
     wall_mesh_finish(&mesh);
     ellipsoid_facet_cache_clear(&cache);

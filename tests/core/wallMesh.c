@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     wallMesh.c - walls for tests.
 */
 #include "wallMesh.h"
@@ -43,10 +42,7 @@ static void direction(const double a[3], const double b[3], double r[3])
     }
 }
 
-void wall_mesh_init(wall_mesh *mesh)
-{
-    memset(mesh, 0, sizeof *mesh);
-}
+void wall_mesh_init(wall_mesh *mesh) { memset(mesh, 0, sizeof *mesh); }
 
 void wall_mesh_free(wall_mesh *mesh)
 {
@@ -124,14 +120,14 @@ static void on_plane(const double *uv, double point[3], void *context)
 
     for (int i = 0; i < 3; i++)
     {
-        point[i] = (*frame)[0][i] + uv[0] * (*frame)[1][i]
-                 + uv[1] * (*frame)[2][i];
+        point[i] =
+            (*frame)[0][i] + uv[0] * (*frame)[1][i] + uv[1] * (*frame)[2][i];
     }
 }
 
-void wall_mesh_plane(wall_mesh *mesh, const double corner[3],
-                     const double u[3], const double v[3], int nu, int nv,
-                     int diagonal, int surface)
+void wall_mesh_plane(wall_mesh *mesh, const double corner[3], const double u[3],
+                     const double v[3], int nu, int nv, int diagonal,
+                     int surface)
 {
     const double *frame[3] = {corner, u, v};
 
@@ -201,9 +197,9 @@ static int compare_edges(const void *a, const void *b)
 {
     const half_edge *e = a, *f = b;
 
-    return e->low != f->low     ? (e->low < f->low ? -1 : 1)
-           : e->high != f->high ? (e->high < f->high ? -1 : 1)
-                                : 0;
+    return e->low != f->low   ? (e->low < f->low ? -1 : 1)
+         : e->high != f->high ? (e->high < f->high ? -1 : 1)
+                              : 0;
 }
 
 /* Numbers the vertices: vertex[3 facet + k]; returns how many. */
@@ -274,15 +270,15 @@ static void set_stars(wall_mesh *mesh, const half_edge *edges, int edge_count,
         }
         if (pass == 0)
         {
-            mesh->stars = grown(NULL, start[vertex_count]
-                                          * sizeof *mesh->stars);
+            mesh->stars =
+                grown(NULL, start[vertex_count] * sizeof *mesh->stars);
         }
     }
     for (int c = 0; c < 3 * mesh->count; c++)
     {
         ellipsoid_facet *f = &mesh->facets[c / 3];
 
-        f->star[c % 3] = (const double (*)[3])(mesh->stars + start[vertex[c]]);
+        f->star[c % 3] = (const double(*)[3])(mesh->stars + start[vertex[c]]);
         f->star_count[c % 3] = filled[vertex[c]];
     }
     free(start);

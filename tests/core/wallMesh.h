@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     wallMesh.h - walls for tests: a soup of triangles becomes facets that know
     their neighbours, and an ellipsoid_walls_function that lists them.
 */
@@ -26,9 +25,8 @@ typedef struct wall_mesh
 /* All facets, for ellipsoid_bead_force(). */
 static inline ellipsoid_facet_list wall_mesh_all(const wall_mesh *mesh)
 {
-    return (ellipsoid_facet_list){.facets = mesh->facets,
-                                  .index = mesh->index,
-                                  .count = mesh->count};
+    return (ellipsoid_facet_list){
+        .facets = mesh->facets, .index = mesh->index, .count = mesh->count};
 }
 
 /* A point to a point: a grid point to its place. */
@@ -53,9 +51,9 @@ void wall_mesh_grid(wall_mesh *mesh, int nu, int nv, wall_mesh_map map,
                     void *context, int diagonal, int surface);
 
 /* The parallelogram from corner along u and v. */
-void wall_mesh_plane(wall_mesh *mesh, const double corner[3],
-                     const double u[3], const double v[3], int nu, int nv,
-                     int diagonal, int surface);
+void wall_mesh_plane(wall_mesh *mesh, const double corner[3], const double u[3],
+                     const double v[3], int nu, int nv, int diagonal,
+                     int surface);
 
 /* An axis-parallel box; inwards 1: the fluid is inside, 0: outside. */
 void wall_mesh_box(wall_mesh *mesh, const double low[3], const double high[3],

@@ -1,11 +1,7 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
+/*---------------------------------------------------------------------------*\
 Application
     porousFlow
 
@@ -19,8 +15,6 @@ Description
 
 #include "fvCFD.H"
 #include "coupledStokes.H"
-
-// * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
 int main(int argc, char *argv[])
 {
@@ -90,6 +84,3 @@ int main(int argc, char *argv[])
 
     return 0;
 }
-
-
-// ************************************************************************* //

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     driver.c - calls the fuzz target without libFuzzer.
 
     Usage: fuzz SECONDS SEED          random inputs for so long; one that fails
@@ -155,15 +154,15 @@ int main(int argc, char **argv)
 {
     switch (argc)
     {
-        case 2: return run_file(argv[1]);
-        case 3: return run_for(atof(argv[1]), argv[2]);
-        case 4:
-            return write_files(argv[1], atoi(argv[2]),
-                               strtoull(argv[3], NULL, 10));
-        default:
-            fprintf(stderr,
-                    "usage: %s SECONDS SEED | FILE | FOLDER COUNT SEED\n",
-                    argv[0]);
-            return 2;
+    case 2:
+        return run_file(argv[1]);
+    case 3:
+        return run_for(atof(argv[1]), argv[2]);
+    case 4:
+        return write_files(argv[1], atoi(argv[2]), strtoull(argv[3], NULL, 10));
+    default:
+        fprintf(stderr, "usage: %s SECONDS SEED | FILE | FOLDER COUNT SEED\n",
+                argv[0]);
+        return 2;
     }
 }

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     fuzzCheck.h - checks of what ellipsoid.h promises, by parts of the core.
 */
 #ifndef FUZZ_CHECK_H
@@ -47,8 +46,7 @@ void fuzz_check_random(fuzz_input *in);
 /* In one pose: neither the cache's past, nor facets beyond those asked for, nor
    whether derivatives are wanted, changes a bit. */
 void fuzz_check_pose(const ellipsoid_model *model, fuzz_scene *scene,
-                     const ellipsoid_state *state,
-                     ellipsoid_facet_cache *warm);
+                     const ellipsoid_state *state, ellipsoid_facet_cache *warm);
 
 /* One bead and all facets */
 void fuzz_check_bead(const fuzz_scene *scene, fuzz_input *in);

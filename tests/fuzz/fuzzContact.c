@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     fuzzContact.c - contact and overlap.
 */
 #include "fuzzCheck.h"
@@ -12,7 +11,8 @@ static void check_contact(const ellipsoid_model *model, int has_walls,
                           const ellipsoid_contact *c)
 {
     require(c->bead_contacts >= 0 && c->bead_contacts <= model->bead_count);
-    require(c->surface_count >= 0 && c->surface_count <= ELLIPSOID_MAX_SURFACES);
+    require(c->surface_count >= 0
+            && c->surface_count <= ELLIPSOID_MAX_SURFACES);
     require((c->surface_count > 0) == (c->bead_contacts > 0));
     require(has_walls ? c->gap <= model->options.bead_radius
                       : c->gap == HUGE_VAL);
@@ -30,8 +30,7 @@ static void check_contact(const ellipsoid_model *model, int has_walls,
 }
 
 void fuzz_check_pose(const ellipsoid_model *model, fuzz_scene *scene,
-                     const ellipsoid_state *state,
-                     ellipsoid_facet_cache *warm)
+                     const ellipsoid_state *state, ellipsoid_facet_cache *warm)
 {
     static ellipsoid_facet_cache cold;
     const int has_walls = model->options.contact && scene->around.walls;
@@ -41,8 +40,8 @@ void fuzz_check_pose(const ellipsoid_model *model, fuzz_scene *scene,
     int overlaps = 2, all_overlaps = 2;
 
     ellipsoid_facet_cache_clear(&cold);
-    status = ellipsoid_contact_evaluate(model, &scene->around, state,
-                                        &cold, &contact, NULL);
+    status = ellipsoid_contact_evaluate(model, &scene->around, state, &cold,
+                                        &contact, NULL);
     if (status == ELLIPSOID_OK)
     {
         check_contact(model, has_walls, &contact);
@@ -57,8 +56,8 @@ void fuzz_check_pose(const ellipsoid_model *model, fuzz_scene *scene,
     }
 
     require(status
-            == ellipsoid_contact_evaluate(model, &scene->around, state,
-                                          warm, &again, &jacobian));
+            == ellipsoid_contact_evaluate(model, &scene->around, state, warm,
+                                          &again, &jacobian));
     if (status == ELLIPSOID_OK)
     {
         require_same(contact, again);
@@ -70,8 +69,8 @@ void fuzz_check_pose(const ellipsoid_model *model, fuzz_scene *scene,
     scene->generous = 1;
     ellipsoid_facet_cache_clear(&cold);
     require(status
-            == ellipsoid_contact_evaluate(model, &scene->around, state,
-                                          &cold, &again, NULL));
+            == ellipsoid_contact_evaluate(model, &scene->around, state, &cold,
+                                          &again, NULL));
     if (status == ELLIPSOID_OK)
     {
         require_same(contact, again);
@@ -99,8 +98,8 @@ void fuzz_check_bead(const fuzz_scene *scene, fuzz_input *in)
     }
     count = ellipsoid_bead_force(centre, radius, 1, &facets, force, force_x);
     require(count >= 0 && count <= scene->mesh.count);
-    require(count == ellipsoid_bead_force(centre, radius, 1, &facets, again,
-                                          NULL));
+    require(count
+            == ellipsoid_bead_force(centre, radius, 1, &facets, again, NULL));
     require_same(force, again);
     if (scene->sound && fuzz_all_finite(centre, sizeof centre))
     {

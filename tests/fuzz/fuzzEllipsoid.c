@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     fuzzEllipsoid.c - whatever options, state and callbacks it is given, the
     core keeps the promises of ellipsoid.h.
 
@@ -37,10 +36,17 @@ static int read_start(fuzz_input *in, const ellipsoid_options *o,
     }
     switch (fuzz_choice(in, 4))
     {
-        case 0: start->t = fuzz_wild(in); break;
-        case 1: start->end = fuzz_wild(in); break;
-        case 2: start->controller.step = fuzz_wild(in); break;
-        default: start->controller.previous_error = fuzz_wild(in);
+    case 0:
+        start->t = fuzz_wild(in);
+        break;
+    case 1:
+        start->end = fuzz_wild(in);
+        break;
+    case 2:
+        start->controller.step = fuzz_wild(in);
+        break;
+    default:
+        start->controller.previous_error = fuzz_wild(in);
     }
     return 1;
 }

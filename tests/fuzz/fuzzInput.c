@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     fuzzInput.c - bytes become numbers, options and states.
 */
 #include "fuzzInput.h"
@@ -60,9 +59,9 @@ void fuzz_vector(fuzz_input *in, double size, int count, double *v)
 double fuzz_wild(fuzz_input *in)
 {
     const double known[] = {
-        0,       -0.0,    NAN,      HUGE_VAL, -HUGE_VAL, DBL_MAX,
-        -DBL_MAX, DBL_MIN, -DBL_MIN, DBL_TRUE_MIN, DBL_EPSILON, 1e-162,
-        1e154,   1,       -1,       1 + DBL_EPSILON};
+        0,        -0.0,    NAN,      HUGE_VAL,       -HUGE_VAL,   DBL_MAX,
+        -DBL_MAX, DBL_MIN, -DBL_MIN, DBL_TRUE_MIN,   DBL_EPSILON, 1e-162,
+        1e154,    1,       -1,       1 + DBL_EPSILON};
     const int choice = fuzz_choice(in, 20);
 
     if (choice < 16)
@@ -84,12 +83,11 @@ static void read_beads(fuzz_input *in, ellipsoid_options *o)
     const int layout = fuzz_choice(in, 3), rings = fuzz_choice(in, 85);
     const int single = fuzz_choice(in, 8) == 7;
 
-    o->bead_layout = layout == 0   ? ELLIPSOID_BEADS_STAGGERED
-                     : layout == 1 ? ELLIPSOID_BEADS_PAPER
-                                   : ELLIPSOID_BEADS_SURFACE;
+    o->bead_layout = layout == 0 ? ELLIPSOID_BEADS_STAGGERED
+                   : layout == 1 ? ELLIPSOID_BEADS_PAPER
+                                 : ELLIPSOID_BEADS_SURFACE;
     o->bead_count = single ? 1 : layout == 1 ? 32 : 2 + 3 * rings;
-    o->bead_radius =
-        fmin(a[0], fmin(a[1], a[2])) * fuzz_scaled(in, 0.05, 0.99);
+    o->bead_radius = fmin(a[0], fmin(a[1], a[2])) * fuzz_scaled(in, 0.05, 0.99);
     o->contact_modulus = fuzz_scaled(in, 1e2, 1e9);
     if (fuzz_choice(in, 2))
     {
@@ -117,9 +115,9 @@ static void read_forces(fuzz_input *in, double size, ellipsoid_options *o)
     const double weight = 1e4 * size * size * size; /* [N] */
     const int pressure = fuzz_choice(in, 3);
 
-    o->pressure_gradient = pressure == 0   ? ELLIPSOID_PRESSURE_DUDT
-                           : pressure == 1 ? ELLIPSOID_PRESSURE_NONE
-                                           : ELLIPSOID_PRESSURE_GRADP;
+    o->pressure_gradient = pressure == 0 ? ELLIPSOID_PRESSURE_DUDT
+                         : pressure == 1 ? ELLIPSOID_PRESSURE_NONE
+                                         : ELLIPSOID_PRESSURE_GRADP;
     o->buoyancy = fuzz_choice(in, 2);
     fuzz_vector(in, 100, 3, o->gravity);
     fuzz_vector(in, 100 * weight, 3, o->external_force);
@@ -134,9 +132,9 @@ static void read_integrator(fuzz_input *in, ellipsoid_options *o)
     o->tolerance = fuzz_scaled(in, 1e-12, 1e-1);
     o->minimum_step = fuzz_scaled(in, 1e-20, 1e-9);
     o->maximum_step = o->minimum_step * fuzz_scaled(in, 1, 1e12);
-    o->initial_step = o->minimum_step
-                    * pow(o->maximum_step / o->minimum_step,
-                          fuzz_between(in, 0, 0.999));
+    o->initial_step =
+        o->minimum_step
+        * pow(o->maximum_step / o->minimum_step, fuzz_between(in, 0, 0.999));
 }
 
 ellipsoid_options fuzz_options(fuzz_input *in)
@@ -153,8 +151,8 @@ ellipsoid_options fuzz_options(fuzz_input *in)
         for (int i = 0; i < 3; i++)
         {
             o.semi_axes[i] = fuzz_choice(in, 3) == 0
-                                 ? size
-                                 : size * fuzz_scaled(in, 1e-2, 1);
+                               ? size
+                               : size * fuzz_scaled(in, 1e-2, 1);
         }
         o.bead_radius *= size / 2e-6;
         for (int i = 0; i < 3; i++)
@@ -189,8 +187,8 @@ ellipsoid_options fuzz_options(fuzz_input *in)
     {
         o.drag = fuzz_choice(in, 4) != 3;
         o.motion = o.drag && fuzz_choice(in, 4) != 3
-                       ? ELLIPSOID_MOTION_INERTIALESS
-                       : ELLIPSOID_MOTION_INERTIAL;
+                     ? ELLIPSOID_MOTION_INERTIALESS
+                     : ELLIPSOID_MOTION_INERTIAL;
         o.brownian = o.drag && fuzz_choice(in, 3) == 2;
         if (o.drag && ellipsoid_plane_table_has(o.semi_axes)
             && fuzz_choice(in, 2))
@@ -223,13 +221,19 @@ static double wild_value(fuzz_input *in, const ellipsoid_option *option)
 
     switch (fuzz_choice(in, 8))
     {
-        case 0: return low;
-        case 1: return high;
-        case 2: return is_whole ? low - 1 : nextafter(low, -HUGE_VAL);
-        case 3: return is_whole ? high + 1 : nextafter(high, HUGE_VAL);
-        case 4: return fuzz_wild(in);
-        default: return low > 0 ? fuzz_scaled(in, low, high)
-                                : fuzz_between(in, low, high);
+    case 0:
+        return low;
+    case 1:
+        return high;
+    case 2:
+        return is_whole ? low - 1 : nextafter(low, -HUGE_VAL);
+    case 3:
+        return is_whole ? high + 1 : nextafter(high, HUGE_VAL);
+    case 4:
+        return fuzz_wild(in);
+    default:
+        return low > 0 ? fuzz_scaled(in, low, high)
+                       : fuzz_between(in, low, high);
     }
 }
 
@@ -253,14 +257,15 @@ void fuzz_wild_options(fuzz_input *in, ellipsoid_options *options)
 
         switch (option->type)
         {
-            case ELLIPSOID_OPTION_VECTOR:
-                member += (size_t)fuzz_choice(in, 3) * sizeof value;
-                memcpy(member, &value, sizeof value);
-                break;
-            case ELLIPSOID_OPTION_REAL:
-                memcpy(member, &value, sizeof value);
-                break;
-            default: memcpy(member, &whole, sizeof whole);
+        case ELLIPSOID_OPTION_VECTOR:
+            member += (size_t)fuzz_choice(in, 3) * sizeof value;
+            memcpy(member, &value, sizeof value);
+            break;
+        case ELLIPSOID_OPTION_REAL:
+            memcpy(member, &value, sizeof value);
+            break;
+        default:
+            memcpy(member, &whole, sizeof whole);
         }
     }
     /* bounds the time that one input takes */
@@ -279,11 +284,12 @@ void fuzz_state(fuzz_input *in, double length, double speed,
     }
     switch (fuzz_choice(in, 4))
     {
-        case 0: /* along the axes of the lab */
-            memset(state->q, 0, sizeof state->q);
-            state->q[fuzz_choice(in, 4)] = fuzz_choice(in, 2) ? -1 : 1;
-            break;
-        default: ellipsoid_quaternion_from_uniform(uniform, state->q);
+    case 0: /* along the axes of the lab */
+        memset(state->q, 0, sizeof state->q);
+        state->q[fuzz_choice(in, 4)] = fuzz_choice(in, 2) ? -1 : 1;
+        break;
+    default:
+        ellipsoid_quaternion_from_uniform(uniform, state->q);
     }
     fuzz_vector(in, speed, 3, state->u);
     fuzz_vector(in, speed / length, 3, state->omega);

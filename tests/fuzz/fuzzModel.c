@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     fuzzModel.c - options, model, rotations and random numbers.
 */
 #include "fuzzCheck.h"
@@ -81,8 +80,8 @@ int fuzz_check_model(const ellipsoid_options *o, ellipsoid_model *model)
     require(all_positive(&model->fluid_mass, 1));
     require(all_positive(&model->viscosity, 1));
     require(all_positive(model->inertia, 3));
-    require(fuzz_all_finite(model->constant_force,
-                            sizeof model->constant_force));
+    require(
+        fuzz_all_finite(model->constant_force, sizeof model->constant_force));
     require(all_positive(model->resistance, 3));
     require(all_positive(model->rotation_resistance, 3));
     require(all_positive(model->mobility, 3));

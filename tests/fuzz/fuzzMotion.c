@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     fuzzMotion.c - the equations, and their advance in time.
 */
 #include "fuzzCheck.h"
@@ -66,8 +65,9 @@ void fuzz_check_equations(const ellipsoid_model *model, fuzz_scene *scene,
         /* results, which are not read */
         again.u[0] = again.omega[2] = NAN;
     }
-    require(status == ellipsoid_rhs(model, &scene->around, &again,
-                                    fresh(scene), &again));
+    require(
+        status
+        == ellipsoid_rhs(model, &scene->around, &again, fresh(scene), &again));
     require(status != ELLIPSOID_OK || memcmp(&rate, &again, sizeof rate) == 0);
 
     status = ellipsoid_jacobian(model, &scene->around, state, fresh(scene),
@@ -208,8 +208,7 @@ static void check_observed(const run *r, const fuzz_start *before,
             == (r->stop_after > 0 && r->steps == r->stop_after));
 }
 
-static ellipsoid_status go(run *r, ellipsoid_facet_cache *cache,
-                           int observed)
+static ellipsoid_status go(run *r, ellipsoid_facet_cache *cache, int observed)
 {
     const fuzz_start before = r->now;
     ellipsoid_status status;
@@ -262,8 +261,8 @@ static void check_last_pose(const run *r)
     ellipsoid_state balanced = r->now.state;
 
     require(ellipsoid_contact_evaluate(r->model, &r->scene->around,
-                                       &r->now.state, fresh(r->scene),
-                                       &contact, NULL)
+                                       &r->now.state, fresh(r->scene), &contact,
+                                       NULL)
             == ELLIPSOID_OK);
     require_same(contact, r->contact);
     if (o->motion == ELLIPSOID_MOTION_INERTIALESS && !o->brownian)
@@ -279,8 +278,9 @@ void fuzz_check_advance(const ellipsoid_model *model, fuzz_scene *scene,
                         const fuzz_start *start, int tame,
                         ellipsoid_facet_cache *warm)
 {
-    const int cached = (model->options.contact || model->options.wall_resistance)
-                    && scene->around.walls;
+    const int cached =
+        (model->options.contact || model->options.wall_resistance)
+        && scene->around.walls;
     const int pure = !cached || fuzz_scene_has_faultless_walls(scene);
     const run at_start = {.model = model, .scene = scene, .now = *start};
     run whole = at_start, again = at_start;

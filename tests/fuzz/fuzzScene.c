@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     fuzzScene.c - a flow, an electric field and walls out of bytes.
 */
 #include "fuzzScene.h"
@@ -29,16 +28,16 @@ static void read_fault(fuzz_fault *fault, fuzz_input *in, double length)
     static const int answers[] = {1, -1, 2, -2, INT_MAX, INT_MIN};
     const int kind = fuzz_choice(in, 8);
 
-    fault->kind = kind == 6   ? FUZZ_REFUSES
-                  : kind == 7 ? FUZZ_GOES_WILD
-                              : FUZZ_NO_FAULT;
+    fault->kind = kind == 6 ? FUZZ_REFUSES
+                : kind == 7 ? FUZZ_GOES_WILD
+                            : FUZZ_NO_FAULT;
     if (fault->kind == FUZZ_NO_FAULT)
     {
         return;
     }
     fuzz_vector(in, 1, 3, fault->normal);
-    fault->offset = fuzz_choice(in, 4) == 0 ? -HUGE_VAL
-                                            : length * fuzz_between(in, -3, 3);
+    fault->offset =
+        fuzz_choice(in, 4) == 0 ? -HUGE_VAL : length * fuzz_between(in, -3, 3);
     fault->answer = answers[fuzz_choice(in, 6)];
     fault->which = fuzz_bits(in, 1);
     fault->value = fuzz_wild(in);
@@ -52,8 +51,7 @@ static int is_at_fault(const fuzz_fault *fault, fuzz_fault_kind kind,
 
 static int answer_of(const fuzz_fault *fault, const double x[3], int *gave_up)
 {
-    const int answer =
-        is_at_fault(fault, FUZZ_REFUSES, x) ? fault->answer : 0;
+    const int answer = is_at_fault(fault, FUZZ_REFUSES, x) ? fault->answer : 0;
 
     *gave_up = *gave_up || answer < 0;
     return answer;
@@ -123,9 +121,9 @@ static void set_noise(const fuzz_scene *s, const double x[3],
     }
     for (size_t n = 0; n < sizeof number / sizeof *number; n++)
     {
-        const double size = n < 3    ? s->speed
-                            : n < 15 ? s->speed / s->length
-                                     : s->speed / s->length / s->length;
+        const double size = n < 3  ? s->speed
+                          : n < 15 ? s->speed / s->length
+                                   : s->speed / s->length / s->length;
 
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u + n;
         number[n] = size * ((double)(z >> 40) / 8388608 - 1);
@@ -193,8 +191,7 @@ static int flow(void *context, double t, const double x[3], int derivatives,
             sizeof sample->acceleration_jacobian);
     if (!derivatives || !s->needs_pressure)
     {
-        set_nan(sample->pressure_jacobian[0],
-                sizeof sample->pressure_jacobian);
+        set_nan(sample->pressure_jacobian[0], sizeof sample->pressure_jacobian);
     }
     return answer_of(&s->flow_fault, x, &s->flow_gave_up);
 }
@@ -408,11 +405,19 @@ static void read_walls(fuzz_scene *s, fuzz_input *in)
     wall_mesh_init(&s->mesh);
     switch (kind)
     {
-        case 0: return;
-        case 1: read_box(s, in); break;
-        case 2: read_plane(s, in); break;
-        case 3: read_fan(s, in); break;
-        default: read_soup(s, in);
+    case 0:
+        return;
+    case 1:
+        read_box(s, in);
+        break;
+    case 2:
+        read_plane(s, in);
+        break;
+    case 3:
+        read_fan(s, in);
+        break;
+    default:
+        read_soup(s, in);
     }
     wall_mesh_finish(&s->mesh);
     s->sound = 1;
@@ -428,10 +433,8 @@ static void read_walls(fuzz_scene *s, fuzz_input *in)
     if (s->walls_fault.kind == FUZZ_GOES_WILD)
     {
         /* middle, radius, normal and vertices: sixteen numbers */
-        ellipsoid_facet *facet =
-            &s->mesh.facets[fuzz_choice(in, s->mesh.count < 256
-                                                ? s->mesh.count
-                                                : 256)];
+        ellipsoid_facet *facet = &s->mesh.facets[fuzz_choice(
+            in, s->mesh.count < 256 ? s->mesh.count : 256)];
 
         memcpy((char *)facet + s->walls_fault.which % 16 * sizeof(double),
                &s->walls_fault.value, sizeof(double));
@@ -491,9 +494,9 @@ void fuzz_scene_read(fuzz_scene *s, fuzz_input *in, const ellipsoid_options *o)
     {
         const int kind = fuzz_choice(in, 3);
 
-        s->flow = kind == 0   ? FUZZ_FLOW_QUADRATIC
-                  : kind == 1 ? FUZZ_FLOW_WAVES
-                              : FUZZ_FLOW_NOISE;
+        s->flow = kind == 0 ? FUZZ_FLOW_QUADRATIC
+                : kind == 1 ? FUZZ_FLOW_WAVES
+                            : FUZZ_FLOW_NOISE;
         read_flow(s, in);
     }
     if (parts & 2)
@@ -521,10 +524,7 @@ void fuzz_scene_read(fuzz_scene *s, fuzz_input *in, const ellipsoid_options *o)
     }
 }
 
-void fuzz_scene_free(fuzz_scene *scene)
-{
-    wall_mesh_free(&scene->mesh);
-}
+void fuzz_scene_free(fuzz_scene *scene) { wall_mesh_free(&scene->mesh); }
 
 int fuzz_scene_has_faultless_walls(const fuzz_scene *scene)
 {

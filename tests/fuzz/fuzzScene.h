@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     fuzzScene.h - what surrounds a cell: a flow, an electric field and walls,
     each a pure function of the place, that may refuse an answer or give a wild
     one.
@@ -16,7 +15,7 @@
 typedef enum fuzz_fault_kind
 {
     FUZZ_NO_FAULT,
-    FUZZ_REFUSES, /* answers with something else than 0 */
+    FUZZ_REFUSES,  /* answers with something else than 0 */
     FUZZ_GOES_WILD /* one of the numbers is wild */
 } fuzz_fault_kind;
 
@@ -63,9 +62,9 @@ typedef struct fuzz_scene
     int generous; /* list all facets, not only those asked for */
 
     /* set before a call of the core, read after it */
-    int strict;           /* places must be finite */
+    int strict; /* places must be finite */
     int flow_gave_up, walls_gave_up, field_gave_up, force_gave_up;
-    double sampled[3];    /* where the flow was last */
+    double sampled[3]; /* where the flow was last */
 } fuzz_scene;
 
 void fuzz_scene_read(fuzz_scene *scene, fuzz_input *in,

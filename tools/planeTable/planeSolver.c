@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     planeSolver.c - a rigid spheroid above a no-slip plane in Stokes flow.
 
     A single layer of forces with Blake's tensor (Blake, Proc. Camb. Phil. Soc.
@@ -74,8 +73,8 @@ static void set_gauss(int n, double *at, double *weight)
 
             for (int l = 2; l <= n; l++)
             {
-                const double next = ((2 * l - 1) * z * now - (l - 1) * before)
-                                  / l;
+                const double next =
+                    ((2 * l - 1) * z * now - (l - 1) * before) / l;
 
                 before = now;
                 now = next;
@@ -102,10 +101,10 @@ typedef struct solver
     double centre[3], axes[3][3]; /* A times the directions of psi and phi */
     double gauss[MAX_NODES], weight[MAX_NODES], barycentric[MAX_NODES];
     double point[MAX_NODES], part[MAX_NODES]; /* of a piece, with its weight */
-    int count;           /* nodes, each with three components */
-    double *matrix[2];   /* in and across the plane of symmetry */
-    double target[3];    /* where the row's velocity is */
-    int mirrored;        /* is the piece on the other side? */
+    int count;         /* nodes, each with three components */
+    double *matrix[2]; /* in and across the plane of symmetry */
+    double target[3];  /* where the row's velocity is */
+    int mirrored;      /* is the piece on the other side? */
     piece panel;
     double sum[MAX_NODES * MAX_NODES][3][3]; /* over it, by node */
 } solver;
@@ -257,8 +256,7 @@ static void add_triangle(solver *v, piece q, const double a[3],
                          const double b[3], int turned)
 {
     const double bb = dot(b, b), nearest = -dot(a, b) / bb;
-    const double away =
-        sqrt(fmax(dot(a, a) / bb - nearest * nearest, 1e-12));
+    const double away = sqrt(fmax(dot(a, a) / bb - nearest * nearest, 1e-12));
     const double from = asinh(-nearest / away);
     const double to = asinh((1 - nearest) / away);
     const double area = fabs((q.s1 - q.s0) * (q.phi1 - q.phi0));
@@ -280,8 +278,7 @@ static void add_triangle(solver *v, piece q, const double a[3],
             double ls[MAX_NODES], lphi[MAX_NODES];
 
             lagrange(v, (s - v->panel.s0) / (v->panel.s1 - v->panel.s0), ls);
-            lagrange(v,
-                     (phi - v->panel.phi0) / (v->panel.phi1 - v->panel.phi0),
+            lagrange(v, (phi - v->panel.phi0) / (v->panel.phi1 - v->panel.phi0),
                      lphi);
             add_point(v, s, phi, weight, ls, lphi);
         }
@@ -304,7 +301,8 @@ static void add_corner(solver *v, piece q)
         const double phi = a > b ? q.phi0 : 0.5 * (q.phi0 + q.phi1);
         const piece rest = {fmin(s, q.s1), fmax(s, q.s1), fmin(phi, q.phi1),
                             fmax(phi, q.phi1)};
-        const piece own = {q.s0, a > b ? s : q.s1, q.phi0, a > b ? q.phi1 : phi};
+        const piece own = {q.s0, a > b ? s : q.s1, q.phi0,
+                           a > b ? q.phi1 : phi};
 
         add_piece(v, rest);
         add_corner(v, own);
@@ -329,10 +327,9 @@ static void add_panel(solver *v, int row, int ring, int sector, int own,
     const int n = v->mesh.nodes, width = 3 * v->count;
     const int column = (ring * v->mesh.sectors + sector) * n * n;
 
-    const piece all = {(double)ring / v->mesh.rings,
-                       (ring + 1.0) / v->mesh.rings,
-                       pi * sector / v->mesh.sectors,
-                       pi * (sector + 1.0) / v->mesh.sectors};
+    const piece all = {
+        (double)ring / v->mesh.rings, (ring + 1.0) / v->mesh.rings,
+        pi * sector / v->mesh.sectors, pi * (sector + 1.0) / v->mesh.sectors};
 
     v->panel = all;
     for (v->mirrored = 0; v->mirrored < 2; v->mirrored++)
@@ -359,9 +356,9 @@ static void add_panel(solver *v, int row, int ring, int sector, int own,
                 for (int j = 0; j < 3; j++)
                 {
                     const int at = (3 * row + i) * width + 3 * (column + m) + j;
-                    const double turned =
-                        v->mirrored && j == 1 ? -v->sum[m][i][j]
-                                              : v->sum[m][i][j];
+                    const double turned = v->mirrored && j == 1
+                                            ? -v->sum[m][i][j]
+                                            : v->sum[m][i][j];
 
                     v->matrix[0][at] += turned / (8 * pi);
                     v->matrix[1][at] +=
@@ -493,7 +490,8 @@ static int eliminate(double *a, int n, double (*right)[3])
 static void set_geometry(solver *v, const plane_case *c)
 {
     const double d[3] = {sin(c->tilt), 0, cos(c->tilt)};
-    const double support = sqrt(d[0] * d[0] + c->ratio * c->ratio * d[2] * d[2]);
+    const double support =
+        sqrt(d[0] * d[0] + c->ratio * c->ratio * d[2] * d[2]);
     double pole[3], side[3];
 
     v->width = sqrt(2 * c->gap / support);
@@ -596,8 +594,8 @@ static int solve_part(const solver *v, int part, plane_functions *result)
         {
             block[i][j] = 0.5 * (sum[i][j] + sum[j][i]);
             result->asymmetry =
-                fmax(result->asymmetry, fabs(sum[i][j] - sum[j][i])
-                                            / sqrt(sum[i][i] * sum[j][j]));
+                fmax(result->asymmetry,
+                     fabs(sum[i][j] - sum[j][i]) / sqrt(sum[i][i] * sum[j][j]));
         }
     }
     return regular;

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     planeTable.c - the table of src/ellipsoid/body/planeTable.def:
         planeTable nodes > nodes             ratio, tilt and gap of each node
         planeTable solve < nodes > values    the functions there, a line each
@@ -28,17 +27,25 @@ enum
 static const double pi = 3.14159265358979323846;
 
 /* Which axis ratios are computed: closer where the functions bend. */
-static const double ratio_of[RATIOS] = {
-    9.72367768053616, 7.81056282032847,  5.17442576289603,  4,
-    2.97124455087628, 2.15,              1.58113883008419,  1.2,
-    1.03,             0.97,              0.841398261635077, 0.65,
-    0.483145399036664, 0.4,              0.320079366558999, 0.257104367517677};
+static const double ratio_of[RATIOS] = {9.72367768053616,
+                                        7.81056282032847,
+                                        5.17442576289603,
+                                        4,
+                                        2.97124455087628,
+                                        2.15,
+                                        1.58113883008419,
+                                        1.2,
+                                        1.03,
+                                        0.97,
+                                        0.841398261635077,
+                                        0.65,
+                                        0.483145399036664,
+                                        0.4,
+                                        0.320079366558999,
+                                        0.257104367517677};
 
 /* Node k of n of Chebyshev's polynomials on [0, 1]. */
-static double node(int k, int n)
-{
-    return 0.5 - 0.5 * cos(pi * (k + 0.5) / n);
-}
+static double node(int k, int n) { return 0.5 - 0.5 * cos(pi * (k + 0.5) / n); }
 
 static int print_nodes(void)
 {
@@ -65,11 +72,11 @@ static int solve_all(void)
     {
         const double support = hypot(sin(c.tilt), c.ratio * cos(c.tilt));
         const int rings = c.gap < 0.05 * support ? 5
-                        : c.gap < 0.5 * support ? 4
-                                                : 3;
+                        : c.gap < 0.5 * support  ? 4
+                                                 : 3;
         const plane_mesh mesh = {rings, 2, 6, 8};
-        const double *part[] = {f.in[0],     f.in[1],     f.in[2],
-                                f.across[0], f.across[1], f.across[2],
+        const double *part[] = {f.in[0],     f.in[1],       f.in[2],
+                                f.across[0], f.across[1],   f.across[2],
                                 f.shear_in,  f.shear_across};
 
         if (!plane_solve(&c, &mesh, &f))
@@ -93,7 +100,7 @@ static int solve_all(void)
 /* A line of values. */
 static int read_values(plane_case *c, plane_functions *f)
 {
-    double *part[] = {f->in[0],     f->in[1],     f->in[2],   f->across[0],
+    double *part[] = {f->in[0],     f->in[1],     f->in[2],    f->across[0],
                       f->across[1], f->across[2], f->shear_in, f->shear_across};
     int found = scanf("%lf %lf %lf", &c->ratio, &c->tilt, &c->gap);
 
@@ -122,8 +129,8 @@ static void reduce(const plane_case *c, const plane_functions *f,
     const double nu = cos(c->tilt), s = sin(c->tilt), ss = s * s;
     const double axes[3] = {1, c->ratio, 1}, b2 = c->ratio * c->ratio;
     const double p = sqrt(ss + b2 * nu * nu), close = p / (p + c->gap);
-    const double squeeze = ellipsoid_squeeze(c->ratio, p) * close * close
-                         * close / c->gap;
+    const double squeeze =
+        ellipsoid_squeeze(c->ratio, p) * close * close * close / c->gap;
     const double arm = (b2 - 1) * nu * s / p, out[3] = {0, 1, arm};
     const double bent = 0.5 * (b2 - 1) / (b2 + 1);
     const double spin_in = 0.5 + bent * (nu * nu - ss);

@@ -1,11 +1,7 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
+/*---------------------------------------------------------------------------*\
 Application
     ellipsoidTrapFoam
 
@@ -60,8 +56,6 @@ SourceFiles
 #include <sys/file.h>
 
 using namespace Foam;
-
-// * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
 //- End the run if another one is at work in the case. The system keeps the lock,
 //  of the folder itself, until this process ends, however it does
@@ -237,6 +231,3 @@ int main(int argc, char *argv[])
 
     return 0;
 }
-
-
-// ************************************************************************* //

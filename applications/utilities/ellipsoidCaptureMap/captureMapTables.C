@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "captureMap.H"
 #include "OFstream.H"
 #include "csvFields.H"
@@ -277,6 +271,3 @@ void Foam::captureMap::write(const fileName& folder) const
     write("summary.csv", &captureMap::writeSummary);
     report(Info);
 }
-
-
-// ************************************************************************* //

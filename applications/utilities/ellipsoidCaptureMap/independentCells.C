@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "independentCells.H"
 #include "electricField.H"
 #include "fvMesh.H"
@@ -149,6 +143,3 @@ Foam::List<Foam::independentCells::ending> Foam::independentCells::follow
 
     return List<ending>(std::move(endings));
 }
-
-
-// ************************************************************************* //

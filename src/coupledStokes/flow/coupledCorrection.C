@@ -1,12 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
-
-\*---------------------------------------------------------------------------*/
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "coupledCorrection.H"
 #include "fvcFlux.H"
@@ -235,6 +228,3 @@ Foam::label Foam::coupledCorrection::correct
 
     return n;
 }
-
-
-// ************************************************************************* //

@@ -1,12 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
-
-\*---------------------------------------------------------------------------*/
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "aggregationMultigrid.H"
 #include "LUscalarMatrix.H"
@@ -293,6 +286,3 @@ const Foam::UList<Type>& Foam::aggregationMultigrid<Type>::solve() const
 
 template class Foam::aggregationMultigrid<float>;
 template class Foam::aggregationMultigrid<Foam::fourFloats>;
-
-
-// ************************************************************************* //

@@ -1,12 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
-
-\*---------------------------------------------------------------------------*/
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "sparseRows.H"
 #include "DynamicList.H"
@@ -460,6 +453,3 @@ Foam::aggregateWeights Foam::sparseRows<Type>::smoothed
 
 template class Foam::sparseRows<float>;
 template class Foam::sparseRows<Foam::fourFloats>;
-
-
-// ************************************************************************* //

@@ -1,12 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
-
-\*---------------------------------------------------------------------------*/
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "stokesGMRES.H"
 #include "PstreamReduceOps.H"
@@ -275,6 +268,3 @@ Foam::label Foam::stokesGMRES::solve
 
     return n;
 }
-
-
-// ************************************************************************* //

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     body.h - the room that knows one ellipsoid: its options, shape, pose,
     resistance, beads and surface quadrature. It depends on nothing else of the
     core; walls, drag, contact and motion depend on it.
@@ -95,8 +94,7 @@ static inline void ellipsoid_surface_to_body(const ellipsoid_surface *body,
 }
 
 static inline void ellipsoid_surface_to_lab(const ellipsoid_surface *body,
-                                            const double v[3],
-                                            double result[3])
+                                            const double v[3], double result[3])
 {
     const double(*r)[3] = body->rotation;
 

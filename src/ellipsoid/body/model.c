@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     model.c - what follows from the options once and for all.
 */
 #include "body/body.h"
@@ -16,9 +15,8 @@ static const double pi = 3.14159265358979323846;
 static void set_noise_scales(ellipsoid_model *model)
 {
     const ellipsoid_options *o = &model->options;
-    const double power =
-        2 * ELLIPSOID_BOLTZMANN * o->temperature * model->viscosity
-        / o->noise_interval;
+    const double power = 2 * ELLIPSOID_BOLTZMANN * o->temperature
+                       * model->viscosity / o->noise_interval;
 
     for (int i = 0; i < 3; i++)
     {
@@ -98,7 +96,7 @@ ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
         set_noise_scales(&m);
     }
     m.has_dipole = options->dipole[0] != 0 || options->dipole[1] != 0
-             || options->dipole[2] != 0;
+                || options->dipole[2] != 0;
     m.electric = options->charge != 0 || m.has_dipole;
 
     m.reach = fmax(a[0], fmax(a[1], a[2]));

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     options.c - what options.def says as defaults, list and check; relations
     between options; options of a cell of another size.
 */
@@ -13,17 +12,18 @@
 
 /* ------------------------------------------------------------ defaults */
 
-#define BRACES(...) {__VA_ARGS__}
+#define BRACES(...)                                                            \
+    {                                                                          \
+        __VA_ARGS__                                                            \
+    }
 
 ellipsoid_options ellipsoid_options_default(void)
 {
     const ellipsoid_options options = {
-#define ELLIPSOID_REAL(member, section, entry, deflt, ...)               \
-    .member = deflt,
-#define ELLIPSOID_VECTOR(member, section, entry, deflt, ...)             \
+#define ELLIPSOID_REAL(member, section, entry, deflt, ...) .member = deflt,
+#define ELLIPSOID_VECTOR(member, section, entry, deflt, ...)                   \
     .member = BRACES deflt,
-#define ELLIPSOID_WHOLE(member, section, entry, deflt, ...)              \
-    .member = deflt,
+#define ELLIPSOID_WHOLE(member, section, entry, deflt, ...) .member = deflt,
 #define ELLIPSOID_SWITCH(member, section, entry, deflt, ...) .member = deflt,
 #define ELLIPSOID_CHOICE(member, section, entry, deflt, ...) .member = deflt,
 #include "options.def"
@@ -90,8 +90,11 @@ static const ellipsoid_option list[OPTION_COUNT] = {
     {OPTION(SWITCH, name, in, keyword, #deflt, about), .needs = ALWAYS,        \
      WITHIN(0, 1, "")},
 #define ELLIPSOID_CHOICE(name, in, keyword, deflt, about)                      \
-    {OPTION(CHOICE, name, in, keyword, #deflt, about), .needs = ALWAYS,        \
-     .words = words_##name, .unit = "", .range = &allowed_##name[2],           \
+    {OPTION(CHOICE, name, in, keyword, #deflt, about),                         \
+     .needs = ALWAYS,                                                          \
+     .words = words_##name,                                                    \
+     .unit = "",                                                               \
+     .range = &allowed_##name[2],                                              \
      .high = sizeof words_##name / sizeof *words_##name - 2},
 #include "options.def"
 };
@@ -127,11 +130,11 @@ static double number(const ellipsoid_options *o, int index, int component)
 
     switch (list[index].type)
     {
-        case ELLIPSOID_OPTION_REAL:
-        case ELLIPSOID_OPTION_VECTOR:
-            return ((const double *)(const void *)member)[component];
-        default:
-            return *(const int *)(const void *)member;
+    case ELLIPSOID_OPTION_REAL:
+    case ELLIPSOID_OPTION_VECTOR:
+        return ((const double *)(const void *)member)[component];
+    default:
+        return *(const int *)(const void *)member;
     }
 }
 
@@ -201,8 +204,7 @@ static void check_relations(verdict *v, const ellipsoid_options *o)
             !matters(o, INDEX_bead_radius)
                 || (o->bead_radius > 0
                     && (o->bead_radius < smallest
-                        || (o->bead_count == 1
-                            && o->bead_radius == smallest))),
+                        || (o->bead_count == 1 && o->bead_radius == smallest))),
             INDEX_bead_radius, NULL);
     require(v,
             !matters(o, INDEX_adhesion_range)
@@ -277,10 +279,10 @@ ellipsoid_options ellipsoid_options_resized(const ellipsoid_options *options,
         && ellipsoid_options_check(&other, NULL, NULL) == ELLIPSOID_OK)
     {
         const int rings = (options->bead_count - 2) / 3;
-        const double needed = ceil((rings + 1) * line_in_radii(&other)
-                                       / line_in_radii(options)
-                                   - 1e-9)
-                            - 1;
+        const double needed =
+            ceil((rings + 1) * line_in_radii(&other) / line_in_radii(options)
+                 - 1e-9)
+            - 1;
 
         /* Never fewer: round the body they are as far apart as they were */
         other.bead_count =

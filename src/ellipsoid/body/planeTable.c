@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     planeTable.c - the table of what a plane does to spheroids, and that of one
     body. drag/planeFunctions.c says what the functions are; the program that
     computes them is in tools/planeTable.
@@ -33,7 +32,9 @@ void ellipsoid_chebyshev(double t, int count, double *value, double *slope)
 
     for (int k = 0; k < count; k++)
     {
-        value[k] = k == 0 ? 1 : k == 1 ? z : 2 * z * value[k - 1] - value[k - 2];
+        value[k] = k == 0 ? 1
+                 : k == 1 ? z
+                          : 2 * z * value[k - 1] - value[k - 2];
         if (slope)
         {
             slope[k] = k == 0 ? 0
@@ -108,11 +109,13 @@ void ellipsoid_plane_scales(double ratio, const double free[4], double p,
         const double more = q < 0 ? 0 : part[q];
 
         scale[n] = sqrt(free[size_of[n].first] * free[size_of[n].second])
-                 / (e == 0 ? 1 : e == 1 ? t : t * t) * (o ? b / p : 1)
-                 * (1 + more);
-        slope[n] = scale[n]
-                 * (more / (1 + more) * (g_p + q * t_p) - e * t_p
-                    - (o ? 1 / p : 0));
+                 / (e == 0   ? 1
+                    : e == 1 ? t
+                             : t * t)
+                 * (o ? b / p : 1) * (1 + more);
+        slope[n] =
+            scale[n]
+            * (more / (1 + more) * (g_p + q * t_p) - e * t_p - (o ? 1 / p : 0));
     }
 }
 

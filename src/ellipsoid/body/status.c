@@ -1,16 +1,12 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     status.c - the texts of the status codes, and of the version.
 */
 #include "ellipsoid.h"
 
-const char *ellipsoid_version(void)
-{
-    return ELLIPSOID_VERSION;
-}
+const char *ellipsoid_version(void) { return ELLIPSOID_VERSION; }
 
 const char *ellipsoid_status_text(ellipsoid_status status)
 {
@@ -21,8 +17,8 @@ const char *ellipsoid_status_text(ellipsoid_status status)
     switch (status)
     {
         ELLIPSOID_STATUS_LIST(ELLIPSOID_STATUS_TEXT)
-        case ELLIPSOID_STATUS_COUNT:
-            break;
+    case ELLIPSOID_STATUS_COUNT:
+        break;
     }
 #undef ELLIPSOID_STATUS_TEXT
     return "unknown status";

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     surfaceQuadrature.c - the points at which FLOW_BODY samples the flow.
 */
 #include "body/body.h"
@@ -59,9 +58,7 @@ static void add_signs(ellipsoid_model *model, const double n[3], double weight)
                              sign & 4 ? -1 : 1};
         const double point[3] = {s[0] * n[0], s[1] * n[1], s[2] * n[2]};
         const double opposite[3] = {-point[0], -point[1], -point[2]};
-        const double first = n[0] > 0   ? s[0]
-                             : n[1] > 0 ? s[1]
-                                        : s[2];
+        const double first = n[0] > 0 ? s[0] : n[1] > 0 ? s[1] : s[2];
 
         if (first > 0 && (n[0] > 0 || s[0] > 0) && (n[1] > 0 || s[1] > 0)
             && (n[2] > 0 || s[2] > 0))

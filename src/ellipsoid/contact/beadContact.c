@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     beadContact.c - the wall's force on one bead.
 
     A contact is a local minimum of the distance from the bead's centre to the
@@ -35,8 +34,7 @@ static void find_contacts(const ellipsoid_bead *bead,
     all->count = 0;
     for (int k = 0; k < from->count; k++)
     {
-        const ellipsoid_facet *facet =
-            &from->facets[from->index[k]];
+        const ellipsoid_facet *facet = &from->facets[from->index[k]];
         const double reach = r + *gap > range ? r + *gap : range;
 
         if ((from->away && from->away[k] - from->moved > reach)
@@ -108,8 +106,8 @@ static scalar elevation(const contacts *all, const blend *m, const scalar *c,
     (void)m;
     for (int k = 0; k < 3; k++)
     {
-        s.gradient[k] = b->normal[k] - c->value * a->normal[k]
-                      - a->height * c->gradient[k];
+        s.gradient[k] =
+            b->normal[k] - c->value * a->normal[k] - a->height * c->gradient[k];
     }
     return s;
 }
@@ -139,9 +137,9 @@ static void add_blended(const contacts *all, const blend *m, double sign,
             sum->force[i] += size[c].value * n;
             for (int j = 0; derivatives && j < 3; j++)
             {
-                sum->force_x[i][j] += n * size[c].gradient[j]
-                                    + sign * size[c].value
-                                          * m->normal_slope[c][i][j];
+                sum->force_x[i][j] +=
+                    n * size[c].gradient[j]
+                    + sign * size[c].value * m->normal_slope[c][i][j];
             }
         }
     }
@@ -191,9 +189,9 @@ static void add_laws(const ellipsoid_bead *bead, contacts *all, int derivatives,
 }
 
 int ellipsoid_bead_contact(const ellipsoid_bead *bead,
-                         const ellipsoid_candidates *from, double *gap,
-                         int derivatives, ellipsoid_bead_forces *forces,
-                         ellipsoid_contact *report)
+                           const ellipsoid_candidates *from, double *gap,
+                           int derivatives, ellipsoid_bead_forces *forces,
+                           ellipsoid_contact *report)
 {
     contacts all;
 
@@ -216,8 +214,8 @@ int ellipsoid_bead_force(const double centre[3], double radius,
 {
     const ellipsoid_candidates from = {facets->facets, facets->index,
                                        facets->count, NULL, 0};
-    const ellipsoid_wall_laws laws = {
-        .count = 1, .law = {ellipsoid_hertz_law(stiffness)}};
+    const ellipsoid_wall_laws laws = {.count = 1,
+                                      .law = {ellipsoid_hertz_law(stiffness)}};
     ellipsoid_bead bead = {.radius = radius, .laws = &laws};
     ellipsoid_bead_forces forces = {.repulsion = {.force = {0, 0, 0}}};
     double gap = 0;

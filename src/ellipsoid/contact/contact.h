@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     contact.h - the room that knows contact: the law, beads and ellipsoids
     against walls and against one another, friction, and the derivatives of the
     wrench. It depends on walls and body, and knows neither flow nor time.
@@ -74,16 +73,15 @@ double ellipsoid_landing(const ellipsoid_model *model,
     (wrenchJacobian.c).
 */
 void ellipsoid_add_wrench_jacobian(const double arm[3], const double q[4],
-                               double r[3][3], const double force[3],
-                               double force_x[3][3],
-                               ellipsoid_wrench_jacobian *jacobian);
+                                   double r[3][3], const double force[3],
+                                   double force_x[3][3],
+                                   ellipsoid_wrench_jacobian *jacobian);
 
 /* Likewise by the pose of another body, that of its point `other_arm`. */
 void ellipsoid_add_cross_jacobian(const double arm[3], double r[3][3],
-                                     const double other_arm[3],
-                                     const double other_q[4],
-                                     double force_x[3][3],
-                                     ellipsoid_wrench_jacobian *jacobian);
+                                  const double other_arm[3],
+                                  const double other_q[4], double force_x[3][3],
+                                  ellipsoid_wrench_jacobian *jacobian);
 
 /* ------------------------------------------------- friction and damping */
 
@@ -98,7 +96,7 @@ ellipsoid_friction_law ellipsoid_friction_law_of(const ellipsoid_model *model);
 ellipsoid_friction_law
 ellipsoid_friction_law_at_mirror(const ellipsoid_model *model);
 ellipsoid_friction_law ellipsoid_friction_law_between(const ellipsoid_model *a,
-                                            const ellipsoid_model *b);
+                                                      const ellipsoid_model *b);
 
 /* The force at a contact point, and its derivatives. */
 typedef struct ellipsoid_traction
@@ -136,9 +134,9 @@ typedef struct ellipsoid_friction
 {
     int bodies;
     ellipsoid_attachment attachment[2];
-    double elastic[3];         /* [N] elastic force on the first */
-    double elastic_c[2][3][3]; /* [N/m] derivative by each bead's centre */
-    double point_c[2][3][3];   /* [-] likewise, of the contact point */
+    double elastic[3];           /* [N] elastic force on the first */
+    double elastic_c[2][3][3];   /* [N/m] derivative by each bead's centre */
+    double point_c[2][3][3];     /* [-] likewise, of the contact point */
     ellipsoid_traction traction; /* on the first */
 } ellipsoid_friction;
 
@@ -178,13 +176,10 @@ void ellipsoid_add_wall_friction(ellipsoid_wall_contact *at,
 /* The walls' force and torque on an ellipsoid: the part of
    ellipsoid_contact_evaluate() for it (ellipsoidContact.c). contact->gap is how
    far to look. */
-ellipsoid_status
-ellipsoid_surface_contact_add(const ellipsoid_model *model,
-                            const ellipsoid_surroundings *surroundings,
-                            const ellipsoid_state *state,
-                            ellipsoid_facet_cache *cache,
-                            ellipsoid_contact *contact,
-                            ellipsoid_wrench_jacobian *jacobian);
+ellipsoid_status ellipsoid_surface_contact_add(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const ellipsoid_state *state, ellipsoid_facet_cache *cache,
+    ellipsoid_contact *contact, ellipsoid_wrench_jacobian *jacobian);
 
 /* Derivatives of a pair are by x_a - x_b, a small rotation of a, and one of b;
    all in the lab. */
@@ -207,8 +202,8 @@ typedef struct ellipsoid_surface_pair
 } ellipsoid_surface_pair;
 
 void ellipsoid_surface_pair_set(const ellipsoid_surface *a,
-                              const ellipsoid_surface *b, int derivatives,
-                              ellipsoid_surface_pair *pair);
+                                const ellipsoid_surface *b, int derivatives,
+                                ellipsoid_surface_pair *pair);
 
 /* Derivatives of the wrench on an ellipsoid are by those nine, by u_a - u_b in
    the lab, and by omega of a and of b, each in its body. */
@@ -218,11 +213,11 @@ void ellipsoid_surface_pair_set(const ellipsoid_surface *a,
    at one contact. */
 typedef struct ellipsoid_surface_force
 {
-    int bodies;                     /* 1 at a wall: no variables of b */
+    int bodies; /* 1 at a wall: no variables of b */
     ellipsoid_surface *body[2];
     const ellipsoid_state *state[2];
-    double force[3];                /* [N] lab, on the first */
-    double point[2][3];             /* [m] lab, from each one's centre */
+    double force[3];    /* [N] lab, on the first */
+    double point[2][3]; /* [m] lab, from each one's centre */
 
     /* read where derivatives are asked for */
     double force_slope[ELLIPSOID_PAIR_VARIABLES][3];
@@ -247,9 +242,9 @@ void ellipsoid_wrench_add(const ellipsoid_surface_force *at,
    NULL, their derivatives by the states of the first body and the second. Of
    `at`, bodies and states are read. */
 void ellipsoid_wrench_report(const ellipsoid_surface_force *at,
-                            const ellipsoid_wrench *sum, int b,
-                            double force[3], double torque[3],
-                            ellipsoid_wrench_jacobian *const by[2]);
+                             const ellipsoid_wrench *sum, int b,
+                             double force[3], double torque[3],
+                             ellipsoid_wrench_jacobian *const by[2]);
 
 /* ------------------------------------------------- two bodies in contact */
 

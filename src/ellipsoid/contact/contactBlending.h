@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     contactBlending.h - the sum of the contacts of one body with the wall.
     beadContact.c includes it for beads and ellipsoidContact.c for ellipsoids,
     each with the number of variables of its gradients as a constant.
@@ -119,7 +118,7 @@ typedef struct scalar
 /* The contacts that one law acts at. */
 typedef struct blend
 {
-    int count; /* the first of all contacts */
+    int count;                 /* the first of all contacts */
     double radius, separation; /* [m] for redundancy() of ellipsoids */
     double normal_slope[MAX_CONTACTS][3][VARIABLES];
     scalar force[MAX_CONTACTS]; /* f_i */
@@ -176,9 +175,8 @@ static scalar weighted_elevation(const contacts *all, const blend *m,
 /* Reduces a share by what the other's fraction of both weighted elevations
    exceeds a threshold by:
    phi *= 1 - degree (other/total - threshold)/(1 - threshold). */
-static void reduce_share(scalar *phi, const scalar *degree,
-                         const scalar *other, const scalar *own,
-                         double threshold)
+static void reduce_share(scalar *phi, const scalar *degree, const scalar *other,
+                         const scalar *own, double threshold)
 {
     const double total = other->value + own->value;
     const double part = other->value / total;
@@ -194,7 +192,8 @@ static void reduce_share(scalar *phi, const scalar *degree,
         const double part_gradient =
             ((1 - part) * other->gradient[k] - part * own->gradient[k]) / total;
 
-        phi->gradient[k] = phi->gradient[k] * factor
+        phi->gradient[k] =
+            phi->gradient[k] * factor
             - phi->value
                   * (degree->gradient[k] * excess
                      + degree->value * part_gradient / (1 - threshold));
@@ -211,8 +210,8 @@ static void set_shares(const contacts *all, const blend *m,
         for (int j = 0; j < i; j++)
         {
             const scalar c = cosine(all, m, i, j);
-            const double ramp = (c.value - no_sharing)
-                              / (full_sharing - no_sharing);
+            const double ramp =
+                (c.value - no_sharing) / (full_sharing - no_sharing);
             scalar degree = {.value = fmin(ramp, 1)};
 
             if (!(ramp > 0))
@@ -328,9 +327,10 @@ static void blend_forces(const contacts *all, const blend *m,
             size[i].value = w * f->value;
             for (int k = 0; k < VARIABLES; k++)
             {
-                size[i].gradient[k] = w * f->gradient[k]
+                size[i].gradient[k] =
+                    w * f->gradient[k]
                     + f->value * (g->gradient[k] - w * sum.gradient[k])
-                      / sum.value;
+                          / sum.value;
             }
         }
     }

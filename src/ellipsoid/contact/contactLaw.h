@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     contactLaw.h - the normal force between two surfaces as a function of the
     gap between them. Beads, ellipsoids and pairs of cells take it from here;
     friction and damping (friction.c) follow from it.
@@ -123,8 +122,8 @@ ellipsoid_contact_normal_force(const ellipsoid_contact_law *law, double gap)
     switch (law->name)
     {
         ELLIPSOID_CONTACT_LAWS(ELLIPSOID_LAW_CASE)
-        case ELLIPSOID_LAW_COUNT:
-            break;
+    case ELLIPSOID_LAW_COUNT:
+        break;
     }
     return (ellipsoid_normal_force){.force = 0};
 }

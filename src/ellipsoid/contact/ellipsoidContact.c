@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     ellipsoidContact.c - the walls' force and torque on an ellipsoid.
 
     Contacts are local minima of the ellipsoid's distance to the wall
@@ -68,12 +67,12 @@ static int is_inside(const ellipsoid_surface *body,
     face. Then the plane of the face that it is least deep behind is a contact.
 */
 static void add_cut_plane(const ellipsoid_surface *body,
-                         const ellipsoid_candidates *from, double range,
-                         contacts *all, ellipsoid_contact *report)
+                          const ellipsoid_candidates *from, double range,
+                          contacts *all, ellipsoid_contact *report)
 {
     const double *a = body->axes;
-    const double curvature_radius = body->smallest * body->smallest
-                                  / fmax(a[0], fmax(a[1], a[2]));
+    const double curvature_radius =
+        body->smallest * body->smallest / fmax(a[0], fmax(a[1], a[2]));
     contact found, least = {.height = -HUGE_VAL};
     int surface = -1, deep = 0;
 
@@ -84,8 +83,7 @@ static void add_cut_plane(const ellipsoid_surface *body,
         if (ellipsoid_surface_cut_plane(facet, body, &found))
         {
             found.mirror = facet->mirror;
-            deep = deep
-                || -found.height > curvature_radius * (1 + coincidence);
+            deep = deep || -found.height > curvature_radius * (1 + coincidence);
             if (found.height > least.height)
             {
                 least = found;
@@ -164,7 +162,8 @@ static scalar elevation(const contacts *all, const blend *m, const scalar *c,
                       - c->gradient[k] * a->height;
         for (int l = 0; l < 3; l++)
         {
-            s.gradient[k] += m->normal_slope[j][l][k] * apart[l]
+            s.gradient[k] +=
+                m->normal_slope[j][l][k] * apart[l]
                 + b->normal[l] * (b->arm_slope[l][k] - a->arm_slope[l][k]);
         }
     }
@@ -205,7 +204,8 @@ static scalar relative_elevation(const contacts *all, const blend *m,
 
             for (int l = 0; l < 3; l++)
             {
-                change += m->normal_slope[j][l][k] * apart[l]
+                change +=
+                    m->normal_slope[j][l][k] * apart[l]
                     + b->normal[l] * (b->arm_slope[l][k] - a->arm_slope[l][k]);
             }
             part.gradient[k] = (s.gradient[k] - part.value * change) / above;
@@ -225,8 +225,9 @@ static scalar redundancy(const contacts *all, const blend *m, int i, int j)
 
     ellipsoid_difference(a->arm, b->arm, arms);
     ellipsoid_difference(a->normal, b->normal, normals);
-    far.value = (ellipsoid_dot(arms, arms)
-                 - radius * ellipsoid_dot(normals, normals)) / separation;
+    far.value =
+        (ellipsoid_dot(arms, arms) - radius * ellipsoid_dot(normals, normals))
+        / separation;
     if (!(far.value > 0 && c.value > 0))
     {
         return c;
@@ -280,9 +281,9 @@ static void add_blended(const contacts *all, const blend *m, double sign,
             at->point[0][i] = -c->arm[i];
             for (int k = 0; derivatives && k < VARIABLES; k++)
             {
-                at->force_slope[k][i] = sign * size[n].gradient[k]
-                                          * c->normal[i]
-                                      + f * c->normal_slope[i][k];
+                at->force_slope[k][i] =
+                    sign * size[n].gradient[k] * c->normal[i]
+                    + f * c->normal_slope[i][k];
                 at->point_slope[0][k][i] = -c->arm_slope[i][k];
             }
         }
@@ -343,13 +344,10 @@ static void add_laws(const ellipsoid_model *model,
     }
 }
 
-ellipsoid_status
-ellipsoid_surface_contact_add(const ellipsoid_model *model,
-                            const ellipsoid_surroundings *surroundings,
-                            const ellipsoid_state *state,
-                            ellipsoid_facet_cache *cache,
-                            ellipsoid_contact *contact,
-                            ellipsoid_wrench_jacobian *jacobian)
+ellipsoid_status ellipsoid_surface_contact_add(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const ellipsoid_state *state, ellipsoid_facet_cache *cache,
+    ellipsoid_contact *contact, ellipsoid_wrench_jacobian *jacobian)
 {
     const ellipsoid_options *o = &model->options;
     ellipsoid_wrench_jacobian *const by[2] = {jacobian, NULL};
@@ -380,7 +378,7 @@ ellipsoid_surface_contact_add(const ellipsoid_model *model,
 
             add_laws(model, &laws, &all, jacobian != NULL, &at, &sum);
             ellipsoid_wrench_report(&at, &sum, 0, contact->force,
-                                   contact->torque, jacobian ? by : NULL);
+                                    contact->torque, jacobian ? by : NULL);
         }
     }
     return status;

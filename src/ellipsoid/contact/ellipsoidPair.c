@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     ellipsoidPair.c - two ellipsoids against one another.
 
     With the support functions h(n) = |A R^T n| the depth of one in the other is
@@ -26,8 +25,8 @@
 /* The support function of one body in a direction. */
 typedef struct support
 {
-    double height;     /* [m] h(n) */
-    double point[3];   /* [m] p, from the centre */
+    double height;          /* [m] h(n) */
+    double point[3];        /* [m] p, from the centre */
     double curvature[3][3]; /* [m] dp/dn = (S - p p^T)/h */
 } support;
 
@@ -121,7 +120,7 @@ static int solve2(const double m[3], const double r[2], double d[2])
 
 /* The unit vector along n + d, with d in the plane across n. */
 static void retract(const double n[3], double across[2][3], const double d[2],
-                 double moved[3])
+                    double moved[3])
 {
     double length;
 
@@ -167,9 +166,8 @@ static double gradient_norm(const objective *at)
     return hypot(at->slope[0], at->slope[1]);
 }
 
-static void minimise(const ellipsoid_surface *a,
-                     const ellipsoid_surface *b, const double line[3],
-                     double n[3], objective *at)
+static void minimise(const ellipsoid_surface *a, const ellipsoid_surface *b,
+                     const double line[3], double n[3], objective *at)
 {
     evaluate(a, b, line, n, at);
     for (int step = 0; step < MAX_NEWTON; step++)
@@ -180,9 +178,8 @@ static void minimise(const ellipsoid_surface *a,
 
         if (!solve2(at->curvature, down, d))
         {
-            const double scale =
-                fabs(at->curvature[0]) + fabs(at->curvature[1])
-                + fabs(at->curvature[2]);
+            const double scale = fabs(at->curvature[0]) + fabs(at->curvature[1])
+                               + fabs(at->curvature[2]);
 
             d[0] = down[0] / scale;
             d[1] = down[1] / scale;
@@ -203,7 +200,7 @@ static void minimise(const ellipsoid_surface *a,
             evaluate(a, b, line, moved, &there);
             /* close to the minimum phi is flat to rounding, its slope is not */
             if (length < 1e-3 ? gradient_norm(&there) < gradient_norm(at)
-                           : there.phi <= at->phi)
+                              : there.phi <= at->phi)
             {
                 break;
             }
@@ -220,8 +217,8 @@ static void minimise(const ellipsoid_surface *a,
 }
 
 void ellipsoid_surface_pair_set(const ellipsoid_surface *a,
-                              const ellipsoid_surface *b, int derivatives,
-                              ellipsoid_surface_pair *pair)
+                                const ellipsoid_surface *b, int derivatives,
+                                ellipsoid_surface_pair *pair)
 {
     double line[3];
     objective at;

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     ellipsoidPairContact.c - force and torque of two ellipsoids on one another.
 
     One contact, where they are deepest (ellipsoidPair.c), with the law of two
@@ -77,9 +76,8 @@ void ellipsoid_surface_pair_contact(ellipsoid_pair_contact *m)
         return;
     }
 
-    ellipsoid_surface_force at = {.bodies = 2,
-                                  .body = {&a, &b},
-                                  .state = {m->state_a, m->state_b}};
+    ellipsoid_surface_force at = {
+        .bodies = 2, .body = {&a, &b}, .state = {m->state_a, m->state_b}};
     ellipsoid_wrench sum = {.force = {0, 0, 0}};
 
     m->contacts = 1;

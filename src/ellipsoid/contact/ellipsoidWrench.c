@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     ellipsoidWrench.c - force and torque of a contact between an ellipsoid and a
     wall, or between two ellipsoids, with friction and damping, and their
     derivatives.
@@ -72,7 +71,7 @@ static void set_velocity_slope(const ellipsoid_surface_force *p,
         }
         if (turning >= 0)
         {
-            double (*r)[3] = p->body[b]->rotation;
+            double(*r)[3] = p->body[b]->rotation;
 
             ellipsoid_set(change, r[0][turning], r[1][turning], r[2][turning]);
         }
@@ -89,9 +88,8 @@ static void set_velocity_slope(const ellipsoid_surface_force *p,
     }
 }
 
-static void set_force_slope(const ellipsoid_surface_force *p,
-                            double spin[2][3], ellipsoid_traction *t, int k,
-                            double slope[3])
+static void set_force_slope(const ellipsoid_surface_force *p, double spin[2][3],
+                            ellipsoid_traction *t, int k, double slope[3])
 {
     double velocity[3];
 
@@ -108,7 +106,7 @@ static void set_force_slope(const ellipsoid_surface_force *p,
 
 /* The moment of a force on the first body, or of its opposite on the other. */
 static void add_moment(const double point[3], const double force[3], int b,
-                        double torque[3])
+                       double torque[3])
 {
     double moment[3];
 
@@ -172,7 +170,7 @@ void ellipsoid_wrench_add(const ellipsoid_surface_force *p,
             if (k < POSE)
             {
                 add_moment(p->point_slope[b][k], traction.force, b,
-                            sum->torque_slope[b][k]);
+                           sum->torque_slope[b][k]);
             }
         }
     }
@@ -232,11 +230,11 @@ static void set_state_derivatives(double slope[VARIABLES][3], int by,
 /* Torques are in the body frame, which rotates with the body; the force on the
    second body is the opposite one. */
 void ellipsoid_wrench_report(const ellipsoid_surface_force *p,
-                            const ellipsoid_wrench *sum, int b,
-                            double force[3], double torque[3],
-                            ellipsoid_wrench_jacobian *const by[2])
+                             const ellipsoid_wrench *sum, int b,
+                             double force[3], double torque[3],
+                             ellipsoid_wrench_jacobian *const by[2])
 {
-    double (*r)[3] = p->body[b]->rotation;
+    double(*r)[3] = p->body[b]->rotation;
     double force_slope[VARIABLES][3], torque_slope[VARIABLES][3];
     const double sign = b == 0 ? 1 : -1;
 

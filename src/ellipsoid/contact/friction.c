@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     friction.c - friction and damping at a contact.
 
     The elastic force of a contact is P = N n. With v the velocity of the body's
@@ -23,7 +22,7 @@ ellipsoid_friction_law ellipsoid_friction_law_of(const ellipsoid_model *model)
     const ellipsoid_options *o = &model->options;
 
     return (ellipsoid_friction_law){o->friction, o->slip_speed,
-                                   o->contact_damping};
+                                    o->contact_damping};
 }
 
 /* The law between a cell and its mirror image, which comes as fast from the
@@ -38,15 +37,14 @@ ellipsoid_friction_law_at_mirror(const ellipsoid_model *model)
 
 /* The geometric mean of friction: a cell without any slides on any other. */
 ellipsoid_friction_law ellipsoid_friction_law_between(const ellipsoid_model *a,
-                                            const ellipsoid_model *b)
+                                                      const ellipsoid_model *b)
 {
     const ellipsoid_friction_law of_a = ellipsoid_friction_law_of(a);
     const ellipsoid_friction_law of_b = ellipsoid_friction_law_of(b);
 
-    return (ellipsoid_friction_law){
-        sqrt(of_a.friction * of_b.friction),
-        fmax(of_a.slip_speed, of_b.slip_speed),
-        0.5 * (of_a.damping + of_b.damping)};
+    return (ellipsoid_friction_law){sqrt(of_a.friction * of_b.friction),
+                                    fmax(of_a.slip_speed, of_b.slip_speed),
+                                    0.5 * (of_a.damping + of_b.damping)};
 }
 
 /* result += scale a b^T */
@@ -196,7 +194,7 @@ void ellipsoid_add_wall_friction(ellipsoid_wall_contact *at,
     const double per_force =
         size > 0 ? at->model->options.bead_radius / size : 0;
     ellipsoid_wrench_jacobian *const by_own[2][2] = {{at->jacobian, NULL},
-                                                      {NULL, NULL}};
+                                                     {NULL, NULL}};
     ellipsoid_friction friction = {.bodies = 1};
 
     friction.attachment[0] = ellipsoid_attachment_of(at->state, at->r, arm);

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     pairContact.c - the forces F_S between the cells of a group.
 
     Beads against beads: the law of two spheres (contactLaw.h) along the line of
@@ -74,9 +73,9 @@ static void add_elastic(ellipsoid_pair_contact *m, int bead_a, int bead_b,
     ellipsoid_add_wrench_jacobian(arm_b, b.q, b.r, back, force_x,
                                   &m->of_b->own);
     ellipsoid_add_cross_jacobian(arm_a, a.r, arm_b, b.q, across,
-                                    &m->of_a->other);
+                                 &m->of_a->other);
     ellipsoid_add_cross_jacobian(arm_b, b.r, arm_a, a.q, across,
-                                    &m->of_b->other);
+                                 &m->of_b->other);
 }
 
 /* The contact point divides the line of centres as the radii do. */

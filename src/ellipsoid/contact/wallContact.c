@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     wallContact.c - the walls' force and torque on a cell in one state.
 */
 #include "contact/contact.h"
@@ -67,20 +66,18 @@ static ellipsoid_bead bead_of(const ellipsoid_wall_contact *at, int b)
    for contacts; returns how many of these there are. clear: how far beyond the
    bead no facet is, as its move tells */
 static int look_at_bead(ellipsoid_wall_contact *at,
-                        const ellipsoid_facet_cache *cache, int b,
-                        double clear, double range)
+                        const ellipsoid_facet_cache *cache, int b, double clear,
+                        double range)
 {
     const ellipsoid_bead bead = bead_of(at, b);
-    const ellipsoid_candidates from = {cache->facets,
-                                       cache->facet + cache->first[b],
-                                       cache->first[b + 1] - cache->first[b],
-                                       cache->away + cache->first[b],
-                                       cache->nearest[b] - bead.radius - clear};
+    const ellipsoid_candidates from = {
+        cache->facets, cache->facet + cache->first[b],
+        cache->first[b + 1] - cache->first[b], cache->away + cache->first[b],
+        cache->nearest[b] - bead.radius - clear};
     ellipsoid_bead_forces forces;
     double gap = range;
-    const int contacts =
-        ellipsoid_bead_contact(&bead, &from, &gap, at->jacobian != NULL,
-                               &forces, at->contact);
+    const int contacts = ellipsoid_bead_contact(
+        &bead, &from, &gap, at->jacobian != NULL, &forces, at->contact);
 
     if (contacts > 0)
     {
@@ -126,8 +123,7 @@ static void add_beads(ellipsoid_wall_contact *at,
                 - sqrt(ellipsoid_squared_move(&change, at->model->bead[b]));
         }
         if (clear[n] <= range
-            && look_at_bead(at, cache, b, clear[n],
-                            fmin(contact->gap, range))
+            && look_at_bead(at, cache, b, clear[n], fmin(contact->gap, range))
                    > 0)
         {
             clear[n] = HUGE_VAL; /* its gap is known */
@@ -142,9 +138,8 @@ static void add_beads(ellipsoid_wall_contact *at,
     {
         look_at_bead(at, cache, cache->bead[nearest], least, contact->gap);
     }
-    for (int n = 0; n < cache->bead_count && least < contact->gap
-                    && contact->gap > 0;
-         n++)
+    for (int n = 0;
+         n < cache->bead_count && least < contact->gap && contact->gap > 0; n++)
     {
         if (n != nearest && clear[n] < contact->gap)
         {
@@ -158,8 +153,8 @@ static void add_beads(ellipsoid_wall_contact *at,
    at `velocity`, and is `depth` beyond; at most `time`, in which it travels so
    far. */
 static double bead_landing(const ellipsoid_facet_cache *cache, int b,
-                           const ellipsoid_bead *bead,
-                           const double velocity[3], double depth, double time)
+                           const ellipsoid_bead *bead, const double velocity[3],
+                           double depth, double time)
 {
     const double range = bead->radius + bead->laws->range;
     const double travel = (1 + 1e-9) * time * ellipsoid_length(velocity);
@@ -217,12 +212,9 @@ double ellipsoid_landing(const ellipsoid_model *model,
 }
 
 ellipsoid_status ellipsoid_contact_evaluate(
-    const ellipsoid_model *model,
-    const ellipsoid_surroundings *surroundings,
-    const ellipsoid_state *state,
-    ellipsoid_facet_cache *cache,
-    ellipsoid_contact *contact,
-    ellipsoid_wrench_jacobian *jacobian)
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const ellipsoid_state *state, ellipsoid_facet_cache *cache,
+    ellipsoid_contact *contact, ellipsoid_wrench_jacobian *jacobian)
 {
     memset(contact, 0, sizeof *contact);
     contact->gap = contact->cell_gap = HUGE_VAL;

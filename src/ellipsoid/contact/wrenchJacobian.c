@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     wrenchJacobian.c - derivatives of a force at a point of the body, and of its
     torque.
 */
@@ -10,7 +9,7 @@
 
 /* v = (dR/dq_n) body: derivative of the polynomial R(q), n = 0..3. */
 static void rotation_derivative(const double q[4], int n, const double body[3],
-                      double v[3])
+                                double v[3])
 {
     const double along = ellipsoid_dot(q, body);
     double cross[3];
@@ -39,9 +38,9 @@ static void rotation_derivative(const double q[4], int n, const double body[3],
 }
 
 void ellipsoid_add_wrench_jacobian(const double arm[3], const double q[4],
-                               double r[3][3], const double force[3],
-                               double force_x[3][3],
-                               ellipsoid_wrench_jacobian *jacobian)
+                                   double r[3][3], const double force[3],
+                                   double force_x[3][3],
+                                   ellipsoid_wrench_jacobian *jacobian)
 {
     const double conjugate[4] = {-q[0], -q[1], -q[2], q[3]};
     double column[3], body[3], torque[3];
@@ -94,10 +93,9 @@ void ellipsoid_add_wrench_jacobian(const double arm[3], const double q[4],
 }
 
 void ellipsoid_add_cross_jacobian(const double arm[3], double r[3][3],
-                                     const double other_arm[3],
-                                     const double other_q[4],
-                                     double force_x[3][3],
-                                     ellipsoid_wrench_jacobian *jacobian)
+                                  const double other_arm[3],
+                                  const double other_q[4], double force_x[3][3],
+                                  ellipsoid_wrench_jacobian *jacobian)
 {
     for (int n = 0; n < 7; n++)
     {
@@ -149,8 +147,7 @@ static change change_of(const ellipsoid_attachment *at, int n)
     }
     if (n < 9) /* omega */
     {
-        ellipsoid_set(spin, at->r[0][n - 6], at->r[1][n - 6],
-                      at->r[2][n - 6]);
+        ellipsoid_set(spin, at->r[0][n - 6], at->r[1][n - 6], at->r[2][n - 6]);
     }
     else
     {

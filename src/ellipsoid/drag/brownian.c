@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     brownian.c - the random force and torque of the fluid.
 
     Fluctuation and dissipation: <F F^T> = 2 kT mu K delta(t), and likewise the
@@ -98,12 +97,10 @@ static double longest_interval(const ellipsoid_model *model,
          / (2 * ELLIPSOID_BOLTZMANN * model->options.temperature * square);
 }
 
-ellipsoid_status
-ellipsoid_wall_noise_begin(const ellipsoid_model *model,
-                           const ellipsoid_surroundings *surroundings,
-                           const ellipsoid_state *state,
-                           ellipsoid_facet_cache *cache, double t,
-                           ellipsoid_noise *noise)
+ellipsoid_status ellipsoid_wall_noise_begin(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const ellipsoid_state *state, ellipsoid_facet_cache *cache, double t,
+    ellipsoid_noise *noise)
 {
     const double *q = state->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
     ellipsoid_frame frame = {.by_q = NULL};
@@ -126,8 +123,8 @@ ellipsoid_wall_noise_begin(const ellipsoid_model *model,
     }
     for (int p = 0; p < planes.count; p++)
     {
-        noise->end = fmin(
-            noise->end, t + longest_interval(model, noise, &planes.at[p]));
+        noise->end =
+            fmin(noise->end, t + longest_interval(model, noise, &planes.at[p]));
     }
     return noise->end > t ? ELLIPSOID_OK : ELLIPSOID_STEP_UNDERFLOW;
 }
@@ -137,7 +134,8 @@ void ellipsoid_wall_noise_set(const ellipsoid_model *model,
                               double end, ellipsoid_noise *noise)
 {
     const double scale =
-        sqrt(2 * ELLIPSOID_BOLTZMANN * model->options.temperature / (end - noise->start));
+        sqrt(2 * ELLIPSOID_BOLTZMANN * model->options.temperature
+             / (end - noise->start));
     double normal[6], action[6] = {0};
     int64_t number;
 

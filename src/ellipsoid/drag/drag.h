@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     drag.h - the room that knows what the fluid exerts on a body: the motion of
     a free body in the flow averaged over it (Faxen), the random force and
     torque, and the resistance near walls. It depends on walls and body.
@@ -33,10 +32,10 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
 /* The random force and torque of a noise interval (brownian.c). */
 typedef struct ellipsoid_noise
 {
-    double force[3];  /* [N] body */
-    double torque[3]; /* [N m] body */
-    double start, end; /* [s] of the interval */
-    double tolerance;  /* [s] a time so close to an end counts as that end */
+    double force[3];     /* [N] body */
+    double torque[3];    /* [N m] body */
+    double start, end;   /* [s] of the interval */
+    double tolerance;    /* [s] a time so close to an end counts as that end */
     int near;            /* to walls? */
     double factor[6][6]; /* L of the resistance near them, body frame */
 } ellipsoid_noise;
@@ -53,12 +52,10 @@ ellipsoid_status ellipsoid_noise_at(const ellipsoid_model *model,
     resistance, L L^T; *near is 0 where there are no walls. Then the noise until
     that end or an earlier one.
 */
-ellipsoid_status
-ellipsoid_wall_noise_begin(const ellipsoid_model *model,
-                           const ellipsoid_surroundings *surroundings,
-                           const ellipsoid_state *state,
-                           ellipsoid_facet_cache *cache, double t,
-                           ellipsoid_noise *noise);
+ellipsoid_status ellipsoid_wall_noise_begin(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const ellipsoid_state *state, ellipsoid_facet_cache *cache, double t,
+    ellipsoid_noise *noise);
 void ellipsoid_wall_noise_set(const ellipsoid_model *model,
                               const ellipsoid_surroundings *surroundings,
                               double end, ellipsoid_noise *noise);
@@ -69,9 +66,8 @@ void ellipsoid_add_noise(const ellipsoid_noise *noise, ellipsoid_frame *frame,
                          ellipsoid_jacobian_blocks *blocks);
 
 /* Does the resistance know of walls? */
-static inline int
-ellipsoid_has_near_walls(const ellipsoid_model *model,
-                         const ellipsoid_surroundings *around)
+static inline int ellipsoid_has_near_walls(const ellipsoid_model *model,
+                                           const ellipsoid_surroundings *around)
 {
     return model->options.wall_resistance != ELLIPSOID_WALL_RESISTANCE_NONE
         && around->walls && around->flow;
@@ -109,12 +105,10 @@ typedef struct ellipsoid_planes
 } ellipsoid_planes;
 
 /* The planes at the pose of a state; slopes if frame->by_q (wallPlanes.c). */
-ellipsoid_status
-ellipsoid_find_planes(const ellipsoid_model *model,
-                      const ellipsoid_surroundings *surroundings,
-                      const ellipsoid_state *state,
-                      const ellipsoid_frame *frame,
-                      ellipsoid_facet_cache *cache, ellipsoid_planes *planes);
+ellipsoid_status ellipsoid_find_planes(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const ellipsoid_state *state, const ellipsoid_frame *frame,
+    ellipsoid_facet_cache *cache, ellipsoid_planes *planes);
 
 /* The functions of tilt and gap, and their derivatives by nu and the gap;
    lengths in equatorial radii. */
@@ -162,22 +156,21 @@ typedef struct ellipsoid_near_walls
 
 /* mu (diag(K, C) + what the planes add), body frame (wallDrag.c). */
 void ellipsoid_wall_matrix(const ellipsoid_model *model,
-                           const ellipsoid_planes *planes,
-                           double matrix[6][6]);
+                           const ellipsoid_planes *planes, double matrix[6][6]);
 
 /* Adds to the state's u and omega what a wrench does against that. NON_FINITE: it
    is singular. */
-ellipsoid_status ellipsoid_add_wall_mobility(const ellipsoid_model *model,
-                                             const ellipsoid_planes *planes,
-                                             ellipsoid_frame *frame,
-                                             const ellipsoid_body_wrench *wrench,
-                                             ellipsoid_state *state);
+ellipsoid_status ellipsoid_add_wall_mobility(
+    const ellipsoid_model *model, const ellipsoid_planes *planes,
+    ellipsoid_frame *frame, const ellipsoid_body_wrench *wrench,
+    ellipsoid_state *state);
 
 /* Sets the state's u and omega to those that balance this wrench. NON_FINITE, as
    above. */
-ellipsoid_status ellipsoid_balance_wall_drag(const ellipsoid_near_walls *near,
-                                             const ellipsoid_body_wrench *wrench,
-                                             ellipsoid_state *state);
+ellipsoid_status
+ellipsoid_balance_wall_drag(const ellipsoid_near_walls *near,
+                            const ellipsoid_body_wrench *wrench,
+                            ellipsoid_state *state);
 
 /* Adds the drag to the wrench and, if wanted, to the blocks. */
 void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     faxen.c - the undisturbed flow averaged over the body.
 
     Faxen's law for the ellipsoid, Brenner, Chem. Eng. Sci. 19, 703 (1964):
@@ -52,9 +51,9 @@ static int velocities_of_flow(const ellipsoid_surroundings *surroundings,
    difference, even ones the sum. */
 typedef struct moments
 {
-    double u[3][3];     /* c_j v */
-    double g[3][3];     /* G */
-    double cg[3][3][3]; /* c_j G */
+    double u[3][3];      /* c_j v */
+    double g[3][3];      /* G */
+    double cg[3][3][3];  /* c_j G */
     double ccg[6][3][3]; /* c_j c_s G, j <= s */
 } moments;
 

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     planeFunctions.c - what one plane does to a spheroid, from a table.
 
     With e the body's axis, n the plane's normal, nu = n.e, t = n - nu e, lengths
@@ -107,9 +106,9 @@ static void set_values(const ellipsoid_plane_table *own, double nu, double gap,
     const double bend = more / (b * b + 1);
 
     v->squeeze[0] = ellipsoid_squeeze(b, p) * close * close * close / gap;
-    v->squeeze[1] = v->squeeze[0]
-                  * (-p_nu * (3 / p + 2 * p / (b * b + pp))
-                     + 3 * close_nu / close);
+    v->squeeze[1] =
+        v->squeeze[0]
+        * (-p_nu * (3 / p + 2 * p / (b * b + pp)) + 3 * close_nu / close);
     v->squeeze[2] = v->squeeze[0] * (3 * close_gap / close - 1 / gap);
     v->arm[0] = -more * nu / p;
     v->arm[1] = -more / (pp * p);
@@ -139,16 +138,15 @@ static void apply_functions(int k, const double *f, double nu,
     action[j] = f[0] * u[j] + f[1] * t[j] * tu + nu * f[3] * t[j] * u[k]
               + nu * f[9] * w[i] + nu * f[10] * t[j] * cw + f[11] * t[i] * w[k]
               + f[12] * y[j] + nu * f[14] * t[j] * ye;
-    action[k] = f[2] * u[k] + nu * f[3] * tu + f[8] * cw
-              + (f[12] + f[13]) * ye;
+    action[k] = f[2] * u[k] + nu * f[3] * tu + f[8] * cw + (f[12] + f[13]) * ye;
     action[3 + i] = f[4] * w[i] + f[5] * t[i] * tw + nu * f[7] * t[i] * w[k]
                   - f[8] * t[j] * u[k] + nu * f[9] * u[j]
-                  - nu * f[10] * t[j] * tu
-                  + f[15] * (t[j] * ye - nu * y[j]) - f[17] * t[j] * ye;
+                  - nu * f[10] * t[j] * tu + f[15] * (t[j] * ye - nu * y[j])
+                  - f[17] * t[j] * ye;
     action[3 + j] = f[4] * w[j] + f[5] * t[j] * tw + nu * f[7] * t[j] * w[k]
                   + f[8] * t[i] * u[k] - nu * f[9] * u[i]
-                  + nu * f[10] * t[i] * tu
-                  + f[15] * (nu * y[i] - t[i] * ye) + f[17] * t[i] * ye;
+                  + nu * f[10] * t[i] * tu + f[15] * (nu * y[i] - t[i] * ye)
+                  + f[17] * t[i] * ye;
     action[3 + k] = f[6] * w[k] + nu * f[7] * tw + f[11] * cu + f[16] * turn;
 }
 
@@ -186,8 +184,8 @@ void ellipsoid_plane_action(const ellipsoid_plane_effect *e,
     const double out[6] = {n[0], n[1], n[2]}, *w = scaled + 3;
     /* (c x n).w over the arm */
     const double spin = n[i] * w[j] - n[j] * w[i];
-    const double slip = ellipsoid_dot(n, scaled) + v->arm[0] * spin
-                      - v->rate[0] * y;
+    const double slip =
+        ellipsoid_dot(n, scaled) + v->arm[0] * spin - v->rate[0] * y;
     double part[6], crossed[6] = {0};
 
     memset(action, 0, 2 * sizeof(*action));

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     wallDrag.c - drag near walls.
 
         (F^, T^) = mu (diag(K^, C) + sum_planes A(n^, g))
@@ -116,8 +115,8 @@ static void add_pose_changes(const ellipsoid_near_walls *near,
     ellipsoid_plane_effect effect;
     double lab[3], shear[3], parts[2][6], by[4][2][6];
 
-    ellipsoid_plane_effect_set(&near->model->plane, plane->normal, plane->gap, 1,
-                               &effect);
+    ellipsoid_plane_effect_set(&near->model->plane, plane->normal, plane->gap,
+                               1, &effect);
     set_shear(near, plane, lab, shear);
     ellipsoid_plane_action(&effect, rates, shear, parts, by);
     for (int l = 0; l < POSE; l++)
@@ -234,11 +233,10 @@ static void add_blocks(const ellipsoid_near_walls *near, const double slip[3],
         ellipsoid_product(frame->by_q[n], slip, moved);
         for (int i = 0; i < 3; i++)
         {
-            moved[i] += m->flow_points > 0
-                          ? axis[i][0] * free->u_q[0][n]
-                                + axis[i][1] * free->u_q[1][n]
-                                + axis[i][2] * free->u_q[2][n]
-                          : 0;
+            moved[i] += m->flow_points > 0 ? axis[i][0] * free->u_q[0][n]
+                                                 + axis[i][1] * free->u_q[1][n]
+                                                 + axis[i][2] * free->u_q[2][n]
+                                           : 0;
             moved[i + 3] = free->omega_q[i][n];
         }
         apply(matrix, moved, column);
@@ -267,8 +265,7 @@ void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
     for (int i = 0; i < 3; i++)
     {
         action[i] = m->viscosity * m->resistance[i] * rates[i];
-        action[i + 3] =
-            m->viscosity * m->rotation_resistance[i] * rates[i + 3];
+        action[i + 3] = m->viscosity * m->rotation_resistance[i] * rates[i + 3];
     }
     add_planes(near, rates, action);
     add_lab(near->frame->axis, action, wrench->force);
@@ -298,11 +295,10 @@ static ellipsoid_status add_mobility(const ellipsoid_model *model,
     return ELLIPSOID_OK;
 }
 
-ellipsoid_status ellipsoid_add_wall_mobility(const ellipsoid_model *model,
-                                             const ellipsoid_planes *planes,
-                                             ellipsoid_frame *frame,
-                                             const ellipsoid_body_wrench *wrench,
-                                             ellipsoid_state *state)
+ellipsoid_status ellipsoid_add_wall_mobility(
+    const ellipsoid_model *model, const ellipsoid_planes *planes,
+    ellipsoid_frame *frame, const ellipsoid_body_wrench *wrench,
+    ellipsoid_state *state)
 {
     double push[6];
 
@@ -310,9 +306,10 @@ ellipsoid_status ellipsoid_add_wall_mobility(const ellipsoid_model *model,
     return add_mobility(model, planes, frame->axis, push, state);
 }
 
-ellipsoid_status ellipsoid_balance_wall_drag(const ellipsoid_near_walls *near,
-                                             const ellipsoid_body_wrench *wrench,
-                                             ellipsoid_state *state)
+ellipsoid_status
+ellipsoid_balance_wall_drag(const ellipsoid_near_walls *near,
+                            const ellipsoid_body_wrench *wrench,
+                            ellipsoid_state *state)
 {
     double push[6];
 

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     wallParts.c - how much of a plane a wall covers.
 
     A wall counts by the part of the plane that it
@@ -89,8 +88,8 @@ void ellipsoid_wall_begin(view *s, const ellipsoid_facet *facet, double height,
         stretched[i] = a[i] * n[i];
     }
     w->support = ellipsoid_length(stretched);
-    w->gap = cut_off(height - w->support, s->model->options.lubrication_gap,
-                     &slope);
+    w->gap =
+        cut_off(height - w->support, s->model->options.lubrication_gap, &slope);
     far->scale = 1 / height;
     near->scale = sqrt(0.5 * w->support / w->gap);
     for (int i = 0; i < 3; i++)
@@ -167,21 +166,21 @@ static void add_edge(const kernel *k, const double r1[3], const double r2[3],
     sum->edges++;
 
     const double q2 = 1 + d * d, q = sqrt(q2), span = high - low;
-    const double by_low = 1 / (q2 + low * low), by_high = 1 / (q2 + high * high);
+    const double by_low = 1 / (q2 + low * low),
+                 by_high = 1 / (q2 + high * high);
     const double turn = atan2(q * span, q2 + low * high) / q;
     const double angle = atan2(d * span, d * d + low * high);
     const double part = d * (turn - k->k * span) / k->n;
     const double per = 1 / (pi * k->n);
-    const double whole = per
-                       * (0.5 * (high * by_high - low * by_low + turn) / q2
-                          - k->k * span);
-    const double first = 0.5 * per
-                       * (by_low - by_high - k->k * (high * high - low * low));
+    const double whole =
+        per * (0.5 * (high * by_high - low * by_low + turn) / q2 - k->k * span);
+    const double first =
+        0.5 * per * (by_low - by_high - k->k * (high * high - low * low));
     const double c2 = k->cut * k->cut, more = (first - start * whole) / length;
 
     sum->value += (part - angle) / (2 * pi);
-    sum->of_cut += 4 / (2 * pi * k->cut * (1 + c2))
-                 * (d * span * c2 * k->k / k->n - part);
+    sum->of_cut +=
+        4 / (2 * pi * k->cut * (1 + c2)) * (d * span * c2 * k->k / k->n - part);
     sum->stretch += whole * d;
     ellipsoid_cross(along, k->normal, outward);
     for (int i = 0; i < 3; i++)
@@ -191,8 +190,7 @@ static void add_edge(const kernel *k, const double r1[3], const double r2[3],
         sum->normal[i] += whole * o;
         for (int l = 0; l < 3; l++)
         {
-            sum->moment[l][i] +=
-                o * (whole * v1[l] + more * (v2[l] - v1[l]));
+            sum->moment[l][i] += o * (whole * v1[l] + more * (v2[l] - v1[l]));
         }
     }
 }
@@ -283,8 +281,7 @@ static void set_slopes(view *s, const wall *w, int n, const double fade[3],
 
         plane->weight_slope[m][n] =
             (fade[1] * h_n + fade[2] * p_n) * (sum->inside + sum->value)
-            + fade[0]
-                  * sum_slope(s, &w->seen[m], sum, n, scale[m], shift[m]);
+            + fade[0] * sum_slope(s, &w->seen[m], sum, n, scale[m], shift[m]);
     }
 }
 
@@ -296,9 +293,9 @@ int ellipsoid_wall_plane(view *s, const wall *w, int slopes,
     double far_slope, beside_slope, gap_slope;
     const double far = 1 - smooth_step(2 * h / range - 1, &far_slope);
     const double cut = smooth_step(h / p, &beside_slope);
-    const double fade[3] = {far * cut,
-                            far * beside_slope / p - 2 * far_slope / range * cut,
-                            -far * beside_slope * h / (p * p)};
+    const double fade[3] = {
+        far * cut, far * beside_slope / p - 2 * far_slope / range * cut,
+        -far * beside_slope * h / (p * p)};
 
     plane->gap = cut_off(h - p, s->model->options.lubrication_gap, &gap_slope);
     ellipsoid_copy(w->facet->normal, plane->wall);

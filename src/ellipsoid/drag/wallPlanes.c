@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     wallPlanes.c - the walls near a body as planes. Facets of one plane are one
     wall; how much of it is there is told in wallParts.c.
 */
@@ -27,9 +26,9 @@ typedef ellipsoid_wall_view view;
 
 /* Lists facets anew if the centre has moved too far. Where walls are refused
    far off, or too many, those nearer may do. */
-static ellipsoid_status
-collect(const ellipsoid_surroundings *surroundings, const double x[3],
-        double range, double reach, ellipsoid_facet_cache *cache)
+static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
+                                const double x[3], double range, double reach,
+                                ellipsoid_facet_cache *cache)
 {
     const int tries = sizeof(margin_parts) / sizeof(*margin_parts);
     ellipsoid_status status = ELLIPSOID_OK;
@@ -91,8 +90,8 @@ collect(const ellipsoid_surroundings *surroundings, const double x[3],
 
 /* The wall of this facet among those found, or a new one; NULL: it is too far.
    Where there are too many, the farthest goes. */
-static wall *find_wall(view *s, const ellipsoid_facet *facet,
-                       double height, wall *walls, int *count)
+static wall *find_wall(view *s, const ellipsoid_facet *facet, double height,
+                       wall *walls, int *count)
 {
     const double same = in_plane * s->model->options.wall_range;
     int at = *count;
@@ -151,7 +150,7 @@ static void set_axes(const double q[4], const ellipsoid_frame *frame, view *s)
 static int is_unseen(const wall *w)
 {
     return w->sum[FAR].inside + w->sum[FAR].edges + w->sum[NEAR].inside
-            + w->sum[NEAR].edges
+             + w->sum[NEAR].edges
         == 0;
 }
 
@@ -162,18 +161,16 @@ static int has_seam(const ellipsoid_facet *facet)
         || facet->edge[2] != ELLIPSOID_EDGE_FLAT;
 }
 
-ellipsoid_status
-ellipsoid_find_planes(const ellipsoid_model *model,
-                      const ellipsoid_surroundings *surroundings,
-                      const ellipsoid_state *state,
-                      const ellipsoid_frame *frame,
-                      ellipsoid_facet_cache *cache, ellipsoid_planes *planes)
+ellipsoid_status ellipsoid_find_planes(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const ellipsoid_state *state, const ellipsoid_frame *frame,
+    ellipsoid_facet_cache *cache, ellipsoid_planes *planes)
 {
     const double *a = model->options.semi_axes, *x = state->x;
     const double range = model->options.wall_range;
     const double longest = fmax(a[0], fmax(a[1], a[2]));
-    const ellipsoid_status status = collect(
-        surroundings, x, range, looked * range + longest, cache);
+    const ellipsoid_status status =
+        collect(surroundings, x, range, looked * range + longest, cache);
     wall walls[ELLIPSOID_MAX_PLANES];
     view s = {.model = model, .x = x};
     int count = 0;
@@ -217,9 +214,8 @@ ellipsoid_find_planes(const ellipsoid_model *model,
     }
     for (int k = 0; k < count; k++)
     {
-        planes->count += ellipsoid_wall_plane(&s, &walls[k],
-                                              frame->by_q != NULL,
-                                              &planes->at[planes->count]);
+        planes->count += ellipsoid_wall_plane(
+            &s, &walls[k], frame->by_q != NULL, &planes->at[planes->count]);
     }
     return ELLIPSOID_OK;
 }

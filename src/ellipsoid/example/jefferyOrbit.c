@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     jefferyOrbit.c - the paper's cell tumbling in simple shear, printed beside
     Jeffery's period (Jeffery 1922, eq. 48): T = 2 pi (r + 1/r) / shear rate.
 */

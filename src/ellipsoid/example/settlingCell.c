@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     settlingCell.c - the paper's cell sinking in fluid at rest onto a floor of
     two facets, which come to carry its weight less its buoyancy.
 */
@@ -39,8 +38,9 @@ static int floor_walls_set(floor_walls *walls)
     ellipsoid_facet *a = &walls->facet[0], *b = &walls->facet[1];
 
     /* they share the diagonal, edge 2 of the first and edge 0 of the second */
-    return ellipsoid_facet_set(a, corner[0]) && ellipsoid_facet_set(b, corner[1])
-        && ellipsoid_facet_join(a, 2, b) && ellipsoid_facet_join(b, 0, a);
+    return ellipsoid_facet_set(a, corner[0])
+        && ellipsoid_facet_set(b, corner[1]) && ellipsoid_facet_join(a, 2, b)
+        && ellipsoid_facet_join(b, 0, a);
 }
 
 /* So few facets need no search: all of them are listed. */
@@ -64,15 +64,14 @@ int main(void)
     ellipsoid_options options = ellipsoid_options_default();
     ellipsoid_model model;
     floor_walls walls;
-    ellipsoid_surroundings surroundings = {.flow = fluid_at_rest,
-                                           .walls = list_floor,
-                                           .walls_context = &walls};
+    ellipsoid_surroundings surroundings = {
+        .flow = fluid_at_rest, .walls = list_floor, .walls_context = &walls};
     ellipsoid_state state = {.x = {0, 0, 1.5 * um}};
     ellipsoid_controller controller = {0};
     ellipsoid_facet_cache cache;
     ellipsoid_contact contact = {.gap = 0};
-    const ellipsoid_member cell = {
-        &model, &surroundings, &state, &controller, &cache, NULL, NULL};
+    const ellipsoid_member cell = {&model, &surroundings, &state, &controller,
+                                   &cache, NULL,          NULL};
     const double axis[3] = {1, 0, 0.1};
     ellipsoid_status status;
     double t = 0, weight;

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     advance.c - a group of cells through time: start, steps, end.
 */
 #include "motion/motion.h"
@@ -105,9 +104,8 @@ static ellipsoid_status evaluate_end(ellipsoid_group *g,
                                      const ellipsoid_plan *planned)
 {
     const int with_blocks = !planned->last;
-    const ellipsoid_status status =
-        ellipsoid_group_evaluate(g, planned->end, g->next, !g->inertial,
-                                 with_blocks);
+    const ellipsoid_status status = ellipsoid_group_evaluate(
+        g, planned->end, g->next, !g->inertial, with_blocks);
 
     g->next_has_blocks = with_blocks;
     /* there is room for the couplings of one time only */
@@ -400,8 +398,8 @@ static ellipsoid_controller common(const ellipsoid_group *g,
 /* Gives the members their state at the end of the step. Does one want to
    stop? */
 static int update_members(ellipsoid_group *g, const ellipsoid_member members[],
-                     const ellipsoid_controller *controller,
-                     ellipsoid_observer observer)
+                          const ellipsoid_controller *controller,
+                          ellipsoid_observer observer)
 {
     int stopped = 0;
 

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     bodyForces.c - what acts on the body besides drag and contact.
 */
 #include "motion/motion.h"
@@ -150,13 +149,11 @@ static ellipsoid_status add_external(const ellipsoid_surroundings *surroundings,
     return ELLIPSOID_OK;
 }
 
-ellipsoid_status
-ellipsoid_add_body_forces(const ellipsoid_model *model,
-                          const ellipsoid_surroundings *surroundings,
-                          const ellipsoid_state *state, ellipsoid_frame *frame,
-                          ellipsoid_flow_sample *flow,
-                          ellipsoid_body_wrench *wrench,
-                          ellipsoid_jacobian_blocks *blocks)
+ellipsoid_status ellipsoid_add_body_forces(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const ellipsoid_state *state, ellipsoid_frame *frame,
+    ellipsoid_flow_sample *flow, ellipsoid_body_wrench *wrench,
+    ellipsoid_jacobian_blocks *blocks)
 {
     ellipsoid_status status = ELLIPSOID_OK;
 
@@ -171,8 +168,8 @@ ellipsoid_add_body_forces(const ellipsoid_model *model,
     }
     if (model->electric)
     {
-        status = add_electric(model, surroundings, state->x, frame, wrench,
-                              blocks);
+        status =
+            add_electric(model, surroundings, state->x, frame, wrench, blocks);
     }
     if (status == ELLIPSOID_OK && surroundings->force)
     {

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     equations.c - the equations of motion and their derivatives.
 
     The flow acts through the motion that it would give a body free of other
@@ -71,9 +70,8 @@ INLINED void set_free_motion(evaluation *e)
     dr_k . (p G - m G^T) r_j + dr_j . (p G^T - m G) r_k.
 */
 INLINED void free_spin_derivatives(evaluation *e, double d[4][3][3],
-                                         double back[3][3],
-                                         double change[3][3][3], int i, int j,
-                                         int k)
+                                   double back[3][3], double change[3][3][3],
+                                   int i, int j, int k)
 {
     const double p = 0.5 + 0.5 * e->model->strain_factor[i];
     const double m = 0.5 - 0.5 * e->model->strain_factor[i];
@@ -259,15 +257,14 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
 /* --------------------------------------------------------------- contact */
 
 /* F_W and T^_W. */
-INLINED ellipsoid_status add_contact(evaluation *e,
-                                           const ellipsoid_cell *cell,
-                                           ellipsoid_contact *contact,
-                                           ellipsoid_jacobian_blocks *b)
+INLINED ellipsoid_status add_contact(evaluation *e, const ellipsoid_cell *cell,
+                                     ellipsoid_contact *contact,
+                                     ellipsoid_jacobian_blocks *b)
 {
     ellipsoid_wrench_jacobian jacobian;
-    const ellipsoid_status status = ellipsoid_contact_evaluate(
-        e->model, &cell->surroundings, e->state, cell->cache, contact,
-        b ? &jacobian : NULL);
+    const ellipsoid_status status =
+        ellipsoid_contact_evaluate(e->model, &cell->surroundings, e->state,
+                                   cell->cache, contact, b ? &jacobian : NULL);
 
     if (status != ELLIPSOID_OK)
     {
@@ -287,15 +284,15 @@ INLINED ellipsoid_status add_contact(evaluation *e,
 /* --------------------------------------------------------------- the sum */
 
 /* I w x w */
-INLINED double gyroscopic(const double inertia[3], const double w[3],
-                                int j, int k)
+INLINED double gyroscopic(const double inertia[3], const double w[3], int j,
+                          int k)
 {
     return (inertia[j] - inertia[k]) * w[j] * w[k];
 }
 
 /* Forces to accelerations, paper eqs. (1) and (3). */
 INLINED void accelerations(const evaluation *e, int inertial,
-                                 ellipsoid_state *derivative)
+                           ellipsoid_state *derivative)
 {
     const double *inertia = e->model->inertia, *f = e->force, *t = e->torque;
     const double *w = e->state->omega;
@@ -350,7 +347,7 @@ static void finish_blocks(const evaluation *e, int inertial,
 
 /* Kinematics, paper eqs. (2) and (4). One NaN or infinity makes the sum one. */
 INLINED ellipsoid_status finish(const ellipsoid_state *state,
-                                      ellipsoid_state *derivative)
+                                ellipsoid_state *derivative)
 {
     double q[4];
 
@@ -368,9 +365,8 @@ INLINED ellipsoid_status finish(const ellipsoid_state *state,
 }
 
 /* The motion that the flow would give a free body; copies as above. */
-INLINED ellipsoid_status
-set_free(evaluation *e, const ellipsoid_cell *cell, double d[4][3][3],
-         int derivatives)
+INLINED ellipsoid_status set_free(evaluation *e, const ellipsoid_cell *cell,
+                                  double d[4][3][3], int derivatives)
 {
     if (e->model->flow_points > 0)
     {
@@ -396,10 +392,11 @@ set_free(evaluation *e, const ellipsoid_cell *cell, double d[4][3][3],
 }
 
 /* All but drag and contact. */
-INLINED ellipsoid_status
-set_forces(evaluation *e, const ellipsoid_surroundings *surroundings,
-           const ellipsoid_noise *noise, double d[4][3][3],
-           ellipsoid_jacobian_blocks *blocks)
+INLINED ellipsoid_status set_forces(evaluation *e,
+                                    const ellipsoid_surroundings *surroundings,
+                                    const ellipsoid_noise *noise,
+                                    double d[4][3][3],
+                                    ellipsoid_jacobian_blocks *blocks)
 {
     const ellipsoid_model *m = e->model;
 
@@ -450,10 +447,10 @@ set_forces(evaluation *e, const ellipsoid_surroundings *surroundings,
 /* The sample of the flow at the state. To clear velocity and gradient, too,
    would cost a tenth of an evaluation: stores and loads of different widths
    follow one another (tests/benchmarks). */
-INLINED ellipsoid_status
-sample_flow(const ellipsoid_surroundings *surroundings,
-            const ellipsoid_state *state, int reads_more, int derivatives,
-            ellipsoid_flow_sample *flow)
+INLINED ellipsoid_status sample_flow(const ellipsoid_surroundings *surroundings,
+                                     const ellipsoid_state *state,
+                                     int reads_more, int derivatives,
+                                     ellipsoid_flow_sample *flow)
 {
     if (derivatives)
     {
@@ -467,18 +464,17 @@ sample_flow(const ellipsoid_surroundings *surroundings,
         ellipsoid_set(flow->local_acceleration, 0, 0, 0);
     }
 
-    const int answer = surroundings->flow(surroundings->flow_context,
-                                          surroundings->time, state->x,
-                                          derivatives, flow);
+    const int answer =
+        surroundings->flow(surroundings->flow_context, surroundings->time,
+                           state->x, derivatives, flow);
 
     return answer == 0 ? ELLIPSOID_OK : ellipsoid_answer_status(answer);
 }
 
 /* The drag of a body that no wall is near, or the u and omega that it
    balances. */
-INLINED void add_free_drag(evaluation *e, ellipsoid_state *state,
-                                 int balanced, double d[4][3][3],
-                                 ellipsoid_jacobian_blocks *blocks)
+INLINED void add_free_drag(evaluation *e, ellipsoid_state *state, int balanced,
+                           double d[4][3][3], ellipsoid_jacobian_blocks *blocks)
 {
     double slip[3], resisted[3];
 
@@ -553,8 +549,7 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
     {
         status = add_contact(&e, cell, &at->contact, blocks);
     }
-    if (status == ELLIPSOID_OK
-        && ellipsoid_has_near_walls(model, surroundings))
+    if (status == ELLIPSOID_OK && ellipsoid_has_near_walls(model, surroundings))
     {
         status = add_wall_drag(&e, cell, at, balanced, d, blocks,
                                &resisted_by_walls);

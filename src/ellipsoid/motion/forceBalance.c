@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     forceBalance.c - velocities that balance forces which depend on them.
 
     Drag alone is linear in u and omega, and equations.c inverts it. Friction,
@@ -24,7 +23,7 @@ enum
 {
     MOST_ITERATIONS = 60,
     MOST_RELAXATIONS = 400,
-    MOST_HALVINGS = 40, /* damping turns sharply where it lets go */
+    MOST_HALVINGS = 40,            /* damping turns sharply where it lets go */
     CHANGE = ELLIPSOID_MAX_STAGES, /* beyond the stages of a step */
     BEST
 };
@@ -302,15 +301,14 @@ static ellipsoid_status relax(ellipsoid_group *g, ellipsoid_evaluation *points,
     {
         smoothed[cell].model.options.slip_speed =
             smoothed[cell].own->options.slip_speed;
-        rate = fmax(rate, fmax(g->cell[cell].rate,
-                               g->cell[cell].rotation_rate));
+        rate =
+            fmax(rate, fmax(g->cell[cell].rate, g->cell[cell].rotation_rate));
     }
     status = ellipsoid_group_evaluate_once(g, points, 0, 1);
     left = unbalanced(g, points);
     target = relaxed * left;
-    for (int n = 0; status == ELLIPSOID_OK && left > target
-                    && n < MOST_RELAXATIONS;
-         n++)
+    for (int n = 0;
+         status == ELLIPSOID_OK && left > target && n < MOST_RELAXATIONS; n++)
     {
         double next;
 
@@ -409,25 +407,25 @@ ellipsoid_status ellipsoid_friction_balance(ellipsoid_group *g,
     return status;
 }
 
-ellipsoid_status ellipsoid_force_balance(const ellipsoid_model *model,
-                                    const ellipsoid_surroundings *surroundings,
-                                    ellipsoid_state *state,
-                                    ellipsoid_facet_cache *cache,
-                                    ellipsoid_state *derivative)
+ellipsoid_status
+ellipsoid_force_balance(const ellipsoid_model *model,
+                        const ellipsoid_surroundings *surroundings,
+                        ellipsoid_state *state, ellipsoid_facet_cache *cache,
+                        ellipsoid_state *derivative)
 {
     const double *a = model->options.semi_axes;
     ellipsoid_statistics statistics = {0};
     ellipsoid_evaluation point;
     ellipsoid_stages stages;
     ellipsoid_stage_matrix system;
-    ellipsoid_cell cell = {
-        .model = model,
-        .surroundings = *surroundings,
-        .cache = cache,
-        .statistics = &statistics,
-        .length = fmax(a[0], fmax(a[1], a[2])),
-        .rate = 1 / model->relaxation_time,
-        .rotation_rate = 1 / model->rotation_relaxation_time};
+    ellipsoid_cell cell = {.model = model,
+                           .surroundings = *surroundings,
+                           .cache = cache,
+                           .statistics = &statistics,
+                           .length = fmax(a[0], fmax(a[1], a[2])),
+                           .rate = 1 / model->relaxation_time,
+                           .rotation_rate =
+                               1 / model->rotation_relaxation_time};
     ellipsoid_group g = {.count = 1,
                          .dissipative =
                              model->dissipative

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     group.c - one cell, or several that may touch, are made a group and
     advanced, from one noise interval to the next.
 */
@@ -17,7 +16,7 @@
 static const int touching_each = 16, near_each = 32;
 
 static ellipsoid_cell problem_of(const ellipsoid_member *member,
-                                    const ellipsoid_noise *noise)
+                                 const ellipsoid_noise *noise)
 {
     const ellipsoid_model *m = member->model;
     const double *a = m->options.semi_axes;

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     groupContacts.c - the forces between the cells of a group, added to
     evaluations that were made without them.
 */
@@ -13,8 +12,8 @@
 /* Adds to the change of u and omega what the other cells' force and torque do
    against the resistance near walls. */
 static ellipsoid_status move_near_walls(const ellipsoid_cell *p,
-                                         const ellipsoid_contact *c,
-                                         ellipsoid_state *change)
+                                        const ellipsoid_contact *c,
+                                        ellipsoid_state *change)
 {
     const double *q = change->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
     ellipsoid_frame frame = {.by_q = NULL};
@@ -27,10 +26,9 @@ static ellipsoid_status move_near_walls(const ellipsoid_cell *p,
     ellipsoid_copy(c->cell_torque, wrench.torque);
     status = ellipsoid_find_planes(p->model, &p->surroundings, change, &frame,
                                    p->cache, &planes);
-    return status == ELLIPSOID_OK
-             ? ellipsoid_add_wall_mobility(p->model, &planes, &frame, &wrench,
-                                           change)
-             : status;
+    return status == ELLIPSOID_OK ? ellipsoid_add_wall_mobility(
+               p->model, &planes, &frame, &wrench, change)
+                                  : status;
 }
 
 /* Adds force and torque of the other cells at a point that has been evaluated
@@ -131,9 +129,10 @@ static void add_to_point(ellipsoid_group *g, ellipsoid_evaluation *points,
     }
 }
 
-static ellipsoid_status
-add_pair(ellipsoid_group *g, ellipsoid_evaluation *points,
-         const ellipsoid_near_pair *near, int with_blocks)
+static ellipsoid_status add_pair(ellipsoid_group *g,
+                                 ellipsoid_evaluation *points,
+                                 const ellipsoid_near_pair *near,
+                                 int with_blocks)
 {
     const int a = near->a, b = near->b;
     const ellipsoid_options *of_a = &g->cell[a].model->options;
@@ -157,9 +156,8 @@ add_pair(ellipsoid_group *g, ellipsoid_evaluation *points,
         .of_b = &on_b,
     };
 
-    body_b.x = ellipsoid_nearest_image(&g->cell[a].surroundings,
-                                       points[a].state.x, points[b].state.x,
-                                       place);
+    body_b.x = ellipsoid_nearest_image(
+        &g->cell[a].surroundings, points[a].state.x, points[b].state.x, place);
     ellipsoid_pair_contact_evaluate(&m, near);
     if (m.contacts > 0 && with_blocks
         && g->pairs->count + 2 > g->pairs->capacity)
@@ -173,8 +171,8 @@ add_pair(ellipsoid_group *g, ellipsoid_evaluation *points,
 }
 
 ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *g,
-                                     ellipsoid_evaluation *points, int balanced,
-                                     int with_blocks)
+                                              ellipsoid_evaluation *points,
+                                              int balanced, int with_blocks)
 {
     ellipsoid_status status = ellipsoid_near_pairs_collect(g, points);
 

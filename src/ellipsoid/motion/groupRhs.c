@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     groupRhs.c - the equations of several cells, contacts between them included.
 */
 #include "motion/motion.h"
@@ -28,8 +27,8 @@ static ellipsoid_status evaluate(ellipsoid_group *g,
 /* Balanced, the derivatives depend on velocities that all contacts decide:
    these come first. */
 ellipsoid_status ellipsoid_group_rhs(ellipsoid_group *g,
-                                            ellipsoid_evaluation *points,
-                                            int balanced, int with_blocks)
+                                     ellipsoid_evaluation *points, int balanced,
+                                     int with_blocks)
 {
     ellipsoid_status status;
 

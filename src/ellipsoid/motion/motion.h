@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     motion.h - what the integrator's files share.
 
     Everything advances a group of cells in common steps; mostly it is a group
@@ -64,13 +63,11 @@ extern const ellipsoid_rosenbrock_table
 /* Adds to the wrench, and to the blocks if wanted, what is not drag, contact,
    constant or DUDT; of that the blocks alone (bodyForces.c). flow may be
    NULL. */
-ellipsoid_status
-ellipsoid_add_body_forces(const ellipsoid_model *model,
-                          const ellipsoid_surroundings *surroundings,
-                          const ellipsoid_state *state, ellipsoid_frame *frame,
-                          ellipsoid_flow_sample *flow,
-                          ellipsoid_body_wrench *wrench,
-                          ellipsoid_jacobian_blocks *blocks);
+ellipsoid_status ellipsoid_add_body_forces(
+    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
+    const ellipsoid_state *state, ellipsoid_frame *frame,
+    ellipsoid_flow_sample *flow, ellipsoid_body_wrench *wrench,
+    ellipsoid_jacobian_blocks *blocks);
 
 /* --------------------------------------------------------------- a cell */
 
@@ -125,7 +122,7 @@ typedef struct ellipsoid_stages
     /* two more, for forceBalance.c: a change, and the best velocities so far */
     double k[ELLIPSOID_MAX_STAGES + 2][UNKNOWNS];
     double time_derivative[UNKNOWNS]; /* df/dt at the start, if unsteady */
-    double y[UNKNOWNS]; /* result */
+    double y[UNKNOWNS];               /* result */
     double error[UNKNOWNS];
     int order; /* of the error estimate in the step */
     /* Where contact was evaluated: poses, in the order of their time, and the
@@ -182,9 +179,9 @@ void ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *system,
 typedef struct ellipsoid_plan
 {
     double h, start, end; /* [s] */
-    int last;      /* ends where the run does */
-    int shortened; /* to end there, or where a bead lands, */
-    double kept;   /* [s] which leaves so much for the next at least */
+    int last;             /* ends where the run does */
+    int shortened;        /* to end there, or where a bead lands, */
+    double kept;          /* [s] which leaves so much for the next at least */
 } ellipsoid_plan;
 
 /* -------------------------------------------------------------- a group */
@@ -212,8 +209,8 @@ typedef struct ellipsoid_pairs
     int near_capacity, near_count;
     ellipsoid_near_pair *near;
     int is_listed;
-    ellipsoid_state *listed_at; /* where the near pairs were listed */
-    ellipsoid_body *body;       /* in the poses of an evaluation */
+    ellipsoid_state *listed_at;         /* where the near pairs were listed */
+    ellipsoid_body *body;               /* in the poses of an evaluation */
     ellipsoid_smoothed_model *smoothed; /* for each cell */
     int *block;             /* [count][count]: number of a 6x6 block, or -1 */
     double (*blocks)[6][6]; /* of the factorised matrix */
@@ -227,10 +224,10 @@ typedef struct ellipsoid_group
     int inertial;    /* all or none */
     int third_order; /* are Rosenbrock steps those of Rodas3? */
     int stiff;       /* is one a dipole in a field or under a given force? */
-    int unsteady; /* do the surroundings of one depend on time? */
+    int unsteady;    /* do the surroundings of one depend on time? */
     int dissipative; /* do forces other than drag depend on velocities? */
-    int observed; /* is the whole of ellipsoid_step asked for? */
-    int piecewise; /* does the gradient of a flow jump? */
+    int observed;    /* is the whole of ellipsoid_step asked for? */
+    int piecewise;   /* does the gradient of a flow jump? */
     ellipsoid_cell *cell;
     ellipsoid_evaluation *start, *next; /* next serves the stages, too */
     ellipsoid_stages *stages;
@@ -239,7 +236,7 @@ typedef struct ellipsoid_group
     ellipsoid_noise *noise;
     ellipsoid_pairs *pairs; /* NULL: alone */
     int has_blocks, next_has_blocks;
-    int failed;  /* the cell that failed or stopped last, or -1 */
+    int failed; /* the cell that failed or stopped last, or -1 */
 } ellipsoid_group;
 
 /* Lays a group of several out in memory, which may be NULL; returns the bytes
@@ -272,9 +269,10 @@ static inline void ellipsoid_stages_sample(ellipsoid_stages *stages, int stage,
 }
 
 /* ellipsoid_evaluate() for one cell, counted. */
-static inline ellipsoid_status
-ellipsoid_cell_evaluate(const ellipsoid_cell *p, ellipsoid_evaluation *at,
-                           int balanced, int with_blocks)
+static inline ellipsoid_status ellipsoid_cell_evaluate(const ellipsoid_cell *p,
+                                                       ellipsoid_evaluation *at,
+                                                       int balanced,
+                                                       int with_blocks)
 {
     p->statistics->rhs++;
     p->statistics->jacobians += with_blocks != 0;
@@ -283,15 +281,15 @@ ellipsoid_cell_evaluate(const ellipsoid_cell *p, ellipsoid_evaluation *at,
 
 /* For several cells, contacts between them included (group.c). */
 ellipsoid_status ellipsoid_group_rhs(ellipsoid_group *group,
-                                            ellipsoid_evaluation *points,
-                                            int balanced, int with_blocks);
+                                     ellipsoid_evaluation *points, int balanced,
+                                     int with_blocks);
 
 /* For one cell with drag, its velocities set to those that balance. */
-ellipsoid_status ellipsoid_force_balance(const ellipsoid_model *model,
-                                    const ellipsoid_surroundings *surroundings,
-                                    ellipsoid_state *state,
-                                    ellipsoid_facet_cache *cache,
-                                    ellipsoid_state *derivative);
+ellipsoid_status
+ellipsoid_force_balance(const ellipsoid_model *model,
+                        const ellipsoid_surroundings *surroundings,
+                        ellipsoid_state *state, ellipsoid_facet_cache *cache,
+                        ellipsoid_state *derivative);
 
 /* Likewise, for one cell or several whose contacts depend on the velocities
    that are to be balanced (forceBalance.c). */
@@ -302,7 +300,7 @@ ellipsoid_status ellipsoid_friction_balance(ellipsoid_group *group,
 /* As below, for contacts that do not depend on velocities, or not balanced. */
 static inline ellipsoid_status
 ellipsoid_group_evaluate_once(ellipsoid_group *g, ellipsoid_evaluation *points,
-                          int balanced, int with_blocks)
+                              int balanced, int with_blocks)
 {
     if (g->pairs)
     {
@@ -352,8 +350,8 @@ ellipsoid_near_pairs_collect(ellipsoid_group *group,
 /* Adds the forces between the cells to points that have been evaluated
    without (pairContact.c). */
 ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *group,
-                                     ellipsoid_evaluation *points, int balanced,
-                                     int with_blocks);
+                                              ellipsoid_evaluation *points,
+                                              int balanced, int with_blocks);
 
 /*
     The linear system of several cells: that of each, coupled by contacts. It is

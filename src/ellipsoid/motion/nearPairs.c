@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     nearPairs.c - which beads of which cells of a group may come into
     contact.
 
@@ -59,7 +58,7 @@ const double *ellipsoid_nearest_image(const ellipsoid_surroundings *around,
 
 /* Has a bead of this cell moved so far that the list may lack a contact? */
 static int has_moved(const ellipsoid_pairs *pairs, const ellipsoid_model *model,
-                    const ellipsoid_state *now, int cell)
+                     const ellipsoid_state *now, int cell)
 {
     const ellipsoid_state *then = &pairs->listed_at[cell];
     double move[3], turn[4];

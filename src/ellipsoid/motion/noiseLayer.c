@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     noiseLayer.c - the start of a noise interval.
 
     There the random force and torque jump, and u and omega relax to new values.
@@ -38,8 +37,7 @@ void ellipsoid_displace(const ellipsoid_model *m, const double u[3],
     ellipsoid_rotation_inline(opposite, axis);
     for (int i = 0; i < 3; i++)
     {
-        const double way =
-            m->mass * m->mobility[i] * ellipsoid_dot(axis[i], u);
+        const double way = m->mass * m->mobility[i] * ellipsoid_dot(axis[i], u);
 
         for (int l = 0; l < 3; l++)
         {

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     rhs.c - right-hand side, balanced motion, drag and dense Jacobian
     for callers; the integrator uses the blocks of equations.c as they are.
 */
@@ -58,7 +57,7 @@ ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
 }
 
 void ellipsoid_drag_at_rest(const ellipsoid_model *model, const double q[4],
-                         const double velocity[3], double drag[3])
+                            const double velocity[3], double drag[3])
 {
     double r[3][3], along[3];
 

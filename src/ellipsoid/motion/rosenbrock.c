@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     rosenbrock.c - one step of a Rosenbrock method.
 
     Hairer & Wanner, Solving Ordinary Differential Equations II (1996), section
@@ -39,25 +38,25 @@ static inline void stage_sums(const ellipsoid_rosenbrock_table *set,
 
     switch (stage)
     {
-        case 1:
-            weighted_sum(k, wa, 1, a);
-            weighted_sum(k, wc, 1, c);
-            break;
-        case 2:
-            weighted_sum(k, wa, 2, a);
-            weighted_sum(k, wc, 2, c);
-            break;
-        case 3:
-            weighted_sum(k, wa, 3, a);
-            weighted_sum(k, wc, 3, c);
-            break;
-        case 4:
-            weighted_sum(k, wa, 4, a);
-            weighted_sum(k, wc, 4, c);
-            break;
-        default:
-            weighted_sum(k, wa, 5, a);
-            weighted_sum(k, wc, 5, c);
+    case 1:
+        weighted_sum(k, wa, 1, a);
+        weighted_sum(k, wc, 1, c);
+        break;
+    case 2:
+        weighted_sum(k, wa, 2, a);
+        weighted_sum(k, wc, 2, c);
+        break;
+    case 3:
+        weighted_sum(k, wa, 3, a);
+        weighted_sum(k, wc, 3, c);
+        break;
+    case 4:
+        weighted_sum(k, wa, 4, a);
+        weighted_sum(k, wc, 4, c);
+        break;
+    default:
+        weighted_sum(k, wa, 5, a);
+        weighted_sum(k, wc, 5, c);
     }
 }
 
@@ -252,8 +251,8 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count,
 ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *g,
                                            const ellipsoid_plan *plan)
 {
-    if (!ellipsoid_group_prepare(
-            g, ellipsoid_rosenbrock_set_of(g)->gamma * plan->h))
+    if (!ellipsoid_group_prepare(g, ellipsoid_rosenbrock_set_of(g)->gamma
+                                        * plan->h))
     {
         return ELLIPSOID_NON_FINITE;
     }

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     rungeKutta.c - one explicit step of inertialess motion, and its dense output.
 
     Tsitouras, Comput. Math. Appl. 62, 770 (2011): order 5(4), the last stage
@@ -93,23 +92,23 @@ static void stage_sum(const method *m, double k[][UNKNOWNS], int stage,
 {
     switch (stage)
     {
-        case 1:
-            weighted_sum(k, m->a[1], 1, sum);
-            break;
-        case 2:
-            weighted_sum(k, m->a[2], 2, sum);
-            break;
-        case 3:
-            weighted_sum(k, m->a[3], 3, sum);
-            break;
-        case 4:
-            weighted_sum(k, m->a[4], 4, sum);
-            break;
-        case 5:
-            weighted_sum(k, m->a[5], 5, sum);
-            break;
-        default:
-            weighted_sum(k, m->a[6], 6, sum);
+    case 1:
+        weighted_sum(k, m->a[1], 1, sum);
+        break;
+    case 2:
+        weighted_sum(k, m->a[2], 2, sum);
+        break;
+    case 3:
+        weighted_sum(k, m->a[3], 3, sum);
+        break;
+    case 4:
+        weighted_sum(k, m->a[4], 4, sum);
+        break;
+    case 5:
+        weighted_sum(k, m->a[5], 5, sum);
+        break;
+    default:
+        weighted_sum(k, m->a[6], 6, sum);
     }
 }
 

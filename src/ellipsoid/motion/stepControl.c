@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     stepControl.c - how long a step is, and whether it is good enough.
 */
 #include "motion/motion.h"
@@ -30,8 +29,8 @@ static double lasting_error(const ellipsoid_model *m,
                             const ellipsoid_stages *stages)
 {
     const ellipsoid_contact *c = &start->contact;
-    const double kinetic = fmax(twice_kinetic(m, start->y),
-                                twice_kinetic(m, stages->y));
+    const double kinetic =
+        fmax(twice_kinetic(m, start->y), twice_kinetic(m, stages->y));
     const double elastic =
         0.8
         * (ellipsoid_length(c->force) * fmax(c->deepest, 0)
@@ -86,11 +85,10 @@ static double scaled_error(const ellipsoid_cell *p,
     sum = ex + eu + ew + eq + slip;
 
     /* fmax would drop a NaN */
-    return isfinite(sum)
-             ? fmax(fmax(fmax(ex, eq), fmax(eu, ew))
-                        / p->model->options.tolerance,
-                    slip)
-             : sum;
+    return isfinite(sum) ? fmax(fmax(fmax(ex, eq), fmax(eu, ew))
+                                    / p->model->options.tolerance,
+                                slip)
+                         : sum;
 }
 
 /*

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     ellipsoidFacets.c - an ellipsoid against one facet: does its distance to the
     wall have a local minimum there?
 
@@ -166,8 +165,8 @@ static void contact_line(const ellipsoid_surface *body, const double d[3],
 
     /* eigenvalues of the matrix of the l.l; the smaller from the area, lest
        digits be lost */
-    const double half = (ellipsoid_dot(l[0], l[0]) - ellipsoid_dot(l[1], l[1]))
-                      / 2;
+    const double half =
+        (ellipsoid_dot(l[0], l[0]) - ellipsoid_dot(l[1], l[1])) / 2;
     const double mixed = ellipsoid_dot(l[0], l[1]);
     const double root = sqrt(half * half + mixed * mixed);
     const double larger = ellipsoid_dot(l[1], l[1]) + half + root;
@@ -239,7 +238,7 @@ static int nearest_vertex(const ellipsoid_facet *facet, const view *seen,
 /* 1 in the first half of the chord that goes into the body at the contact point
    along the normal, 2 in the second, 0 beyond: on the body's other side. */
 static int half_of_chord(const ellipsoid_surface *body,
-                        const ellipsoid_surface_contact *c)
+                         const ellipsoid_surface_contact *c)
 {
     double along[3], inverse = 0;
 
@@ -346,8 +345,8 @@ static int nearest_from(const ellipsoid_facet *facet, const view *seen,
 }
 
 int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
-                            const ellipsoid_surface *body, double reach,
-                            ellipsoid_surface_contact *contact)
+                              const ellipsoid_surface *body, double reach,
+                              ellipsoid_surface_contact *contact)
 {
     const double *n = facet->normal;
     const view front = {{n[0], n[1], n[2]}, 0};
@@ -368,8 +367,8 @@ int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
 }
 
 int ellipsoid_surface_cut_plane(const ellipsoid_facet *facet,
-                               const ellipsoid_surface *body,
-                               ellipsoid_surface_contact *contact)
+                                const ellipsoid_surface *body,
+                                ellipsoid_surface_contact *contact)
 {
     double d[3];
 
@@ -380,7 +379,7 @@ int ellipsoid_surface_cut_plane(const ellipsoid_facet *facet,
 }
 
 int ellipsoid_surface_may_reach(const ellipsoid_facet *facet,
-                             const ellipsoid_surface *body, double reach)
+                                const ellipsoid_surface *body, double reach)
 {
     ellipsoid_surface_contact c;
     double d[3], p[3];
@@ -429,7 +428,7 @@ static void set_directions(const ellipsoid_surface_contact *c, double t[2][3])
     and from D being stationary, dD = n.dx - w.(p x n).
 */
 void ellipsoid_surface_derivatives(const ellipsoid_surface *body,
-                                 ellipsoid_surface_contact *c)
+                                   ellipsoid_surface_contact *c)
 {
     const double *n = c->normal, *p = c->arm;
     const double floor = smallest_radius * body->smallest;

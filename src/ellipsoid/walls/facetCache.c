@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     facetCache.c - facets near a cell, kept while it moves little.
 
     The cache holds, for the pose at which it was filled, for each bead every
@@ -160,31 +159,29 @@ ellipsoid_list_facets(const ellipsoid_surroundings *surroundings,
                       const double centre[3], double reach,
                       ellipsoid_facet_list *list)
 {
-    const int answer =
-        surroundings->walls(surroundings->walls_context, surroundings->time,
-                            centre, reach, list);
+    const int answer = surroundings->walls(
+        surroundings->walls_context, surroundings->time, centre, reach, list);
 
-    return answer > 0   ? ELLIPSOID_STEP_UNDERFLOW
-           : answer < 0 ? ELLIPSOID_WALLS_FAILED
-                        : ELLIPSOID_OK;
+    return answer > 0 ? ELLIPSOID_STEP_UNDERFLOW
+         : answer < 0 ? ELLIPSOID_WALLS_FAILED
+                      : ELLIPSOID_OK;
 }
 
 /*
     Lists the facets within reach, and more, for the searches that follow.
     Walls that do not answer for more are asked for no more.
 */
-static ellipsoid_status
-list_about(ellipsoid_facet_cache *cache,
-           const ellipsoid_surroundings *surroundings, const double x[3],
-           double reach, double more, ellipsoid_facet_list *list)
+static ellipsoid_status list_about(ellipsoid_facet_cache *cache,
+                                   const ellipsoid_surroundings *surroundings,
+                                   const double x[3], double reach, double more,
+                                   ellipsoid_facet_list *list)
 {
     if (cache->about_count >= 0)
     {
         double d[3];
 
         ellipsoid_difference(x, cache->about_x, d);
-        list->reach =
-            cache->about_reach - (1 + 1e-12) * ellipsoid_length(d);
+        list->reach = cache->about_reach - (1 + 1e-12) * ellipsoid_length(d);
         if (list->reach >= reach)
         {
             list->facets = cache->about_facets;
@@ -228,7 +225,7 @@ static double next_margin(const ellipsoid_facet_cache *cache, double radius)
     const double per_facet = (double)cache->uses / (cache->listed + 64);
 
     return per_facet < seldom ? fmin(2 * cache->margin, widest * radius)
-           : per_facet > often ? fmax(cache->margin / 2, narrowest * radius)
+         : per_facet > often  ? fmax(cache->margin / 2, narrowest * radius)
                               : cache->margin;
 }
 
@@ -336,12 +333,10 @@ static ellipsoid_status fill(ellipsoid_facet_cache *cache,
     return ELLIPSOID_OK;
 }
 
-ellipsoid_status
-ellipsoid_facet_cache_update(ellipsoid_facet_cache *cache,
-                          const ellipsoid_model *model,
-                          const ellipsoid_surroundings *surroundings,
-                          const double x[3], const double q[4], double horizon,
-                          double *moved)
+ellipsoid_status ellipsoid_facet_cache_update(
+    ellipsoid_facet_cache *cache, const ellipsoid_model *model,
+    const ellipsoid_surroundings *surroundings, const double x[3],
+    const double q[4], double horizon, double *moved)
 {
     if (is_current(cache, model, x, q, moved))
     {

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     facetSearch.c - which facets each bead of a cell may come into contact with,
     or the ellipsoid itself in place of beads.
 */
@@ -180,8 +179,9 @@ static void set_distances(const ellipsoid_facet *facet,
                           double near, float beyond[ELLIPSOID_MAX_BEADS])
 {
     const double per_reach = 1 / beads->reach;
-    const double size = per_reach * (fabs(d[0]) + fabs(d[1]) + fabs(d[2])
-                                     + facet->radius + beads->reach);
+    const double size =
+        per_reach
+        * (fabs(d[0]) + fabs(d[1]) + fabs(d[2]) + facet->radius + beads->reach);
     const double wide = per_reach * far + 2e-6 * size;
     const double side = per_reach * near;
     const float farthest = (float)((1 + 1e-6) * wide * wide);

@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     facets.c - a point against one facet: does the distance from the point to
     the wall have a local minimum there?
 
@@ -258,10 +257,10 @@ int ellipsoid_facet_may_be_nearest(const ellipsoid_facet *facet,
     found = aside <= wide;
     for (int k = 0; k < 3 && !found; k++)
     {
-        found = edge_may_be_nearest(facet, sides, k, from[k], inside[k], far,
-                                    wide)
-             || (ellipsoid_dot(from[k], from[k]) <= far * far
-                 && ellipsoid_facet_is_apex(facet, k, from[k], wide));
+        found =
+            edge_may_be_nearest(facet, sides, k, from[k], inside[k], far, wide)
+            || (ellipsoid_dot(from[k], from[k]) <= far * far
+                && ellipsoid_facet_is_apex(facet, k, from[k], wide));
     }
     return found;
 }
@@ -306,8 +305,7 @@ int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3])
 
         facet->edge[k] = ELLIPSOID_EDGE_CONVEX;
         memset(facet->edge_inward[k], 0, sizeof facet->edge_inward[k]);
-        memcpy(facet->neighbour_normal[k], facet->normal,
-               sizeof facet->normal);
+        memcpy(facet->neighbour_normal[k], facet->normal, sizeof facet->normal);
     }
     facet->radius = sqrt(squared);
     return area > 0;
@@ -378,7 +376,7 @@ int ellipsoid_facet_join(ellipsoid_facet *facet, int k,
     ellipsoid_cross(t, other->normal, facet->edge_inward[k]);
     ellipsoid_copy(other->normal, facet->neighbour_normal[k]);
     facet->edge[k] = fabs(turn) < flat ? ELLIPSOID_EDGE_FLAT
-                     : turn > 0        ? ELLIPSOID_EDGE_CONCAVE
+                   : turn > 0          ? ELLIPSOID_EDGE_CONCAVE
                                        : ELLIPSOID_EDGE_CONVEX;
     return 1;
 }

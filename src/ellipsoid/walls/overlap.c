@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     overlap.c - whether an ellipsoid cuts a wall, for seeding cells.
 */
 #include "walls/walls.h"
@@ -71,7 +70,7 @@ static double distance_squared(double p[3][3])
 }
 
 int ellipsoid_surface_cuts(const ellipsoid_facet *facet,
-                         const ellipsoid_surface *body)
+                           const ellipsoid_surface *body)
 {
     double p[3][3];
 

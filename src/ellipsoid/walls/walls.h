@@ -1,8 +1,7 @@
-/*
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
-    SPDX-License-Identifier: GPL-3.0-or-later
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
+/*
     walls.h - the room that knows wall facets: where the distance from a point,
     or from an ellipsoid, to a facet has a local minimum, and which facets are
     near a cell. It depends on body alone.
@@ -59,8 +58,7 @@ int ellipsoid_facet_may_be_nearest(const ellipsoid_facet *facet,
                                    const double centre[3], double reach,
                                    double margin, double *distance);
 
-static inline int
-ellipsoid_facet_has_convex_edge(const ellipsoid_facet *facet)
+static inline int ellipsoid_facet_has_convex_edge(const ellipsoid_facet *facet)
 {
     return facet->edge[0] == ELLIPSOID_EDGE_CONVEX
         || facet->edge[1] == ELLIPSOID_EDGE_CONVEX
@@ -97,12 +95,10 @@ typedef struct ellipsoid_candidates
     *moved [m] bounds how far beads have moved since. STEP_UNDERFLOW: the walls
     ask for a shorter step, WALLS_FAILED: they gave up.
 */
-ellipsoid_status
-ellipsoid_facet_cache_update(ellipsoid_facet_cache *cache,
-                          const ellipsoid_model *model,
-                          const ellipsoid_surroundings *surroundings,
-                          const double x[3], const double q[4], double horizon,
-                          double *moved);
+ellipsoid_status ellipsoid_facet_cache_update(
+    ellipsoid_facet_cache *cache, const ellipsoid_model *model,
+    const ellipsoid_surroundings *surroundings, const double x[3],
+    const double q[4], double horizon, double *moved);
 
 /*
     Fills the lists of a cache from facets near its pose, for gaps of up to
@@ -127,9 +123,9 @@ typedef struct ellipsoid_pose_change
 } ellipsoid_pose_change;
 
 /* From where the cache was filled to the centre x and R(q) = r. */
-static inline void
-ellipsoid_pose_change_set(const ellipsoid_facet_cache *cache, const double x[3],
-                          double r[3][3], ellipsoid_pose_change *change)
+static inline void ellipsoid_pose_change_set(const ellipsoid_facet_cache *cache,
+                                             const double x[3], double r[3][3],
+                                             ellipsoid_pose_change *change)
 {
     ellipsoid_difference(x, cache->x, change->x);
     for (int i = 0; i < 3; i++)
@@ -139,9 +135,8 @@ ellipsoid_pose_change_set(const ellipsoid_facet_cache *cache, const double x[3],
 }
 
 /* How far it moves a bead, squared. */
-static inline double
-ellipsoid_squared_move(const ellipsoid_pose_change *change,
-                       const double bead[3])
+static inline double ellipsoid_squared_move(const ellipsoid_pose_change *change,
+                                            const double bead[3])
 {
     double sum = 0;
 
@@ -196,25 +191,25 @@ typedef struct ellipsoid_surface_contact
    deeper than the middle of the body above the contact point, as seen from
    behind. */
 int ellipsoid_surface_nearest(const ellipsoid_facet *facet,
-                            const ellipsoid_surface *body, double reach,
-                            ellipsoid_surface_contact *contact);
+                              const ellipsoid_surface *body, double reach,
+                              ellipsoid_surface_contact *contact);
 
 void ellipsoid_surface_derivatives(const ellipsoid_surface *body,
-                                 ellipsoid_surface_contact *contact);
+                                   ellipsoid_surface_contact *contact);
 
 /* Can the ellipsoid be nearer than reach [m] to any point of the facet? Errs
    towards 1. */
 int ellipsoid_surface_may_reach(const ellipsoid_facet *facet,
-                             const ellipsoid_surface *body, double reach);
+                                const ellipsoid_surface *body, double reach);
 
 /* Does it cut the facet? (overlap.c) */
 int ellipsoid_surface_cuts(const ellipsoid_facet *facet,
-                         const ellipsoid_surface *body);
+                           const ellipsoid_surface *body);
 
 /* As ellipsoid_surface_nearest() for the facet's plane in place of the facet,
    if that is cut; the centre is in front of it. */
 int ellipsoid_surface_cut_plane(const ellipsoid_facet *facet,
-                               const ellipsoid_surface *body,
-                               ellipsoid_surface_contact *contact);
+                                const ellipsoid_surface *body,
+                                ellipsoid_surface_contact *contact);
 
 #endif

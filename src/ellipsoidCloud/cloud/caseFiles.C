@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "caseFiles.H"
 #include "argList.H"
 #include "atomicWrite.H"
@@ -248,6 +242,3 @@ Foam::word Foam::caseFiles::flowInstance(const fvMesh& mesh)
 
     return U.instance();
 }
-
-
-// ************************************************************************* //

@@ -1,12 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
-
-\*---------------------------------------------------------------------------*/
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "caseSummary.H"
 #include "captureCriterion.H"
@@ -260,6 +253,3 @@ void Foam::reportFilling(const scalar cells, const scalar fluid)
             << " the flow, which the model leaves out" << nl << endl;
     }
 }
-
-
-// ************************************************************************* //

@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "cellState.H"
 #include "dictionary.H"
 #include "quaternion.H"
@@ -216,6 +210,3 @@ Foam::List<Foam::cellState> Foam::readStates(const dictionary& dict)
 
     return cells;
 }
-
-
-// ************************************************************************* //

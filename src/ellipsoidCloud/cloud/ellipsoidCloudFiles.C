@@ -1,11 +1,7 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
+/*---------------------------------------------------------------------------*\
 Description
     The files of the cloud: tables, tracks and what a restart needs to go on
     with them; and what it tells the user.
@@ -268,6 +264,3 @@ void Foam::ellipsoidCloud::forecast()
         << word::printf("%.1g", spent*factor) << " s, more where cells pile up"
         << endl;
 }
-
-
-// ************************************************************************* //

@@ -1,11 +1,7 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
+/*---------------------------------------------------------------------------*\
 Description
     Which cells enter, and when; and what of that a restart goes on with.
 
@@ -220,6 +216,3 @@ void Foam::ellipsoidCloud::checkInjections(const solverFields& flow)
     }
     injections_.clear();
 }
-
-
-// ************************************************************************* //

@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "ellipsoidProperties.H"
 #include "dimensionedTypes.H"
 #include "electricField.H"
@@ -274,6 +268,3 @@ Foam::string Foam::ellipsoidProperties::complaint
     return
         nameOf(optionOf(member)) + " is out of range\n    allowed: " + range;
 }
-
-
-// ************************************************************************* //

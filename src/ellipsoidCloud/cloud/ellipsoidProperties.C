@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "ellipsoidProperties.H"
 #include "cellTracks.H"
 #include "masterGate.H"
@@ -166,6 +160,3 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     readUnreached(mesh.boundaryMesh());
     checkPatches(mesh.boundaryMesh());
 }
-
-
-// ************************************************************************* //

@@ -1,11 +1,7 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
+/*---------------------------------------------------------------------------*\
 Description
     The flux through each face of the tetrahedra: that of the solver through
     the faces of the mesh, none in sum out of any tetrahedron.
@@ -408,6 +404,3 @@ void Foam::frozenFlow::balance
     fluxes_->spread(first, cellTets_[celli + 1] - first, values);
     __atomic_store_n(balanced, direction(1), __ATOMIC_RELEASE);
 }
-
-
-// ************************************************************************* //

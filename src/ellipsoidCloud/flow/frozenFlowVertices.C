@@ -1,11 +1,7 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
+/*---------------------------------------------------------------------------*\
 Description
     Values at the vertices of the frozen flow, on the master from the
     undecomposed fields.
@@ -400,6 +396,3 @@ void Foam::frozenFlow::setField
             sum(vectorField(atOthers, corners))/corners.size();
     }
 }
-
-
-// ************************************************************************* //

@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "frozenFlow.H"
 #include "cyclicPolyPatch.H"
 #include "indexedOctree.H"
@@ -414,5 +408,3 @@ bool Foam::frozenFlow::reach
 
     return location == pInside || location == pBeyondOpen;
 }
-
-// ************************************************************************* //

@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "undecomposedFlow.H"
 #include "foamVersions.H"
 #include "fromRanks.H"
@@ -220,6 +214,3 @@ template Foam::autoPtr<Foam::volVectorField> Foam::undecomposedFlow::gather
 (
     const volVectorField&
 ) const;
-
-
-// ************************************************************************* //

@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "cellOrientation.H"
 #include "ellipsoidProperties.H"
 #include "unitConversion.H"
@@ -132,6 +126,3 @@ void Foam::cellOrientation::draw
     ellipsoid_random_uniform(seed, id, rsPose, 0, 6, uniform);
     set(uniform + 3, q);
 }
-
-
-// ************************************************************************* //

@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "cellPopulation.H"
 #include "masterGate.H"
 #include "Pair.H"
@@ -255,6 +249,3 @@ void Foam::cellPopulation::take(const label id, const cellSize& size)
         models_.set(id, new ellipsoid_model(modelOf(optionsOf(size))));
     }
 }
-
-
-// ************************************************************************* //

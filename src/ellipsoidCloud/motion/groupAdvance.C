@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "groupAdvance.H"
 #include "cellSurroundings.H"
 #include "clockTime.H"
@@ -522,6 +516,3 @@ bool Foam::groupAdvance::advance
 
     return done;
 }
-
-
-// ************************************************************************* //

@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "occupancy.H"
 #include "surfaceFields.H"
 #include "volFields.H"
@@ -446,6 +440,3 @@ void Foam::occupancy::note(dictionary& notes, dictionary& tables)
     notes.add("heldForces", forces);
     tables.add("fluxes", fluxes_.notes());
 }
-
-
-// ************************************************************************* //

@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "appendedFile.H"
 #include "atomicWrite.H"
 #include "error.H"
@@ -107,6 +101,3 @@ std::string Foam::appendedFile::text() const
 {
     return size_ > 0 ? textOf(name_).substr(0, std::size_t(size_)) : "";
 }
-
-
-// ************************************************************************* //

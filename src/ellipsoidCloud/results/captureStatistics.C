@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "captureStatistics.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -89,6 +83,3 @@ void Foam::captureStatistics::add(List<cellEvent>&& events)
 
     log.flush();
 }
-
-
-// ************************************************************************* //

@@ -1,12 +1,6 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-\*---------------------------------------------------------------------------*/
 #include "cellEvent.H"
 #include "appendedFile.H"
 
@@ -104,6 +98,3 @@ bool Foam::cellEvent::read(const std::string& line, const tableSet& set)
      && cell.fate != cellState::nFates
      && (cell.patch >= 0 || patch == "-");
 }
-
-
-// ************************************************************************* //

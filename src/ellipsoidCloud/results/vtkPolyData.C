@@ -1,12 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
-
-\*---------------------------------------------------------------------------*/
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "vtkPolyData.H"
 #include "ellipsoid.h"
@@ -87,6 +80,3 @@ void Foam::writePolyData
     writeArray(os, "Int64", "offsets", 1, ends);
     os  << "</" << kind << ">\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
-
-
-// ************************************************************************* //

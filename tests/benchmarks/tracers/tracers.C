@@ -1,11 +1,7 @@
-/*---------------------------------------------------------------------------*\
-    ellipsoidTrapFoam: rigid ellipsoids in a viscous flow
-    Copyright (C) 2026 the ellipsoidTrapFoam authors
--------------------------------------------------------------------------------
-License
-    SPDX-License-Identifier: GPL-3.0-or-later
-    See COPYING at the top of the source tree.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
 
+/*---------------------------------------------------------------------------*\
 Application
     tracers
 
@@ -308,7 +304,6 @@ journey follow
 }
 
 
-
 //- Note that a part of the inlet, and those about it, lead to throats
 void mark
 (
@@ -466,9 +461,6 @@ struct survey
 
 } // End namespace
 
-
-// * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
-
 static void addOptions()
 {
     argList::addOption("interpolation", "name", "Scheme of the velocity");
@@ -562,6 +554,3 @@ int main(int argc, char *argv[])
 
     return 0;
 }
-
-
-// ************************************************************************* //
