@@ -370,14 +370,16 @@ void Foam::steadyFlow::checkJumps() const
 
     for (const fvPatchScalarField& pp : p_.boundaryField())
     {
-        if (isA<jumpCyclicFvPatchField<scalar>>(pp))
+        if
+        (
+            Pstream::parRun() && isA<jumpCyclicFvPatchField<scalar>>(pp)
+        )
         {
             FatalErrorInFunction
                 << "p has a jump, " << pp.type() << ", at patch "
-                << pp.patch().name() << ", which is not solved for" << nl
-                << "    Drive the flow by pressures at openings, or solve it"
-                << " with simpleFoam and take it as it is: -frozenFlow"
-                << exit(FatalError);
+                << pp.patch().name() << ", which decomposePar loses" << nl
+                << "    Solve the flow on one rank, then decomposePar and"
+                << " -frozenFlow" << exit(FatalError);
         }
     }
 }
