@@ -215,8 +215,8 @@ Foam::string Foam::coupledStokes::refusal
         (
             p,
             {
-                "fixedGradient", "fixedMean", "fixedValue", "mixed",
-                "outletInlet", "slip", "totalPressure",
+                "fixedGradient", "fixedJump", "fixedMean", "fixedValue",
+                "mixed", "outletInlet", "slip", "totalPressure",
                 "uniformFixedValue", "uniformTotalPressure", "zeroGradient"
             }
         );

@@ -350,7 +350,8 @@ void Foam::steadyFlow::checkRegions() const
 
     const masterGate once;
     const label closed = open.find(false);
-    if (Pstream::master() && closed >= 0)
+    // Where all are closed, walls drive the flow of each
+    if (Pstream::master() && closed >= 0 && open.found(true))
     {
         FatalErrorInFunction
             << "The mesh is in " << n << " regions, of which "
