@@ -45,6 +45,80 @@ void ellipsoid_chebyshev(double t, int count, double *value, double *slope)
     }
 }
 
+double ellipsoid_nearest_spheroid(const double semi_axes[3], int *axis)
+{
+    const double *a = semi_axes;
+    double best = HUGE_VAL;
+
+    *axis = 0;
+    for (int k = 0; k < 3; k++)
+    {
+        const double uneven = fabs(log(a[(k + 1) % 3] / a[(k + 2) % 3]));
+
+        if (uneven < best)
+        {
+            best = uneven;
+            *axis = k;
+        }
+    }
+    return a[*axis] / sqrt(a[(*axis + 1) % 3] * a[(*axis + 2) % 3]);
+}
+
+int ellipsoid_plane_table_has(const double semi_axes[3])
+{
+    int axis;
+    const double ratio = ellipsoid_nearest_spheroid(semi_axes, &axis);
+
+    /* flatter ones are too far off where they lie far from the plane; a little
+       more, for rounding */
+    return ratio > (1 - 1e-9) / 3
+        && ratio < ELLIPSOID_PLANE_LARGEST_RATIO * (1 + 1e-9);
+}
+
+/*
+    Functions of t with e factors t and o factors nu, as parts of tensors, vary
+    by how far the unit sphere, of which the body is made by stretching, is
+    turned: t over p where that is small, nu b/p. Squeezing, of the size G = 12
+    pi S^3/(tau p) with q arms of the size A, leaves terms of that size.
+*/
+static const struct
+{
+    int first, second; /* of the free resistances: the root of the product */
+    int e, o, q;       /* q -1: no squeezing */
+} size_of[FUNCTIONS] = {{0, 0, 0, 0, -1}, {0, 0, 2, 0, 0},  {1, 1, 0, 0, 0},
+                        {0, 1, 1, 1, 0},  {2, 2, 0, 0, 2},  {2, 2, 2, 0, 2},
+                        {3, 3, 0, 0, -1}, {2, 3, 1, 1, -1}, {1, 2, 1, 0, 1},
+                        {0, 2, 0, 1, -1}, {0, 2, 2, 1, 1},  {0, 3, 1, 0, -1},
+                        {0, 2, 0, 0, -1}, {1, 2, 1, 0, 1},  {0, 2, 2, 1, 1},
+                        {2, 2, 0, 0, -1}, {3, 3, 0, 0, -1}, {2, 2, 2, 0, 2}};
+
+void ellipsoid_plane_scales(double ratio, const double free[4], double p,
+                            double scale[FUNCTIONS], double slope[FUNCTIONS])
+{
+    const double b = ratio, y = p * p;
+    const double g = ellipsoid_squeeze(b, p) / p;
+    const double g_p = -4 / p - 2 * p / (b * b + y); /* of ln G */
+    const double t = sqrt(2 * y / (1 + y)), t_p = 1 / (p * (1 + y));
+    const double arm = (b * b + 1) / b * t; /* of ln t, too */
+    const double k = free[ELLIPSOID_K_ACROSS], c = free[ELLIPSOID_C_ACROSS];
+    const double part[3] = {g / k, g * arm / sqrt(k * c), g * arm * arm / c};
+
+    for (int n = 0; n < FUNCTIONS; n++)
+    {
+        const int e = size_of[n].e, o = size_of[n].o, q = size_of[n].q;
+        const double more = q < 0 ? 0 : part[q];
+
+        scale[n] = sqrt(free[size_of[n].first] * free[size_of[n].second])
+                 / (e == 0   ? 1
+                    : e == 1 ? t
+                             : t * t)
+                 * (o ? b / p : 1) * (1 + more);
+        slope[n] =
+            scale[n]
+            * (more / (1 + more) * (g_p + q * t_p) - e * t_p - (o ? 1 / p : 0));
+    }
+}
+
 void ellipsoid_plane_table_set(const double semi_axes[3],
                                ellipsoid_plane_table *own)
 {
