@@ -209,7 +209,7 @@ void ellipsoid_plane_action(const ellipsoid_plane_effect *e,
         const double per = by == 3 ? 1 : a;
         double of_slip = (to ? v->arm[to] * spin - v->rate[to] * y : 0)
                        + (by < 3 ? scaled[by] : 0);
-        double turned[6] = {0}, more[6];
+        double turned[6] = {0};
 
         if (to)
         {
@@ -221,7 +221,7 @@ void ellipsoid_plane_action(const ellipsoid_plane_effect *e,
         {
             /* of the second degree in t and of the first in nu: such
                differences are exact */
-            double there[3] = {n[0], n[1], n[2]};
+            double there[3] = {n[0], n[1], n[2]}, more[6];
 
             there[by] += 1;
             apply_functions(k, v->f, there[k], there, scaled, sheared, part);

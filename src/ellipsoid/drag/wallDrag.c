@@ -123,7 +123,7 @@ static void add_pose_changes(const ellipsoid_near_walls *near,
     {
         const double of_weight[2] = {plane->weight_slope[0][l],
                                      plane->weight_slope[1][l]};
-        double moved[3], of_shear[3], driven[2][6];
+        double of_shear[3], driven[2][6];
 
         add_weighted(of_weight, mu, parts, change[l]);
         for (int c = 0; c < 3; c++)
@@ -134,6 +134,8 @@ static void add_pose_changes(const ellipsoid_near_walls *near,
         add_weighted(plane->weight, mu * plane->gap_slope[l], by[3], change[l]);
         if (l < 3)
         {
+            double moved[3];
+
             for (int i = 0; i < 3; i++)
             {
                 const double(*g)[3] = near->flow->gradient_jacobian[i];
