@@ -6,32 +6,6 @@
     wall: drift, diffusion and equilibrium.
 */
 #include "brownianProfile.h"
-#include "wallMesh.h"
-
-static const double radius = 0.499999e-6; /* [m] of the sphere's one bead */
-static const double scale = 0.2e-6;       /* [m] kT/weight of the sphere */
-
-static wall_mesh wall;
-static ellipsoid_facet_cache cache;
-
-static int build_wall(void **unused)
-{
-    const double corner[3] = {-1e-3, -1e-3, 0};
-    const double u[3] = {2e-3, 0, 0}, v[3] = {0, 2e-3, 0};
-
-    (void)unused;
-    wall_mesh_init(&wall);
-    wall_mesh_plane(&wall, corner, u, v, 1, 1, 0, 0);
-    wall_mesh_finish(&wall);
-    return 0;
-}
-
-static int free_wall(void **unused)
-{
-    (void)unused;
-    wall_mesh_free(&wall);
-    return 0;
-}
 
 static ellipsoid_options near_wall(ellipsoid_motion motion, double interval)
 {

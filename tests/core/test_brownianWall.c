@@ -7,37 +7,10 @@
 */
 #include "brownianProfile.h"
 #include "referenceSphere.h"
-#include "wallMesh.h"
 
 static const double micron = 1e-6; /* [m] */
 
-static const double radius = 0.499999e-6; /* [m] of the sphere's one bead */
-static const double scale = 0.2e-6;       /* [m] kT/weight of the sphere */
-
 /* ----------------------------------------------------------- the scene */
-
-/* The wall x3 = 0, far beyond where a cell gets in a test. */
-static wall_mesh wall;
-static ellipsoid_facet_cache cache;
-
-static int build_wall(void **unused)
-{
-    const double corner[3] = {-1e-3, -1e-3, 0};
-    const double u[3] = {2e-3, 0, 0}, v[3] = {0, 2e-3, 0};
-
-    (void)unused;
-    wall_mesh_init(&wall);
-    wall_mesh_plane(&wall, corner, u, v, 1, 1, 0, 0);
-    wall_mesh_finish(&wall);
-    return 0;
-}
-
-static int free_wall(void **unused)
-{
-    (void)unused;
-    wall_mesh_free(&wall);
-    return 0;
-}
 
 /* A body as heavy as to have the scale height [m]. */
 static ellipsoid_options over_wall(ellipsoid_motion motion, int beads,

@@ -339,14 +339,14 @@ void Foam::steadyFlow::checkRegions() const
     Pstream::listCombineGather(open, orEqOp<bool>());
 
     labelList sizes(n, Zero);
-    pointField places(n, point::max);
+    pointField places(n, point::uniform(GREAT));
     forAll(regions, celli)
     {
         ++sizes[regions[celli]];
         places[regions[celli]] = mesh_.C()[celli];
     }
     Pstream::listCombineGather(sizes, plusEqOp<label>());
-    Pstream::listCombineGather(places, minEqOp<point>());
+    Pstream::listCombineGather(places, minMagSqrEqOp<point>());
 
     const masterGate once;
     const label closed = open.find(false);
