@@ -220,6 +220,8 @@ typedef struct ellipsoid_surroundings
                                   is moved by one of these, and the cells of a
                                   group meet at the nearest of their images; */
     int repeat_count;          /* 0 */
+    int fixed; /* where it is advanced, does the body keep its pose, at rest,
+                  whatever acts on it? 0; other cells of its group touch it */
     int piecewise; /* does the gradient of the velocity jump, as where it is
                       interpolated piece by piece? 0; explicit steps are of
                       another method then */

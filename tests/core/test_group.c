@@ -400,6 +400,79 @@ static void test_inertialess(void **unused)
     assert_near(test_distance(x[0], x[1], 3), 0, 1e-11);
 }
 
+/* A cell that the flow takes against another, which is fixed or, for
+   comparison, heavy in a fluid as viscous; stopped after each step or not. */
+static void against(int heavy, const ellipsoid_options *o,
+                    ellipsoid_observer observer, ellipsoid_state end[2])
+{
+    const test_quadratic flow = towards_origin(50);
+    ellipsoid_options of_heavy = *o;
+    ellipsoid_status status = ELLIPSOID_STOPPED;
+    ellipsoid_model model;
+    uint64_t seed = 8;
+    double t = 0;
+    int which;
+    crowd c;
+
+    crowd_init(&c, 2, o, &flow);
+    of_heavy.density *= 1e8;
+    of_heavy.kinematic_viscosity *= 1e8;
+    of_heavy.pressure_gradient = ELLIPSOID_PRESSURE_NONE;
+    model = test_model(&of_heavy);
+    test_orientation(&seed, c.state[0].q);
+    ellipsoid_set(c.state[1].x, 0.4e-6, 0.3e-6, 5e-6);
+    c.around[0].fixed = !heavy;
+    c.member[0].model = heavy ? &model : &c.model;
+    while (status == ELLIPSOID_STOPPED)
+    {
+        status = ellipsoid_advance_group(2, c.member, &t, 0.05, observer,
+                                         c.memory, &which);
+    }
+    assert_ok(status);
+    memcpy(end, c.state, 2 * sizeof(*end));
+    crowd_free(&c);
+}
+
+static int stop(void *context, const ellipsoid_step *step)
+{
+    (void)context;
+    (void)step;
+    return 1;
+}
+
+/* Nothing moves a fixed cell, to the last bit; the other goes as against one
+   that is a billion times as heavy, and so it does if it is stopped and
+   continued. */
+static void test_fixed(void **unused)
+{
+    (void)unused;
+    for (int n = 0; n < 4; n++)
+    {
+        ellipsoid_options o = touching_cell();
+        ellipsoid_state fixed[2], heavy[2], stopped[2];
+        uint64_t seed = 8;
+        double q[4];
+
+        o.motion =
+            n % 2 ? ELLIPSOID_MOTION_INERTIALESS : ELLIPSOID_MOTION_INERTIAL;
+        o.friction = n < 2 ? 0 : 0.3;
+        o.tolerance = 1e-8;
+        against(0, &o, NULL, fixed);
+        against(1, &o, NULL, heavy);
+        against(0, &o, stop, stopped);
+        test_orientation(&seed, q);
+        assert_memory_equal(fixed[0].q, q, sizeof(q));
+        assert_memory_equal(fixed[0].x, ((double[3]){0, 0, 0}),
+                            sizeof(fixed[0].x));
+        assert_true(ellipsoid_length(fixed[0].u) == 0
+                    && ellipsoid_length(fixed[0].omega) == 0);
+        print_message("# beside a heavy one: %.1e of a length\n",
+                      test_distance(fixed[1].x, heavy[1].x, 3) / 2e-6);
+        assert_true(test_distance(fixed[1].x, heavy[1].x, 3) < 1e-5 * 2e-6);
+        assert_memory_equal(stopped, fixed, sizeof(fixed));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -410,6 +483,7 @@ int main(void)
         cmocka_unit_test_setup(test_group_of_one, with_beads),
         BOTH(test_converges),
         BOTH(test_inertialess),
+        BOTH(test_fixed),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

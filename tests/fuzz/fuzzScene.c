@@ -476,6 +476,7 @@ static void read_flow(fuzz_scene *s, fuzz_input *in)
         s->around.velocities = velocities;
     }
     s->around.piecewise = fuzz_choice(in, 2);
+    s->around.fixed = fuzz_choice(in, 8) == 7;
 }
 
 void fuzz_scene_read(fuzz_scene *s, fuzz_input *in, const ellipsoid_options *o)

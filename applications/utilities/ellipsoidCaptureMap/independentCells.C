@@ -29,7 +29,7 @@ Foam::independentCells::followSome
     const scalar endTime
 ) const
 {
-    groupScheduler scheduler(population_, domain_, nullptr);
+    groupScheduler scheduler(population_, domain_, nullptr, &criterion_);
     DynamicList<cellEvent> events;
 
     List<cellState> cells(starts);
@@ -48,10 +48,11 @@ Foam::independentCells::followSome
     {
         const scalar end = n + 1 < nIntervals ? (n + 1)*deltaT : endTime;
         events.clear();
-        const List<cellSweep> moves
+        List<cellSweep> moves
         (
-            scheduler.advanceInterval(cells, criterion_, n*deltaT, end, events)
+            scheduler.advanceInterval(cells, n*deltaT, end)
         );
+        criterion_.judge(cells, moves, end, events);
 
         label nStay = 0;
         forAll(moves, i)
@@ -61,6 +62,10 @@ Foam::independentCells::followSome
 
             to.fate = cell.state.fate;
             to.patch = cell.state.patch;
+            if (cell.gone())
+            {
+                scheduler.forget(cell.state.id);
+            }
 
             for (label w = 0; w < cell.nWalls && !cell.gone(); ++w)
             {

@@ -93,7 +93,8 @@ static ellipsoid_status solve_step(ellipsoid_group *g,
         double *y = g->stages[cell].y;
 
         ellipsoid_normalise(y + AT_Q);
-        memcpy(&g->next[cell].state, y, sizeof(g->next[cell].state));
+        memcpy(&g->next[cell].state, g->cell[cell].fixed ? g->start[cell].y : y,
+               sizeof(g->next[cell].state));
     }
     return status;
 }
@@ -329,7 +330,7 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
 
 /* An orientation of length one is taken as it is, so that a run can be
    continued without a change in the last digit. */
-static ellipsoid_status set_start(int inertial, const ellipsoid_state *state,
+static ellipsoid_status set_start(int moves, const ellipsoid_state *state,
                                   ellipsoid_evaluation *start)
 {
     double y[UNKNOWNS], sum = 0, square;
@@ -337,7 +338,7 @@ static ellipsoid_status set_start(int inertial, const ellipsoid_state *state,
     memcpy(y, state, sizeof(y));
     for (int n = 0; n < UNKNOWNS; n++)
     {
-        y[n] = ellipsoid_is_rate(n) && !inertial ? 0 : y[n]; /* not read */
+        y[n] = ellipsoid_is_rate(n) && !moves ? 0 : y[n]; /* not read */
         sum += y[n];
     }
     square = ellipsoid_square4(y + AT_Q);
@@ -362,7 +363,8 @@ static ellipsoid_status begin(ellipsoid_group *g,
 
     for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
-        status = set_start(g->inertial, members[cell].state, &g->start[cell]);
+        status = set_start(g->inertial && !g->cell[cell].fixed,
+                           members[cell].state, &g->start[cell]);
         g->failed = status == ELLIPSOID_OK ? -1 : cell;
     }
     if (status == ELLIPSOID_OK)

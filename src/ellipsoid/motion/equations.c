@@ -576,11 +576,31 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
     return finish(state, derivative);
 }
 
+/* A fixed body touches walls, and others, but nothing moves it. */
+static ellipsoid_status evaluate_fixed(const ellipsoid_cell *cell,
+                                       ellipsoid_evaluation *at,
+                                       int with_blocks)
+{
+    ellipsoid_set(at->state.u, 0, 0, 0);
+    ellipsoid_set(at->state.omega, 0, 0, 0);
+    memset(&at->derivative, 0, sizeof(at->derivative));
+    if (with_blocks)
+    {
+        memset(&at->blocks, 0, sizeof(at->blocks));
+    }
+    return ellipsoid_has_walls(cell->model, &cell->surroundings)
+             ? ellipsoid_contact_evaluate(cell->model, &cell->surroundings,
+                                          &at->state, cell->cache, &at->contact,
+                                          NULL)
+             : ELLIPSOID_OK;
+}
+
 ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
                                     ellipsoid_evaluation *at, int balanced,
                                     int with_blocks)
 {
-    return with_blocks ? evaluate(cell, at, balanced, 1)
+    return cell->fixed ? evaluate_fixed(cell, at, with_blocks)
+         : with_blocks ? evaluate(cell, at, balanced, 1)
          : balanced    ? evaluate(cell, at, 1, 0)
                        : evaluate(cell, at, 0, 0);
 }

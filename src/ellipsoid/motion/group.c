@@ -32,6 +32,7 @@ static ellipsoid_cell problem_of(const ellipsoid_member *member,
         .rotation_rate = drag ? 1 / m->rotation_relaxation_time : 0,
         .noise = m->options.brownian && drag ? noise : NULL,
         .inertial = m->options.motion == ELLIPSOID_MOTION_INERTIAL,
+        .fixed = member->surroundings->fixed,
         .walls = ellipsoid_has_walls(m, member->surroundings),
     };
 }
@@ -100,7 +101,7 @@ static ellipsoid_status set_noise(ellipsoid_group *g,
         {
             whole = noise->end;
         }
-        if (status == ELLIPSOID_OK
+        if (status == ELLIPSOID_OK && !p->fixed
             && ellipsoid_has_near_walls(p->model, &p->surroundings))
         {
             status = ellipsoid_wall_noise_begin(p->model, &p->surroundings,

@@ -112,7 +112,7 @@ static void add_to_point(ellipsoid_group *g, ellipsoid_evaluation *points,
     ellipsoid_add(contact->cell_force, wrench->force);
     ellipsoid_add(contact->cell_torque, wrench->torque);
     list_cell(contact, g->cell[column].surroundings.id);
-    if (m->derivatives)
+    if (m->derivatives && !g->cell[row].fixed)
     {
         ellipsoid_coupling *c = &pairs->coupling[pairs->count++];
         const double of_torque[3] = {1 / model->inertia[0],
@@ -195,7 +195,7 @@ ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *g,
     }
     for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
-        if (points[cell].contact.cell_count > 0)
+        if (points[cell].contact.cell_count > 0 && !g->cell[cell].fixed)
         {
             status = add_wrench(&g->cell[cell], &points[cell], balanced);
             g->failed = status == ELLIPSOID_OK ? -1 : cell;

@@ -140,7 +140,8 @@ int ellipsoid_group_matrix_prepare(ellipsoid_group *g, double per_g)
         fill(g, cell, cell, &start->blocks, per_g, &reduced, &used);
         for (int i = 0; i < 6; i++)
         {
-            block_at(g, cell, cell)[i][i] += g->inertial ? 1 / per_g : 0;
+            block_at(g, cell, cell)[i][i] +=
+                g->inertial || g->cell[cell].fixed ? 1 / per_g : 0;
         }
         memcpy(s->to_rates[AT_X], reduced.x, sizeof(reduced.x));
         memcpy(s->to_rates[AT_Q], reduced.q, sizeof(reduced.q));

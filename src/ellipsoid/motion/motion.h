@@ -83,6 +83,7 @@ typedef struct ellipsoid_cell
     double rotation_rate;         /* [1/s] 1/tau of omega, 0 in vacuum */
     const ellipsoid_noise *noise; /* NULL: none */
     int inertial;
+    int fixed;
     int walls;
 } ellipsoid_cell;
 
@@ -369,9 +370,10 @@ ellipsoid_rosenbrock_set_of(const ellipsoid_group *g)
 
 static inline int ellipsoid_group_prepare(ellipsoid_group *g, double per_g)
 {
-    return g->pairs ? ellipsoid_group_matrix_prepare(g, per_g)
-                    : ellipsoid_stage_matrix_prepare(g->system, g->start,
-                                                     g->inertial, per_g);
+    return g->pairs
+             ? ellipsoid_group_matrix_prepare(g, per_g)
+             : ellipsoid_stage_matrix_prepare(
+                 g->system, g->start, g->inertial || g->cell[0].fixed, per_g);
 }
 
 static inline void ellipsoid_group_solve(const ellipsoid_group *g, int stage)

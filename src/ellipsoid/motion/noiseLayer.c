@@ -85,8 +85,9 @@ ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *g, double t,
         ellipsoid_state *before = &g->start[cell].state;
         ellipsoid_state *after = &g->next[cell].state;
 
-        if (!ellipsoid_has_contact(g, cell)
-            || !ellipsoid_in_contact(&g->next[cell].contact))
+        if (!g->cell[cell].fixed
+            && (!ellipsoid_has_contact(g, cell)
+                || !ellipsoid_in_contact(&g->next[cell].contact)))
         {
             double slip[3], spin[3];
 

@@ -125,11 +125,16 @@ static inline void keep_slopes(const ellipsoid_state *state,
 
 /* Sets the state of a stage; the last one is the result. */
 static inline int set_stage(const method *m, const ellipsoid_evaluation *start,
-                            int stage, double h, ellipsoid_stages *s,
+                            int stage, double h, int fixed, ellipsoid_stages *s,
                             ellipsoid_evaluation *at)
 {
     double change[UNKNOWNS];
 
+    if (fixed)
+    {
+        memcpy(at->y, start->y, sizeof(at->y));
+        return 1;
+    }
     stage_sum(m, s->k, stage, change);
     for (int n = AT_X; n < UNKNOWNS; n++)
     {
@@ -175,8 +180,8 @@ static inline ellipsoid_status take(ellipsoid_group *g, const method *m,
 
         for (int cell = 0; cell < count; cell++)
         {
-            if (!set_stage(m, &g->start[cell], i, h, &g->stages[cell],
-                           &g->next[cell]))
+            if (!set_stage(m, &g->start[cell], i, h, g->cell[cell].fixed,
+                           &g->stages[cell], &g->next[cell]))
             {
                 return ELLIPSOID_STEP_UNDERFLOW;
             }

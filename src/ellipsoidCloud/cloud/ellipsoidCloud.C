@@ -324,6 +324,7 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow)
             population_,
             *domain_,
             tracks_.get(),
+            &criterion_,
             occupancy_.valid() ? &occupancy_->held() : nullptr
         )
     );
@@ -390,18 +391,43 @@ void Foam::ellipsoidCloud::advance(const solverFields& flow)
 }
 
 
+Foam::List<Foam::cellSweep> Foam::ellipsoidCloud::move
+(
+    const scalar end,
+    DynamicList<cellEvent>& events
+)
+{
+    addNew(time_, end);
+
+    List<cellSweep> moves(interval_->advanceInterval(cells_, time_, end));
+    criterion_.judge(cells_, moves, end, events);
+
+    label nLeft = 0;
+    for (const cellSweep& cell : moves)
+    {
+        if (cell.gone())
+        {
+            interval_->forget(cell.state.id);
+        }
+        else
+        {
+            cells_[nLeft++] = cell.state;
+        }
+    }
+    cells_.setSize(nLeft);
+    time_ = end;
+
+    return moves;
+}
+
+
 void Foam::ellipsoidCloud::evolve()
 {
     const clockTime timer;
-    const scalar end = presentTime(mesh_.time());
-
-    addNew(time_, end);
 
     DynamicList<cellEvent> events;
-    const List<cellSweep> moves
-    (
-        interval_->advanceInterval(cells_, criterion_, time_, end, events)
-    );
+    const List<cellSweep> moves(move(presentTime(mesh_.time()), events));
+
     if (occupancy_.valid())
     {
         occupancy_->update(cells_, events);
@@ -423,8 +449,6 @@ void Foam::ellipsoidCloud::evolve()
             reportLost(cell);
         }
     }
-
-    time_ = end;
 
     trackingTime_ += timer.elapsedTime();
     report();

@@ -237,12 +237,7 @@ void Foam::ellipsoidCloud::forecast()
 
     while (spent < trial && time_ < end - 0.5*deltaT)
     {
-        addNew(time_, time_ + deltaT);
-        interval_->advanceInterval
-        (
-            cells_, criterion_, time_, time_ + deltaT, events
-        );
-        time_ += deltaT;
+        move(time_ + deltaT, events);
         spent = returnReduce(timer.elapsedCpuTime(), maxOp<scalar>());
     }
 

@@ -128,51 +128,6 @@ struct Foam::groupAdvance::member
             std::copy_n(contact.cell_id, cell.nCells, cell.cells);
         }
 
-        //- Compare what the contacts leave unbalanced with the drag on the cell
-        //  held still: of its last step up to its catch, and over the time
-        //  since it settled, when it is what drives its motion. Only of a cell that has been slow, or is in contact and may be slow
-        //  from now on
-        void balance()
-        {
-            cellState& state = cell.state;
-            const ellipsoid_contact& contact = last.contact;
-            const scalar dt = state.time - since;
-
-            if (!(state.slowTime > 0 || cell.nWalls || cell.nCells))
-            {
-                return;
-            }
-
-            frozenFlow::probe at(here.home);
-            frozenFlow::tetCoordinates c;
-            if (!domain.flow.reach(state.body.x, at, c))
-            {
-                state.imbalance = 1;
-                return;
-            }
-
-            vector U;
-            vector drag;
-            domain.flow.velocity(state.time, c, U.v_, nullptr);
-            ellipsoid_drag_at_rest(&model, state.body.q, U.v_, drag.v_);
-
-            const vector sum
-            (
-                drag + (pointOf(contact.force) + pointOf(contact.cell_force))
-            );
-
-            if (state.fate != cellState::caught)
-            {
-                state.imbalance =
-                    max(state.imbalance, mag(sum)/max(mag(drag), VSMALL));
-            }
-            state.dragImpulse += dt*drag;
-
-            const vector moved(state.centre() - from);
-            ellipsoid_drag_at_rest(&model, state.body.q, moved.v_, drag.v_);
-            state.netImpulse += drag;
-        }
-
         //- A cell that passed an open patch is stopped there, one that is
         //  elsewhere outside is lost
         void remove(const ellipsoid_status status)
@@ -233,34 +188,19 @@ struct Foam::groupAdvance::member
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-const ellipsoid_model& Foam::groupAdvance::model(const label id)
+const ellipsoid_model& Foam::groupAdvance::silent(const label id)
 {
-    const ellipsoid_model& own = population_.model(id);
-    const bool clamped = isClamped(id);
-
-    if (!clamped && !(onTrial() && own.options.brownian))
+    if (!silent_.found(id))
     {
-        return own;
+        ellipsoid_options options(population_.model(id).options);
+        options.brownian = false;
+        silent_.set(id, new ellipsoid_model(cellPopulation::modelOf(options)));
     }
 
-    auto& models = clamped ? clamped_ : silent_;
-    if (!models.found(id))
-    {
-        ellipsoid_options options(own.options);
-        options.brownian = options.brownian && !onTrial();
-        if (clamped)
-        {
-            // As heavy as the core allows
-            const scalar factor = 1e12/options.density;
-            options.density *= factor;
-            options.kinematic_viscosity *= factor;
-            options.buoyancy = 0;
-        }
-        models.set(id, new ellipsoid_model(cellPopulation::modelOf(options)));
-    }
-
-    return *models[id];
+    return *silent_[id];
 }
+
+
 void Foam::groupAdvance::rest
 (
     List<cellSweep>& cells,
@@ -286,6 +226,7 @@ void Foam::groupAdvance::enter
 (
     List<cellSweep>& cells,
     const labelUList& group,
+    const trial* tried,
     DynamicList<segment>& path,
     PtrList<member>& own,
     List<ellipsoid_member>& members
@@ -315,23 +256,27 @@ void Foam::groupAdvance::enter
         const bool all = entering || !domain_.flow.images().empty();
         const scalar nextRow = all ? -GREAT : cell.state.nextRow;
 
+        const ellipsoid_model& model = population_.model(id);
+        const bool isTried = tried && id == tried->cell;
+
         own.set
         (
             i,
             new member
             {
-                group[i], cell, model(id), domain_,
-                properties.pushing() || onTrial(),
-                onTrial() ? GREAT : nextRow, path,
+                group[i], cell,
+                tried && model.options.brownian ? silent(id) : model, domain_,
+                properties.pushing() || tried, tried ? GREAT : nextRow, path,
                 {domain_, frozenFlow::probe{cell.state.tet, -1}},
                 frozenFlow::pInside, isometry(), ellipsoid_step(),
-                cell.state.centre(), cell.state.time, id == tried ? reach : 0
+                cell.state.centre(), cell.state.time,
+                isTried ? tried->reach : 0
             }
         );
-        const heldWrench* given = id == tried ? pull : nullptr;
-        if (given || isClamped(id))
+        own[i].here.fixed = isFixed(id, tried);
+        if (isTried && tried->pull)
         {
-            own[i].here.setStill(given);
+            own[i].here.setStill(*tried->pull);
         }
 
         own[i].here.repeat =
@@ -408,9 +353,13 @@ bool Foam::groupAdvance::integrate
             if (status == ELLIPSOID_OK)
             {
                 m.settle();
-                if (!isClamped(m.cell.state.id))
+                if (observer_ && !m.here.fixed)
                 {
-                    m.balance();
+                    observer_->ended
+                    (
+                        m.cell, m.last.contact, m.from, m.since, m.model,
+                        domain_
+                    );
                 }
             }
             else
@@ -431,13 +380,15 @@ Foam::groupAdvance::groupAdvance
 (
     const cellPopulation& population,
     const cellDomain& domain,
-    const heldCells* held
+    const heldCells* held,
+    const contactObserver* observer
 )
 :
     population_(population),
     domain_(domain),
     periods_(domain.flow.images().periods()),
     held_(held),
+    observer_(observer),
     done_()
 {}
 
@@ -450,7 +401,8 @@ bool Foam::groupAdvance::advance
     const labelUList& group,
     const scalar end,
     const bool mayFail,
-    DynamicList<segment>& path
+    DynamicList<segment>& path,
+    const trial* tried
 )
 {
     if (group.size() > largestGroup)
@@ -468,12 +420,12 @@ bool Foam::groupAdvance::advance
         return false;
     }
 
-    label nClamped = 0;
+    label nFixed = 0;
     for (const label i : group)
     {
-        nClamped += isClamped(cells[i].state.id);
+        nFixed += isFixed(cells[i].state.id, tried);
     }
-    if (nClamped == group.size())
+    if (nFixed == group.size())
     {
         rest(cells, group, end, path);
         return true;
@@ -487,7 +439,7 @@ bool Foam::groupAdvance::advance
     PtrList<member> own(n);
     List<ellipsoid_member> members(n);
 
-    enter(cells, group, path, own, members);
+    enter(cells, group, tried, path, own, members);
 
     // The core answers what is not finite by a shorter step; OpenFOAM's traps
     // would end the run
@@ -496,14 +448,6 @@ bool Foam::groupAdvance::advance
     const scalar start = cells[group[0]].state.time;
     const bool done = integrate(members, start, end, mayFail);
     std::fesetenv(&traps);
-
-    for (member& m : own)
-    {
-        if (isClamped(m.cell.state.id))
-        {
-            m.cell.state.body = m.cell.start;
-        }
-    }
 
     const scalar spent = timer.elapsedTime();
     done_.time += spent;

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "groupScheduler.H"
-#include "captureCriterion.H"
 #include "cellDomain.H"
 #include "HashSet.H"
 #include "groupSharing.H"
@@ -92,7 +91,7 @@ Foam::groupScheduler::nearPairs
         if
         (
             unitOf[met.items.first()] != unitOf[met.items.second()]
-         && !(groups_.isClamped(a.state.id) && groups_.isClamped(b.state.id))
+         && !(groups_.isFixed(a.state.id) && groups_.isFixed(b.state.id))
         )
         {
             // Each point of a cell stays within its travel of where it began
@@ -427,7 +426,8 @@ Foam::groupScheduler::groupScheduler
 (
     const cellPopulation& population,
     const cellDomain& domain,
-    cellTracks* tracks,
+    trackSampler* tracks,
+    const contactObserver* observer,
     const heldCells* held
 )
 :
@@ -435,7 +435,7 @@ Foam::groupScheduler::groupScheduler
     domain_(domain),
     interacting_(population.properties().pushing()),
     beadRadius_(population.properties().options().bead_radius),
-    groups_(population, domain, held),
+    groups_(population, domain, held, observer),
     tracks_(tracks)
 {}
 
@@ -445,10 +445,8 @@ Foam::groupScheduler::groupScheduler
 Foam::List<Foam::cellSweep> Foam::groupScheduler::advanceInterval
 (
     List<cellState>& cells,
-    const captureCriterion& criterion,
     const scalar start,
-    const scalar end,
-    DynamicList<cellEvent>& events
+    const scalar end
 )
 {
     List<cellSweep> moves(cells.size());
@@ -474,22 +472,6 @@ Foam::List<Foam::cellSweep> Foam::groupScheduler::advanceInterval
             tracks_->take(u.rows);
         }
     }
-
-    criterion.judge(cells, moves, end, events);
-
-    label nLeft = 0;
-    for (const cellSweep& cell : moves)
-    {
-        if (cell.gone())
-        {
-            groups_.forget(cell.state.id);
-        }
-        else
-        {
-            cells[nLeft++] = cell.state;
-        }
-    }
-    cells.setSize(nLeft);
 
     return moves;
 }

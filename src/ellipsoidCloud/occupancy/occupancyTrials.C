@@ -88,10 +88,7 @@ bool Foam::occupancy::moves
         }
     }
 
-    trials_->tried = cell.id;
-    trials_->pull = pull;
-    trials_->reach = reach();
-
+    const groupAdvance::trial tried{cell.id, pull, reach()};
     scalar part = firstPart;
     for (scalar left = 1; left > 0; part *= 2)
     {
@@ -111,7 +108,7 @@ bool Foam::occupancy::moves
         trials_->advance
         (
             group, present, cell.time + (1 - left)*criterion_.holdTime(),
-            false, path
+            false, path, &tried
         );
 
         const scalar come = mag(group[own].state.centre() - cell.centre());

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "captureCriterion.H"
+#include "cellDomain.H"
 #include "checkedEntries.H"
 #include "Map.H"
 #include "polyBoundaryMesh.H"
@@ -206,6 +207,54 @@ bool Foam::captureCriterion::stays
     cell.slowTime = 0;
     cell.imbalance = 0;
     return false;
+}
+
+
+void Foam::captureCriterion::ended
+(
+    cellSweep& cell,
+    const ellipsoid_contact& contact,
+    const point& from,
+    const scalar since,
+    const ellipsoid_model& model,
+    const cellDomain& domain
+) const
+{
+    cellState& state = cell.state;
+
+    if (!(state.slowTime > 0 || cell.nWalls || cell.nCells))
+    {
+        return;
+    }
+
+    frozenFlow::probe at{state.tet, -1};
+    frozenFlow::tetCoordinates c;
+    if (!domain.flow.reach(state.body.x, at, c))
+    {
+        state.imbalance = 1;
+        return;
+    }
+
+    vector U;
+    vector drag;
+    domain.flow.velocity(state.time, c, U.v_, nullptr);
+    ellipsoid_drag_at_rest(&model, state.body.q, U.v_, drag.v_);
+
+    const vector sum
+    (
+        drag + (pointOf(contact.force) + pointOf(contact.cell_force))
+    );
+
+    if (state.fate != cellState::caught)
+    {
+        state.imbalance =
+            max(state.imbalance, mag(sum)/max(mag(drag), VSMALL));
+    }
+    state.dragImpulse += (state.time - since)*drag;
+
+    const vector moved(state.centre() - from);
+    ellipsoid_drag_at_rest(&model, state.body.q, moved.v_, drag.v_);
+    state.netImpulse += drag;
 }
 
 
