@@ -265,43 +265,18 @@ void ellipsoid_quaternion_from_uniform(const double uniform[3], double q[4]);
 
 /* ------------------------------------------------------------- contact */
 
-#define ELLIPSOID_MAX_PAIRS 2048
 #define ELLIPSOID_MAX_SURFACES 8
-#define ELLIPSOID_MAX_NEAR 4096
-#define ELLIPSOID_MAX_LISTED 256
 
 /*
     Which facets each bead, or the ellipsoid, may touch, and which the
-    resistance may know of, kept while the cell moves little. One per cell; its
-    content never changes a result, only its cost. Opaque.
+    resistance may know of, kept while the cell moves little. One per cell, in
+    memory of the caller's; its content never changes a result, only its cost.
 */
-typedef struct ellipsoid_facet_cache
-{
-    int valid;
-    int uses, listed; /* since it was filled; facets listed then */
-    double margin;    /* [m] how far a bead may move */
-    double rotation[3][3], half_box[3]; /* R(q) there; the beads' box [m] */
-    double x[3], q[4];                  /* pose at which it was filled */
-    double clearance; /* [m] > 0: no facet while the centre moves less */
-    const ellipsoid_facet *facets;
-    double nearest[ELLIPSOID_MAX_BEADS]; /* [m] no facet nearer to a centre */
-    double nearest_of_all;               /* [m] the least of these */
-    int bead_count, bead[ELLIPSOID_MAX_BEADS]; /* with facets, ascending */
-    int first[ELLIPSOID_MAX_BEADS + 1]; /* bead b: first[b] to first[b+1] of */
-    int facet[ELLIPSOID_MAX_PAIRS];     /* facets, ascending for each bead */
-    float away[ELLIPSOID_MAX_PAIRS]; /* [m] at least, from its bead; of beads */
-    /* All facets within `about_reach` [m] of a point, ascending, for several
-       searches; about_count -1: not looked up */
-    int about_count, about[ELLIPSOID_MAX_LISTED];
-    int about_nearest; /* which of a list was nearest last: it comes first */
-    double about_x[3], about_reach;
-    const ellipsoid_facet *about_facets;
-    int near_count;     /* of facets about the wall_range; -1: not looked up */
-    double near_x[3];   /* where they were looked up */
-    double near_margin; /* [m] how far the centre may move from there */
-    const ellipsoid_facet *near_facets;
-    int near_facet[ELLIPSOID_MAX_NEAR]; /* ascending */
-} ellipsoid_facet_cache;
+typedef struct ellipsoid_facet_cache ellipsoid_facet_cache;
+
+/* Bytes of the cache of a cell of this model, aligned as by malloc(): some
+   20 kB, and 16 kB more where walls add to the resistance. */
+size_t ellipsoid_facet_cache_size(const ellipsoid_model *model);
 
 /*
     Empties a cache. It must be called before the cache is used for the first

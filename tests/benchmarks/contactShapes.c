@@ -9,6 +9,7 @@
 */
 #include "trials.h"
 #include "wallMesh.h"
+#include "walls/walls.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -11,6 +11,7 @@
     force, no torque.
 */
 #include "wallMesh.h"
+#include "walls/walls.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -8,6 +8,7 @@
 #define FUZZ_CHECK_H
 
 #include "fuzzScene.h"
+#include "walls/walls.h"
 
 #include <math.h>
 #include <string.h>

@@ -35,7 +35,6 @@ int main(void)
     ellipsoid_state state = {.q = {0, 0, 0, 1}};
     ellipsoid_controller controller = {0};
     ellipsoid_statistics statistics = {0};
-    ellipsoid_facet_cache cache;
     ellipsoid_status status;
     const double period = 2 * 3.14159265358979323846 * (4 + 0.25) / shear_rate;
     double t = 0;
@@ -44,7 +43,6 @@ int main(void)
     options.buoyancy = 0;
     options.tolerance = 1e-8;
     status = ellipsoid_model_init(&model, &options);
-    ellipsoid_facet_cache_clear(&cache);
 
     printf("# Jeffery's period %.6e s\n", period);
     printf("# t/period  O_x1  O_x2  O_x3  spin[rad/s]\n");
@@ -52,10 +50,10 @@ int main(void)
     {
         double rotation[3][3];
 
-        status = ellipsoid_advance(
-            &(ellipsoid_member){&model, &surroundings, &state, &controller,
-                                &cache, NULL, &statistics},
-            &t, i * period / 20, NULL);
+        status = ellipsoid_advance(&(ellipsoid_member){&model, &surroundings,
+                                                       &state, &controller,
+                                                       NULL, NULL, &statistics},
+                                   &t, i * period / 20, NULL);
         ellipsoid_rotation(state.q, rotation);
         printf("%.3f %+.8f %+.8f %+.8f %+.6e\n", t / period, rotation[0][1],
                rotation[1][1], rotation[2][1], state.omega[2]);

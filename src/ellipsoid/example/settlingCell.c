@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double um = 1e-6; /* [m] */
@@ -68,10 +69,9 @@ int main(void)
         .flow = fluid_at_rest, .walls = list_floor, .walls_context = &walls};
     ellipsoid_state state = {.x = {0, 0, 1.5 * um}};
     ellipsoid_controller controller = {0};
-    ellipsoid_facet_cache cache;
     ellipsoid_contact contact = {.gap = 0};
-    const ellipsoid_member cell = {&model, &surroundings, &state, &controller,
-                                   &cache, NULL,          NULL};
+    ellipsoid_member cell = {&model, &surroundings, &state, &controller,
+                             NULL,   NULL,          NULL};
     const double axis[3] = {1, 0, 0.1};
     ellipsoid_status status;
     double t = 0, weight;
@@ -87,7 +87,12 @@ int main(void)
     weight = -options.gravity[2] * model.volume
            * (options.density - options.fluid_density);
     ellipsoid_quaternion_from_axis(axis, 0, state.q);
-    ellipsoid_facet_cache_clear(&cache);
+    cell.cache = malloc(ellipsoid_facet_cache_size(&model));
+    if (!cell.cache)
+    {
+        return 1;
+    }
+    ellipsoid_facet_cache_clear(cell.cache);
 
     printf("# t[s]  x3[um]  tilt[deg]  gap[um]  force of the floor/weight\n");
     for (int i = 0; i <= 20 && status == ELLIPSOID_OK; i++)
@@ -98,13 +103,14 @@ int main(void)
         if (status == ELLIPSOID_OK)
         {
             status = ellipsoid_contact_evaluate(&model, &surroundings, &state,
-                                                &cache, &contact, NULL);
+                                                cell.cache, &contact, NULL);
         }
         ellipsoid_rotation(state.q, rotation);
         printf("%4.1f %.6f %8.4f %+.6f %.8f\n", t, state.x[2] / um,
                180 / 3.14159265358979323846 * asin(rotation[2][1]),
                contact.gap / um, contact.force[2] / weight);
     }
+    free(cell.cache);
     printf("# %s\n", ellipsoid_status_text(status));
     return status != ELLIPSOID_OK;
 }

@@ -14,6 +14,7 @@
 #include "walls/walls.h"
 
 #include <limits.h>
+#include <stddef.h>
 #include <math.h>
 #include <string.h>
 
@@ -44,6 +45,13 @@ static void invalidate(ellipsoid_facet_cache *cache)
     cache->facets = NULL;
     memset(cache->x, 0, sizeof cache->x);
     memset(cache->q, 0, sizeof cache->q);
+}
+
+size_t ellipsoid_facet_cache_size(const ellipsoid_model *model)
+{
+    return model->options.wall_resistance == ELLIPSOID_WALL_RESISTANCE_NONE
+             ? offsetof(ellipsoid_facet_cache, near_facet)
+             : sizeof(ellipsoid_facet_cache);
 }
 
 void ellipsoid_facet_cache_clear(ellipsoid_facet_cache *cache)

@@ -62,12 +62,10 @@ Foam::string Foam::cellInjection::overlap
     // Of the ellipsoid; else beads stand out of it
     for (const bool beads : {false, true})
     {
-        ellipsoid_facet_cache cache;
-        ellipsoid_facet_cache_clear(&cache);
-
+        facetCache cache(m);
         const ellipsoid_status status = ellipsoid_contact_evaluate
         (
-            beads ? &m : &model, &around, &cell.body, &cache, &contact, nullptr
+            beads ? &m : &model, &around, &cell.body, cache, &contact, nullptr
         );
 
         if (status == ELLIPSOID_OK && contact.surface_count)
@@ -364,16 +362,15 @@ bool Foam::cellInjection::overlaps
     }
 
     // Beads may stand out of the ellipsoid
-    ellipsoid_facet_cache cache;
+    facetCache cache(model);
     ellipsoid_contact contact;
-    ellipsoid_facet_cache_clear(&cache);
 
     // Where the core cannot tell, another pose is drawn. To touch, whatever
     // rounding says, is not to overlap, but adhesion may pull without
     return
         ellipsoid_contact_evaluate
         (
-            &model, &around, &pose, &cache, &contact, nullptr
+            &model, &around, &pose, cache, &contact, nullptr
         )
      || (
             contact.bead_contacts

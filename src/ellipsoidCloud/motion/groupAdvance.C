@@ -248,8 +248,7 @@ void Foam::groupAdvance::enter
 
         if (!caches_.found(id))
         {
-            caches_.set(id, new ellipsoid_facet_cache);
-            ellipsoid_facet_cache_clear(caches_[id]);
+            caches_.set(id, new facetCache(population_.model(id)));
         }
 
         // What unfolds the way follows from all steps
@@ -289,7 +288,7 @@ void Foam::groupAdvance::enter
         members[i].surroundings = &own[i].here;
         members[i].state = &cell.state.body;
         members[i].controller = &cell.state.controller;
-        members[i].cache = caches_[id];
+        members[i].cache = *caches_[id];
         members[i].observer_context = &own[i];
         members[i].statistics = &done_.steps;
     }

@@ -199,11 +199,9 @@ void advance
 {
     ellipsoid_controller controller = {};
     ellipsoid_state body = cell.body;
-    ellipsoid_facet_cache cache;
-    ellipsoid_facet_cache_clear(&cache);
-
+    facetCache cache(j.model);
     const ellipsoid_member member =
-        {&j.model, &j.here, &body, &controller, &cache, &j, &j.done};
+        {&j.model, &j.here, &body, &controller, cache, &j, &j.done};
     const scalar interval = runTime.deltaTValue();
     ellipsoid_status status = ELLIPSOID_OK;
     scalar t = 0;
