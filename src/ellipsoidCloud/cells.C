@@ -48,16 +48,9 @@ Description
 
 #include "functionObject/ellipsoidTracking.C"
 
-#include "flow/baffleSides.C"
-#include "flow/domainImages.C"
 #include "flow/electricField.C"
-#include "flow/frozenFlowVertices.C"
 #include "flow/inletFlux.C"
-#include "flow/mirrorsAtVertices.C"
 #include "flow/readViscosity.C"
-#include "flow/sharedMemory.C"
-#include "flow/undecomposedFlow.C"
-#include "flow/undecomposedMesh.C"
 
 #include "walls/narrowestGaps.C"
 #include "walls/wallImages.C"

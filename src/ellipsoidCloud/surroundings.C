@@ -3,22 +3,13 @@
 
 /*---------------------------------------------------------------------------*\
 Description
-    What the time of a run goes into: the flow and the walls where the cells are,
-    and moving them. Optimised as OpenFOAM is.
+    What the time of a run goes into: the walls where the cells are, and moving
+    them. Optimised as OpenFOAM is.
 
     One translation unit for all of them: OpenFOAM's templates are instantiated and
     optimised once, which takes a third of the time that a unit for each file takes.
 
 \*---------------------------------------------------------------------------*/
-#include "flow/cellFits.C"
-#include "flow/cellFluxes.C"
-#include "flow/frozenFlow.C"
-#include "flow/frozenFlowFluxes.C"
-#include "flow/frozenFlowTets.C"
-#include "flow/frozenFlowWalk.C"
-#include "flow/pointImages.C"
-#include "flow/tetDecomposition.C"
-#include "flow/vertexFit.C"
 
 #include "motion/groupAdvance.C"
 #include "motion/groupScheduler.C"

@@ -119,7 +119,7 @@ Foam::independentCells::independentCells
 
 bool Foam::independentCells::fits(cellState& cell) const
 {
-    frozenFlow::probe at;
+    meshFlow::probe at;
     const bool inside = domain_.flow.find(cell.centre(), at);
     cell.tet = at.tet;
 

@@ -5,7 +5,7 @@
 #include "atomicWrite.H"
 #include "cellPoses.H"
 #include "Cloud.H"
-#include "frozenFlow.H"
+#include "meshFlow.H"
 #include "IOField.H"
 #include "IOPosition.H"
 #include "passiveParticle.H"
@@ -20,7 +20,7 @@ Foam::cellParticles::local() const
     for (const cellState& cell : cells_)
     {
         const label celli =
-            localCells_[flow_.cell(frozenFlow::probe{cell.tet, -1})];
+            localCells_[flow_.cell(meshFlow::probe{cell.tet, -1})];
 
         if (celli >= 0 && cell.fate != cellState::waiting)
         {
@@ -80,7 +80,7 @@ Foam::cellParticles::cellParticles
     const polyMesh& mesh,
     const cellPopulation& population,
     const List<cellState>& cells,
-    const frozenFlow& flow,
+    const meshFlow& flow,
     const labelList& localCells
 )
 :

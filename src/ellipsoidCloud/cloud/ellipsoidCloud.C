@@ -44,7 +44,7 @@ namespace Foam
             << cell.state.time << " s, " << cell.state.centre() << " m: "
             << ellipsoid_status_text(ellipsoid_status(cell.status));
 
-        if (cell.refused == frozenFlow::pBeyondCoupled)
+        if (cell.refused == meshFlow::pBeyondCoupled)
         {
             Info<< " at a cyclic or symmetry patch, which it must not reach";
         }

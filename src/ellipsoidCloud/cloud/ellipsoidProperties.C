@@ -152,9 +152,9 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     }
     readOptions();
     checkOptions();
-    scheme_ = frozenFlow::schemeNames.getOrDefault
+    scheme_ = meshFlow::schemeNames.getOrDefault
     (
-        "interpolation", *this, frozenFlow::stDivergenceFree
+        "interpolation", *this, meshFlow::stDivergenceFree
     );
     seed_ = getOrDefault<label>("seed", 1);
     readUnreached(mesh.boundaryMesh());

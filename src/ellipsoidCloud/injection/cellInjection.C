@@ -52,7 +52,7 @@ Foam::string Foam::cellInjection::overlap
 {
     const cellSurroundings around
     (
-        from_.domain, frozenFlow::probe{cell.tet, -1}
+        from_.domain, meshFlow::probe{cell.tet, -1}
     );
     ellipsoid_model model(m);
     ellipsoid_contact contact;
@@ -109,7 +109,7 @@ Foam::cellState Foam::cellInjection::drawn
         orientation_.set(uniform + 3, cell.body.q);
         orientation(cell.id - from_.firstId, cell.body.q);
 
-        frozenFlow::probe at;
+        meshFlow::probe at;
         inside = from_.domain.flow.find(x, at);
         cell.tet = at.tet;
 
@@ -325,7 +325,7 @@ void Foam::cellInjection::wait
 (
     cellState& cell,
     const scalar time,
-    const frozenFlow& flow
+    const meshFlow& flow
 )
 {
     cell.time = time;
@@ -333,11 +333,11 @@ void Foam::cellInjection::wait
     cell.fate = cellState::waiting;
     cell.patch = -1;
 
-    frozenFlow::probe at{cell.tet, -1};
-    frozenFlow::tetCoordinates c;
-    const bool there = flow.reach(cell.body.x, at, c);
+    meshFlow::probe at{cell.tet, -1};
+    meshFlow::tetCoordinates c;
+    const bool there = flow.reach(cell.centre(), at, c);
     Foam::check(cell, there ? ELLIPSOID_OK : ELLIPSOID_FLOW_FAILED);
-    flow.velocity(time, c, cell.body.u, nullptr);
+    std::copy_n(flow.velocity(time, c).v_, 3, cell.body.u);
 }
 
 
@@ -348,7 +348,7 @@ bool Foam::cellInjection::overlaps
     const cellDomain& domain
 )
 {
-    const cellSurroundings around(domain, frozenFlow::probe{cell.tet, -1});
+    const cellSurroundings around(domain, meshFlow::probe{cell.tet, -1});
     const ellipsoid_state& pose = cell.body;
 
     int cuts = 0;

@@ -33,7 +33,7 @@ struct Foam::groupAdvance::member
         const scalar firstRow;
         DynamicList<segment>& path;
         cellSurroundings here;
-        frozenFlow::locationType location;
+        meshFlow::locationType location;
         isometry image;
         ellipsoid_step last;
 
@@ -78,7 +78,7 @@ struct Foam::groupAdvance::member
                 m.cell.sweep(body, m.model);
             }
 
-            if (m.location != frozenFlow::pInside)
+            if (m.location != meshFlow::pInside)
             {
                 return 1;
             }
@@ -132,7 +132,7 @@ struct Foam::groupAdvance::member
         //  elsewhere outside is lost
         void remove(const ellipsoid_status status)
         {
-            if (location == frozenFlow::pBeyondOpen)
+            if (location == meshFlow::pBeyondOpen)
             {
                 stopAtPatch();
                 cell.state.fate = cellState::escaped;
@@ -152,7 +152,7 @@ struct Foam::groupAdvance::member
             // Bisection: inside at the start of the step, beyond at its end
             scalar inside = last.start;
             scalar beyond = last.end;
-            frozenFlow::probe at(here.home);
+            meshFlow::probe at(here.home);
             cellState& state = cell.state;
             state.patch = -1;
 
@@ -162,7 +162,7 @@ struct Foam::groupAdvance::member
                 ellipsoid_step_state(&last, middle, &state.body);
                 const auto there = domain.flow.locate(state.centre(), at);
 
-                if (there == frozenFlow::pInside)
+                if (there == meshFlow::pInside)
                 {
                     inside = middle;
                 }
@@ -266,8 +266,8 @@ void Foam::groupAdvance::enter
                 group[i], cell,
                 tried && model.options.brownian ? silent(id) : model, domain_,
                 properties.pushing() || tried, tried ? GREAT : nextRow, path,
-                {domain_, frozenFlow::probe{cell.state.tet, -1}},
-                frozenFlow::pInside, isometry(), ellipsoid_step(),
+                {domain_, meshFlow::probe{cell.state.tet, -1}},
+                meshFlow::pInside, isometry(), ellipsoid_step(),
                 cell.state.centre(), cell.state.time,
                 isTried ? tried->reach : 0
             }
@@ -340,7 +340,7 @@ bool Foam::groupAdvance::integrate
             m.cell.state.time = t;
             m.cell.state.tet = m.here.home.tet;
 
-            if (failed ? i == which : m.location != frozenFlow::pInside)
+            if (failed ? i == which : m.location != meshFlow::pInside)
             {
                 m.remove(status);
                 continue;

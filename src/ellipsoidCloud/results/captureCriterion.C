@@ -227,17 +227,16 @@ void Foam::captureCriterion::ended
         return;
     }
 
-    frozenFlow::probe at{state.tet, -1};
-    frozenFlow::tetCoordinates c;
-    if (!domain.flow.reach(state.body.x, at, c))
+    meshFlow::probe at{state.tet, -1};
+    meshFlow::tetCoordinates c;
+    if (!domain.flow.reach(state.centre(), at, c))
     {
         state.imbalance = 1;
         return;
     }
 
-    vector U;
+    const vector U(domain.flow.velocity(state.time, c));
     vector drag;
-    domain.flow.velocity(state.time, c, U.v_, nullptr);
     ellipsoid_drag_at_rest(&model, state.body.q, U.v_, drag.v_);
 
     const vector sum

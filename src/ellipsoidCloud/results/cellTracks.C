@@ -88,7 +88,7 @@ void Foam::cellTracks::add
 (
     cellState& cell,
     const ellipsoid_step& step,
-    const frozenFlow& flow,
+    const meshFlow& flow,
     const label tet,
     DynamicList<row>& rows
 ) const
@@ -105,7 +105,7 @@ void Foam::cellTracks::add
             if (set_.unfolds)
             {
                 isometry image;
-                frozenFlow::probe from{tet, -1};
+                meshFlow::probe from{tet, -1};
                 flow.locate(pointOf(body.x), from, &image);
                 there.pass(image, options.semi_axes);
             }

@@ -54,7 +54,7 @@ Usage
 #include "Time.H"
 #include "fvMesh.H"
 #include "columnFvMesh.H"
-#include "frozenFlow.H"
+#include "meshFlow.H"
 #include "surfaceFields.H"
 #include "surfaceInterpolate.H"
 #include "undecomposedFlow.H"
@@ -156,20 +156,20 @@ scalar fluxThrough(const rectangle& r, const surfaceScalarField& phi)
 //- Position and velocity of a tracer, by the method of Dormand and Prince
 class tracer
 {
-    const frozenFlow& flow_;
-    frozenFlow::probe probe_;
+    const meshFlow& flow_;
+    meshFlow::probe probe_;
 
     bool slope(const point& x, vector& u)
     {
-        frozenFlow::tetCoordinates c;
-        frozenFlow::probe at(probe_);
+        meshFlow::tetCoordinates c;
+        meshFlow::probe at(probe_);
 
         ++nSamples;
-        if (!flow_.reach(x.v_, at, c))
+        if (!flow_.reach(x, at, c))
         {
             return false;
         }
-        flow_.velocity(0, c, u.v_, nullptr);
+        u = flow_.velocity(0, c);
         return true;
     }
 
@@ -181,7 +181,7 @@ public:
     scalar step;
     label nSamples;
 
-    tracer(const frozenFlow& flow, const point& start)
+    tracer(const meshFlow& flow, const point& start)
     :
         flow_(flow),
         probe_{0, -1},
@@ -247,7 +247,7 @@ public:
                 x = end;
                 u = k[6];
                 taken = h;
-                return location == frozenFlow::pInside;
+                return location == meshFlow::pInside;
             }
             if (step < 1e-12)
             {
@@ -351,7 +351,7 @@ std::vector<char> divided
 //- Where the points of lattices go
 struct survey
 {
-    const frozenFlow& flow;
+    const meshFlow& flow;
     const surfaceScalarField& phi;
     const rectangle& inlet;
     const std::vector<rectangle>& throats;
@@ -513,10 +513,10 @@ int main(int argc, char *argv[])
     undecomposed.gather({U, p, phi});
 
     scalar clock = seconds();
-    frozenFlow flow
+    meshFlow flow
     (
         undecomposed,
-        frozenFlow::schemeNames
+        meshFlow::schemeNames
         [
             args.getOrDefault<word>("interpolation", "divergenceFree")
         ],

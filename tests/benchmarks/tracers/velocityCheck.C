@@ -16,22 +16,19 @@ namespace Foam
 //  false outside
 static bool sampleAt
 (
-    const frozenFlow& flow,
+    const meshFlow& flow,
     const point& x,
-    frozenFlow::probe& at,
+    meshFlow::probe& at,
     vector& u,
     tensor* gradient = nullptr
 )
 {
-    frozenFlow::tetCoordinates c;
-    if (!flow.reach(x.v_, at, c))
+    meshFlow::tetCoordinates c;
+    if (!flow.reach(x, at, c))
     {
         return false;
     }
-    flow.velocity
-    (
-        0, c, u.v_, gradient ? reinterpret_cast<scalar(*)[3]>(gradient->v_) : nullptr
-    );
+    u = flow.velocity(0, c, gradient);
     return true;
 }
 
@@ -176,7 +173,7 @@ void Foam::knownVelocity::set
 
 void Foam::checkVelocity
 (
-    const frozenFlow& flow,
+    const meshFlow& flow,
     const surfaceScalarField& phi
 )
 {
@@ -188,7 +185,7 @@ void Foam::checkVelocity
     {
         const point x(somewhere(mesh, celli));
         const scalar h = 1e-5*Foam::cbrt(mesh.cellVolumes()[celli]);
-        frozenFlow::probe at{0, -1};
+        meshFlow::probe at{0, -1};
         tensor gradient;
         tensor differences(Zero);
         vector u;
@@ -204,7 +201,7 @@ void Foam::checkVelocity
             tensor there;
             point y(x);
             y[k/2] += k % 2 ? h : -h;
-            frozenFlow::probe near(at);
+            meshFlow::probe near(at);
 
             // Not over a kink
             smooth =
@@ -227,14 +224,14 @@ void Foam::checkVelocity
     scalar flux = 0, largest = 0;
     forAll(phi, facei)
     {
-        frozenFlow::probe at{0, -1};
+        meshFlow::probe at{0, -1};
         flow.find(somewhere(mesh, mesh.faceOwner()[facei]), at);
 
         const auto velocity =
             [&](const point& x)
             {
                 vector u;
-                flow.velocity(0, x.v_, at, u.v_, nullptr);
+                u = flow.velocity(0, x, at, nullptr);
                 return u;
             };
         const scalar through = fluxOf(decomposition, facei, velocity);
@@ -246,10 +243,10 @@ void Foam::checkVelocity
     const auto measure =
         [&](const point& inside, const point& x, const vector&)
         {
-            frozenFlow::probe at{0, -1};
+            meshFlow::probe at{0, -1};
             vector u;
             flow.find(inside, at);
-            flow.velocity(0, x.v_, at, u.v_, nullptr);
+            u = flow.velocity(0, x, at, nullptr);
             wall = max(wall, mag(u));
         };
     atWalls(mesh, measure);
@@ -264,7 +261,7 @@ void Foam::checkVelocity
 
 void Foam::checkVelocity
 (
-    const frozenFlow& flow,
+    const meshFlow& flow,
     const fvMesh& mesh,
     const knownVelocity& known
 )
@@ -273,27 +270,22 @@ void Foam::checkVelocity
     scalar gradient = 0, steepest = 0, wallGradient = 0;
 
     const auto errorOfGradient =
-        [&](const point& x, frozenFlow::probe at)
+        [&](const point& x, meshFlow::probe at)
         {
-            frozenFlow::tetCoordinates c;
-            ellipsoid_flow_sample sample;
+            meshFlow::tetCoordinates c;
+            meshFlow::flowSample sample;
 
-            flow.reach(x.v_, at, c);
+            flow.reach(x, at, c);
             flow.sample(0, c, false, sample);
             const tensor G(known.gradient(x));
-            scalar sum = 0;
-            for (direction ij = 0; ij < 9; ++ij)
-            {
-                sum += sqr(sample.gradient[ij/3][ij % 3] - G[ij]);
-            }
             steepest = max(steepest, mag(G));
-            return Foam::sqrt(sum);
+            return mag(sample.gradient - G);
         };
 
     forAll(mesh.cells(), celli)
     {
         const point x(somewhere(mesh, celli));
-        frozenFlow::probe at{0, -1};
+        meshFlow::probe at{0, -1};
         vector u;
 
         if (flow.find(x, at) && sampleAt(flow, x, at, u))
@@ -307,7 +299,7 @@ void Foam::checkVelocity
     const auto measure =
         [&](const point& inside, const point& x, const vector&)
         {
-            frozenFlow::probe at{0, -1};
+            meshFlow::probe at{0, -1};
             flow.find(inside, at);
             wallGradient = max(wallGradient, errorOfGradient(x, at));
         };

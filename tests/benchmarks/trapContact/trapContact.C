@@ -123,7 +123,7 @@ struct journey
     journey
     (
         const cellDomain& domain,
-        const frozenFlow::probe& at,
+        const meshFlow::probe& at,
         const ellipsoid_model& of,
         const scalar clockTime
     )
@@ -164,7 +164,7 @@ int observe(void* context, const ellipsoid_step* step)
 
     isometry image;
     const bool inside =
-        j.here.settle(point(x[0], x[1], x[2]), image) == frozenFlow::pInside;
+        j.here.settle(point(x[0], x[1], x[2]), image) == meshFlow::pInside;
 
     taken t;
     t.cost = seconds() - j.since - j.clock;
@@ -392,7 +392,7 @@ int main(int argc, char *argv[])
         std::vector<taken> steps;
         for (const cellState& cell : cells)
         {
-            const frozenFlow::probe at{cell.tet, -1};
+            const meshFlow::probe at{cell.tet, -1};
             journey j(domain, at, population.median(), clock);
             advance(j, cell, runTime, slowSpeed);
             steps.insert(steps.end(), j.steps.begin(), j.steps.end());

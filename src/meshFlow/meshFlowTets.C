@@ -6,7 +6,7 @@ Description
     The tetrahedra of the frozen flow and their vertices, made on the master.
 
 \*---------------------------------------------------------------------------*/
-#include "frozenFlow.H"
+#include "meshFlow.H"
 #include "baffleSides.H"
 #include "DynamicList.H"
 #include "tetDecomposition.H"
@@ -193,7 +193,7 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::frozenFlow::findUnsound()
+void Foam::meshFlow::findUnsound()
 {
     const auto sixVolumes =
         [&](const label teti)
@@ -249,7 +249,7 @@ void Foam::frozenFlow::findUnsound()
 }
 
 
-void Foam::frozenFlow::make
+void Foam::meshFlow::make
 (
     const undecomposedFlow& undecomposed,
     const autoPtr<volVectorField>& E

@@ -7,7 +7,7 @@ Description
     undecomposed fields.
 
 \*---------------------------------------------------------------------------*/
-#include "frozenFlow.H"
+#include "meshFlow.H"
 #include "tetDecomposition.H"
 #include "undecomposedFlow.H"
 #include "vertexFit.H"
@@ -308,7 +308,7 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::frozenFlow::setFlow
+void Foam::meshFlow::setFlow
 (
     const undecomposedFlow& undecomposed,
     const scalar rho,
@@ -350,7 +350,7 @@ void Foam::frozenFlow::setFlow
 }
 
 
-void Foam::frozenFlow::setMeans()
+void Foam::meshFlow::setMeans()
 {
     UList<flowVertex>& vertices = values_.vertices;
     label i = vertices.size() - meanOf_.size();
@@ -370,7 +370,7 @@ void Foam::frozenFlow::setMeans()
 }
 
 
-void Foam::frozenFlow::setField
+void Foam::meshFlow::setField
 (
     const undecomposedFlow& undecomposed,
     const volVectorField& E,

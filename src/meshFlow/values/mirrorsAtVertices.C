@@ -2,6 +2,7 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "mirrorsAtVertices.H"
+#include "domainImages.H"
 #include "polyMesh.H"
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //

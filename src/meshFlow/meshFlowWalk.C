@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-#include "frozenFlow.H"
+#include "meshFlow.H"
 #include "cyclicPolyPatch.H"
 #include "indexedOctree.H"
 #include "tetDecomposition.H"
@@ -13,7 +13,7 @@
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-inline void Foam::frozenFlow::setWeights(const point& x, tetCoordinates& c)
+inline void Foam::meshFlow::setWeights(const point& x, tetCoordinates& c)
 {
     c.weight[0] = 1;
     for (int a = 1; a < 4; ++a)
@@ -24,7 +24,7 @@ inline void Foam::frozenFlow::setWeights(const point& x, tetCoordinates& c)
 }
 
 
-void Foam::frozenFlow::setCoordinates
+void Foam::meshFlow::setCoordinates
 (
     const label teti,
     const point& x,
@@ -56,7 +56,7 @@ void Foam::frozenFlow::setCoordinates
 static const Foam::scalar coordinateRounding = 1e-10;
 
 
-inline bool Foam::frozenFlow::isStillIn
+inline bool Foam::meshFlow::isStillIn
 (
     const label teti,
     const point& x,
@@ -77,7 +77,7 @@ inline bool Foam::frozenFlow::isStillIn
 }
 
 
-Foam::label Foam::frozenFlow::exitOf
+Foam::label Foam::meshFlow::exitOf
 (
     const flowTet& tet,
     const tetCoordinates& c,
@@ -109,7 +109,7 @@ Foam::label Foam::frozenFlow::exitOf
 }
 
 
-Foam::label Foam::frozenFlow::searched
+Foam::label Foam::meshFlow::searched
 (
     const label from,
     const point& x
@@ -163,7 +163,7 @@ Foam::label Foam::frozenFlow::searched
 }
 
 
-Foam::frozenFlow::locationType Foam::frozenFlow::walk
+Foam::meshFlow::locationType Foam::meshFlow::walk
 (
     const point& x,
     probe& at,
@@ -253,7 +253,7 @@ Foam::frozenFlow::locationType Foam::frozenFlow::walk
 }
 
 
-void Foam::frozenFlow::findAcross(const undecomposedFlow& undecomposed)
+void Foam::meshFlow::findAcross(const undecomposedFlow& undecomposed)
 {
     const polyMesh& mesh = undecomposed.mesh();
     const tetDecomposition& decomposition = undecomposed.decomposition();
@@ -299,7 +299,7 @@ void Foam::frozenFlow::findAcross(const undecomposedFlow& undecomposed)
 }
 
 
-const Foam::tetFlow& Foam::frozenFlow::flowIn
+const Foam::tetFlow& Foam::meshFlow::flowIn
 (
     const flowValues& values,
     tetCoordinates& c
@@ -328,7 +328,7 @@ const Foam::tetFlow& Foam::frozenFlow::flowIn
 }
 
 
-const Foam::frozenFlow::linearFlow& Foam::frozenFlow::linearIn
+const Foam::meshFlow::linearFlow& Foam::meshFlow::linearIn
 (
     const flowValues& values,
     tetCoordinates& c
@@ -356,7 +356,7 @@ const Foam::frozenFlow::linearFlow& Foam::frozenFlow::linearIn
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-bool Foam::frozenFlow::find(const point& x, probe& at) const
+bool Foam::meshFlow::find(const point& x, probe& at) const
 {
     const label celli = centreTree_->findNearest(x, sqr(GREAT)).index();
 
@@ -377,7 +377,7 @@ bool Foam::frozenFlow::find(const point& x, probe& at) const
 }
 
 
-Foam::frozenFlow::locationType Foam::frozenFlow::locate
+Foam::meshFlow::locationType Foam::meshFlow::locate
 (
     const point& x,
     probe& at,
@@ -390,21 +390,21 @@ Foam::frozenFlow::locationType Foam::frozenFlow::locate
 }
 
 
-bool Foam::frozenFlow::reach
+bool Foam::meshFlow::reach
 (
-    const scalar x[3],
+    const point& x,
     probe& at,
     tetCoordinates& c
 ) const
 {
-    if (isStillIn(at.tet, pointOf(x), c))
+    if (isStillIn(at.tet, x, c))
     {
         at.patch = -1;
         c.turned = false;
         return true;
     }
 
-    const locationType location = walk(pointOf(x), at, c);
+    const locationType location = walk(x, at, c);
 
     return location == pInside || location == pBeyondOpen;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-#include "frozenFlow.H"
+#include "meshFlow.H"
 #include "baffleSides.H"
 #include "cellFluxes.H"
 #include "foamVersions.H"
@@ -16,7 +16,7 @@
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
-const Foam::Enum<Foam::frozenFlow::schemeType> Foam::frozenFlow::schemeNames
+const Foam::Enum<Foam::meshFlow::schemeType> Foam::meshFlow::schemeNames
 ({
     { schemeType::stCellPoint, "cellPoint" },
     { schemeType::stDivergenceFree, "divergenceFree" }
@@ -27,16 +27,6 @@ const Foam::Enum<Foam::frozenFlow::schemeType> Foam::frozenFlow::schemeNames
 
 namespace Foam
 {
-    static inline void copy(const vector& from, scalar to[3])
-    {
-        std::copy_n(from.v_, 3, to);
-    }
-
-    static inline void copy(const tensor& from, scalar (*to)[3])
-    {
-        std::copy_n(from.v_, 9, &to[0][0]);
-    }
-
     //- Take coordinates beyond a face back to it
     static void toFace(scalar weight[4])
     {
@@ -57,12 +47,12 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::frozenFlow::sampleOf
+void Foam::meshFlow::sampleOf
 (
     const flowValues& values,
     tetCoordinates& c,
     const bool derivatives,
-    ellipsoid_flow_sample& sample
+    flowSample& sample
 ) const
 {
     const auto gradient =
@@ -78,25 +68,21 @@ void Foam::frozenFlow::sampleOf
 
     if (pressure_)
     {
-        copy(c.back(c.value<vector>(gradp)), sample.pressure_gradient);
+        sample.pressureGradient = c.back(c.value<vector>(gradp));
     }
     if (pressure_ && derivatives)
     {
-        copy(c.back(c.derivatives(gradp)), sample.pressure_jacobian);
+        sample.pressureDerivatives = c.back(c.derivatives(gradp));
     }
 
-    velocityOf
-    (
-        values,
-        c,
-        sample.velocity,
-        derivatives ? sample.velocity_jacobian : nullptr
-    );
-    copy(c.back(c.value<tensor>(gradient)), sample.gradient);
+    sample.velocity =
+        velocityOf(values, c, derivatives ? &sample.derivatives : nullptr);
+    balance(values, c.vertices[0]);
+    sample.gradient = c.back(c.value<tensor>(gradient));
 
     if (derivatives)
     {
-        std::fill_n(&sample.gradient_jacobian[0][0][0], 27, scalar(0));
+        std::fill_n(sample.gradientDerivatives, 27, scalar(0));
 
         for (int a = 0; a < 4; ++a)
         {
@@ -107,7 +93,7 @@ void Foam::frozenFlow::sampleOf
             {
                 for (int k = 0; k < 3; ++k)
                 {
-                    sample.gradient_jacobian[ij/3][ij % 3][k] += slope[k]*G[ij];
+                    sample.gradientDerivatives[3*ij + k] += slope[k]*G[ij];
                 }
             }
         }
@@ -115,7 +101,7 @@ void Foam::frozenFlow::sampleOf
 }
 
 
-void Foam::frozenFlow::divergenceFreeAt
+void Foam::meshFlow::divergenceFreeAt
 (
     const flowValues& values,
     tetCoordinates& c,
@@ -144,46 +130,44 @@ void Foam::frozenFlow::divergenceFreeAt
 }
 
 
-void Foam::frozenFlow::velocityOf
+Foam::vector Foam::meshFlow::velocityOf
 (
     const flowValues& values,
     tetCoordinates& c,
-    scalar velocity[3],
-    scalar (*jacobian)[3]
+    tensor* derivatives
 ) const
 {
+    vector value(Zero);
+
     if (scheme_ == stDivergenceFree)
     {
-        vector value;
-        tensor derivatives;
+        divergenceFreeAt(values, c, value, derivatives);
+    }
+    else
+    {
+        const linearFlow& linear = linearIn(values, c);
 
-        divergenceFreeAt(values, c, value, jacobian ? &derivatives : nullptr);
-        copy(c.back(value), velocity);
-        if (jacobian)
+        for (int a = 0; a < 4; ++a)
         {
-            copy(c.back(derivatives), jacobian);
+            value += c.weight[a]*linear.u[a];
         }
-        return;
+        if (derivatives)
+        {
+            *derivatives = linear.derivatives;
+        }
     }
 
-    const linearFlow& linear = linearIn(values, c);
-
-    vector value(Zero);
-    for (int a = 0; a < 4; ++a)
+    if (derivatives)
     {
-        value += c.weight[a]*linear.u[a];
+        *derivatives = c.back(*derivatives);
     }
-    copy(c.back(value), velocity);
-    if (jacobian)
-    {
-        copy(c.back(linear.derivatives), jacobian);
-    }
+    return c.back(value);
 }
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::frozenFlow::frozenFlow
+Foam::meshFlow::meshFlow
 (
     const undecomposedFlow& undecomposed,
     const schemeType scheme,
@@ -252,12 +236,12 @@ Foam::frozenFlow::frozenFlow
 
 // * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
 
-Foam::frozenFlow::~frozenFlow() = default;
+Foam::meshFlow::~meshFlow() = default;
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::frozenFlow::renew
+void Foam::meshFlow::renew
 (
     const undecomposedFlow& undecomposed,
     const scalar rho
@@ -276,7 +260,7 @@ void Foam::frozenFlow::renew
 }
 
 
-void Foam::frozenFlow::advance
+void Foam::meshFlow::advance
 (
     const undecomposedFlow& undecomposed,
     const scalar rho,
@@ -298,30 +282,30 @@ void Foam::frozenFlow::advance
 }
 
 
-void Foam::frozenFlow::sample
+void Foam::meshFlow::sample
 (
     const scalar t,
     tetCoordinates& c,
     const bool derivatives,
-    ellipsoid_flow_sample& sample
+    flowSample& sample
 ) const
 {
     sampleOf(values_, c, derivatives, sample);
 
-    if (laterValues_.vertices.empty())
+    if (!accelerates())
     {
         return;
     }
 
-    ellipsoid_flow_sample later = {};
+    flowSample later;
     sampleOf(laterValues_, c, derivatives, later);
 
     const auto mix =
-        [&](double* value, const double* at, const int n, double* rate)
+        [&](scalar* value, const scalar* at, const int n, scalar* rate)
         {
             for (int i = 0; i < n; ++i)
             {
-                const double change = at[i] - value[i];
+                const scalar change = at[i] - value[i];
 
                 value[i] += passed(t)*change;
                 if (rate)
@@ -331,107 +315,103 @@ void Foam::frozenFlow::sample
             }
         };
 
-    mix(sample.velocity, later.velocity, 3, sample.local_acceleration);
-    mix(sample.gradient[0], later.gradient[0], 9, nullptr);
+    mix(sample.velocity.v_, later.velocity.v_, 3, sample.acceleration.v_);
+    mix(sample.gradient.v_, later.gradient.v_, 9, nullptr);
     if (pressure_)
     {
-        mix(sample.pressure_gradient, later.pressure_gradient, 3, nullptr);
+        mix
+        (
+            sample.pressureGradient.v_, later.pressureGradient.v_, 3, nullptr
+        );
     }
     if (derivatives)
     {
         mix
         (
-            sample.velocity_jacobian[0], later.velocity_jacobian[0], 9,
-            sample.acceleration_jacobian[0]
+            sample.derivatives.v_, later.derivatives.v_, 9,
+            sample.accelerationDerivatives.v_
         );
         mix
         (
-            sample.gradient_jacobian[0][0], later.gradient_jacobian[0][0], 27,
-            nullptr
+            sample.gradientDerivatives, later.gradientDerivatives, 27, nullptr
         );
     }
     if (pressure_ && derivatives)
     {
         mix
         (
-            sample.pressure_jacobian[0], later.pressure_jacobian[0], 9, nullptr
+            sample.pressureDerivatives.v_, later.pressureDerivatives.v_, 9,
+            nullptr
         );
     }
 }
 
 
-void Foam::frozenFlow::velocity
+Foam::vector Foam::meshFlow::velocity
 (
     const scalar t,
     tetCoordinates& c,
-    scalar velocity[3],
-    scalar (*jacobian)[3]
+    tensor* derivatives
 ) const
 {
-    velocityOf(values_, c, velocity, jacobian);
+    vector value(velocityOf(values_, c, derivatives));
 
-    if (laterValues_.vertices.empty())
+    if (!accelerates())
     {
-        return;
+        return value;
     }
 
-    scalar later[3];
-    scalar laterJacobian[3][3];
-    velocityOf
+    tensor laterDerivatives;
+    const vector later
     (
-        laterValues_, c, later, jacobian ? laterJacobian : nullptr
+        velocityOf(laterValues_, c, derivatives ? &laterDerivatives : nullptr)
     );
 
-    for (int i = 0; i < 3; ++i)
+    if (derivatives)
     {
-        velocity[i] += passed(t)*(later[i] - velocity[i]);
-        for (int j = 0; jacobian && j < 3; ++j)
-        {
-            jacobian[i][j] += passed(t)*(laterJacobian[i][j] - jacobian[i][j]);
-        }
+        *derivatives += passed(t)*(laterDerivatives - *derivatives);
     }
+    value += passed(t)*(later - value);
+    return value;
 }
 
 
-void Foam::frozenFlow::field
+Foam::vector Foam::meshFlow::field
 (
     const tetCoordinates& c,
-    scalar field[3],
-    scalar (*jacobian)[3]
+    tensor* derivatives
 ) const
 {
     const auto E = [&](const label i) -> const vector& { return field_[i]; };
 
-    copy(c.back(c.value<vector>(E)), field);
-    if (jacobian)
+    if (derivatives)
     {
-        copy(c.back(c.derivatives(E)), jacobian);
+        *derivatives = c.back(c.derivatives(E));
     }
+    return c.back(c.value<vector>(E));
 }
 
 
-void Foam::frozenFlow::velocity
+Foam::vector Foam::meshFlow::velocity
 (
     const scalar t,
-    const scalar x[3],
+    const point& x,
     const probe& from,
-    scalar velocity[3],
-    scalar (*jacobian)[3]
+    tensor* derivatives
 ) const
 {
     probe at(from);
     tetCoordinates c;
 
-    if (walk(pointOf(x), at, c) == pBeyondWall)
+    if (walk(x, at, c) == pBeyondWall)
     {
         toFace(c.weight);
-        this->velocity(t, c, velocity, nullptr);
-        if (jacobian)
+        if (derivatives)
         {
-            copy(tensor::zero, jacobian);
+            *derivatives = Zero;
         }
-        return;
+        return velocity(t, c);
     }
 
-    this->velocity(t, c, velocity, jacobian);
+    return velocity(t, c, derivatives);
 }

@@ -8,7 +8,7 @@ Description
 
 \*---------------------------------------------------------------------------*/
 #include "cellFluxes.H"
-#include "frozenFlow.H"
+#include "meshFlow.H"
 #include "mirrorsAtVertices.H"
 #include "pointImages.H"
 #include "cyclicPolyPatch.H"
@@ -270,7 +270,7 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::frozenFlow::matchFluxes
+void Foam::meshFlow::matchFluxes
 (
     const undecomposedFlow& undecomposed,
     const pointImages& images,
@@ -353,7 +353,7 @@ void Foam::frozenFlow::matchFluxes
 }
 
 
-void Foam::frozenFlow::makeExcess
+void Foam::meshFlow::makeExcess
 (
     const undecomposedFlow& undecomposed,
     const pointImages& images
@@ -388,12 +388,16 @@ void Foam::frozenFlow::makeExcess
 }
 
 
-void Foam::frozenFlow::balance
+void Foam::meshFlow::balance
 (
     const flowValues& values,
     const label celli
 ) const
 {
+    if (scheme_ != stDivergenceFree)
+    {
+        return;
+    }
     direction* balanced = &values.balanced[celli];
     if (__atomic_load_n(balanced, __ATOMIC_ACQUIRE))
     {

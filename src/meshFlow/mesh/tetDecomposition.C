@@ -6,6 +6,7 @@
 #include "cyclicPolyPatch.H"
 #include "DynamicList.H"
 #include "masterGate.H"
+#include "SubField.H"
 #include "Tuple2.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
