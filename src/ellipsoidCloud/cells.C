@@ -10,47 +10,50 @@ Description
     optimised once, which takes a third of the time that a unit for each file takes.
 
 \*---------------------------------------------------------------------------*/
+
+#include "base/atomicWrite.C"
+#include "base/checkedEntries.C"
+#include "base/csvFields.C"
+
+#include "walls/narrowestGaps.C"
+#include "walls/wallImages.C"
+
+#include "cells/cellPopulation.C"
+#include "cells/cellState.C"
+#include "cells/electricField.C"
+#include "cells/ellipsoidOptions.C"
+#include "cells/ellipsoidProperties.C"
+#include "cells/readViscosity.C"
+
 #include "injection/boxInjection.C"
 #include "injection/cellInjection.C"
 #include "injection/cellOrientation.C"
-#include "injection/cellPopulation.C"
 #include "injection/patchInflow.C"
 #include "injection/patchInjection.C"
 #include "injection/positionsInjection.C"
 
-#include "cloud/caseFiles.C"
-#include "cloud/caseSummary.C"
-#include "cloud/cellParticles.C"
-#include "cloud/cellState.C"
-#include "cloud/checkedEntries.C"
-#include "cloud/ellipsoidCloud.C"
-#include "cloud/ellipsoidCloudFiles.C"
-#include "cloud/ellipsoidCloudInjections.C"
-#include "cloud/ellipsoidCloudRun.C"
-#include "cloud/ellipsoidOptions.C"
-#include "cloud/ellipsoidProperties.C"
+#include "output/appendedFile.C"
+#include "output/cellEvent.C"
+#include "output/cellPoses.C"
+#include "output/cellTracks.C"
+#include "output/vtkPolyData.C"
+
+#include "capture/captureCriterion.C"
+#include "capture/captureStatistics.C"
+#include "capture/captureTables.C"
 
 #include "occupancy/occupancy.C"
 #include "occupancy/occupancyTrials.C"
 
-#include "results/appendedFile.C"
-#include "results/captureCriterion.C"
-#include "results/captureStatistics.C"
-#include "results/captureTables.C"
-#include "results/cellEvent.C"
-#include "results/cellPoses.C"
-#include "results/cellTracks.C"
-#include "results/csvFields.C"
-#include "results/vtkPolyData.C"
-
-#include "checkpoint/atomicWrite.C"
-#include "checkpoint/checkpoint.C"
+#include "cloud/caseFiles.C"
+#include "cloud/caseProperties.C"
+#include "cloud/caseSummary.C"
+#include "cloud/cellParticles.C"
+#include "cloud/checkpoint.C"
+#include "cloud/ellipsoidCloud.C"
+#include "cloud/ellipsoidCloudFiles.C"
+#include "cloud/ellipsoidCloudInjections.C"
+#include "cloud/ellipsoidCloudRun.C"
+#include "cloud/inletFlux.C"
 
 #include "functionObject/ellipsoidTracking.C"
-
-#include "flow/electricField.C"
-#include "flow/inletFlux.C"
-#include "flow/readViscosity.C"
-
-#include "walls/narrowestGaps.C"
-#include "walls/wallImages.C"

@@ -33,6 +33,7 @@ SourceFiles
 #include "columnFvMesh.H"
 #include "captureMap.H"
 #include "caseFiles.H"
+#include "caseProperties.H"
 #include "caseSummary.H"
 #include "masterGate.H"
 #include "checkpoint.H"
@@ -168,7 +169,7 @@ int main(int argc, char *argv[])
     caseFiles::checkMesh(runTime, true);
     #include "createMesh.H"
 
-    ellipsoidProperties properties(mesh);
+    caseProperties properties(mesh);
     properties.setAlone();
 
     const IOdictionary dict

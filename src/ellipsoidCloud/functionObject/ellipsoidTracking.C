@@ -107,7 +107,7 @@ Foam::dictionary Foam::functionObjects::ellipsoidTracking::clockEntries() const
 
 void Foam::functionObjects::ellipsoidTracking::check(const fvMesh& mesh) const
 {
-    const ellipsoidProperties properties(mesh);
+    const caseProperties properties(mesh);
     const cellPopulation population(properties);
     const label nMeshCells = returnReduce(mesh.nCells(), sumOp<label>());
 

@@ -2,16 +2,12 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "ellipsoidProperties.H"
-#include "cellTracks.H"
-#include "masterGate.H"
-#include "occupancy.H"
-#include "readViscosity.H"
-#include "captureCriterion.H"
-#include "cellInjection.H"
 #include "emptyPolyPatch.H"
+#include "masterGate.H"
 #include "polyBoundaryMesh.H"
 #include "processorPolyPatch.H"
 #include "PstreamReduceOps.H"
+#include "readViscosity.H"
 #include "Time.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -69,44 +65,6 @@ void Foam::ellipsoidProperties::readUnreached(const polyBoundaryMesh& patches)
 }
 
 
-void Foam::ellipsoidProperties::checkPatches
-(
-    const polyBoundaryMesh& patches
-) const
-{
-    if (found("injection"))
-    {
-        section("injection");
-    }
-    const dictionary& injections = subDict("injection");
-
-    for (const entry& e : injections)
-    {
-        if (!e.isDict() && isVariable(injections, e.keyword()))
-        {
-            continue;
-        }
-        if (!e.isDict())
-        {
-            FatalIOErrorInFunction(injections)
-                << e.keyword() << " is not a dictionary of an injection"
-                << exit(FatalIOError);
-        }
-
-        cellInjection::checkEntries(e.dict());
-
-        if (e.dict().found("patch"))
-        {
-            cellInjection::findPatch(e.dict(), patches);
-        }
-    }
-
-    captureCriterion(section("capture"), patches);
-    cellTracks::setting(section("tracks"));
-    occupancy::setting(section("occupancy"), patches);
-}
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
@@ -158,5 +116,4 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     );
     seed_ = getOrDefault<label>("seed", 1);
     readUnreached(mesh.boundaryMesh());
-    checkPatches(mesh.boundaryMesh());
 }
