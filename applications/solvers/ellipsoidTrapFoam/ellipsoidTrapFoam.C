@@ -165,6 +165,7 @@ int main(int argc, char *argv[])
 {
     addOptions();
 
+    caseFiles::checkPath(argc, argv);
     #include "setRootCaseListOptions.H"
     argList args(argc, argv);
     #include "setRootCaseListOutput.H"

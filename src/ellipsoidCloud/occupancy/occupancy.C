@@ -22,8 +22,8 @@ Foam::occupancy::setting::setting
     const polyBoundaryMesh& patches
 )
 :
-    active(dict.getOrDefault("active", false)),
-    flow(flowNames.getOrDefault("flow", dict, SOLVED)),
+    active(false),
+    flow(SOLVED),
     fates({cellState::caught}),
     every(checkedNumber<label>(dict, "every", atLeast(1), 1)),
     tolerance(checkedNumber(dict, "tolerance", above(0), 1e-3))
@@ -34,6 +34,8 @@ Foam::occupancy::setting::setting
         {"active", "flow", "fates", "every", "tolerance", "apertures"},
         {"apertures"}
     );
+    active = dict.getOrDefault("active", false);
+    flow = flowNames.getOrDefault("flow", dict, SOLVED);
 
     if (dict.found("fates"))
     {
