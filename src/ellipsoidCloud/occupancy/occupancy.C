@@ -91,6 +91,7 @@ Foam::occupancy::occupancy
 :
     setting_(from),
     criterion_(criterion),
+    set_(set),
     population_(set.population),
     fluxes_(set, "fluxes", "t,sieve,flux,share,cells", 9)
 {
@@ -399,7 +400,7 @@ void Foam::occupancy::write
         const scalar flux = a.flux(phi);
 
         fluxes_.stream()
-            << time << ',' << csvField(a.name) << ',' << flux << ','
+            << set_.timeText(time, 9) << ',' << csvField(a.name) << ',' << flux << ','
             << flux/max(inflow, VSMALL) << ',' << n[i] << '\n';
     }
     fluxes_.flush();
