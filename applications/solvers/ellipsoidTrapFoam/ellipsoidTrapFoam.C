@@ -86,6 +86,11 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
     const flowFields::solveType solve =
         args.found("frozenFlow") ? flowFields::NO : flowFields::solveOf(mesh);
 
+    if (!dryRun)
+    {
+        flowFields::finishWriting(runTime);
+    }
+
     // Read before the flow takes its time: bad input ends the run here
     checkCells(mesh);
     autoPtr<ellipsoidCloud> cells;
@@ -165,6 +170,7 @@ int main(int argc, char *argv[])
 {
     addOptions();
 
+    caseFiles::checkPath(argc, argv);
     #include "setRootCaseListOptions.H"
     argList args(argc, argv);
     #include "setRootCaseListOutput.H"

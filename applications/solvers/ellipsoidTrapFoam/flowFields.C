@@ -30,11 +30,43 @@ Foam::flowFields::solveTypeNames_
     { solveType::AUTO, "auto" }
 });
 
+const Foam::wordList Foam::flowFields::names_({"phi", "p", "U"});
+
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
+    //- In the file of an unfinished flow: what is left to do is to rename
+    static const std::string wholeParts
+    (
+        "The flow is all written, in the files NAME.part\n"
+    );
+
+    //- All ranks have come so far
+    static void meet()
+    {
+        returnReduce(true, andOp<bool>());
+    }
+
+    //- What names the files of a time that this class has written
+    static fileName digestsFile(const fileName& path)
+    {
+        return path/"uniform"/"steadyFlow";
+    }
+
+    //- What that says
+    static dictionary digestsOf(const fileName& path)
+    {
+        IStringStream is(textOf(digestsFile(path)));
+        return dictionary(is);
+    }
+
+    static string digest(const fileName& file)
+    {
+        return SHA1(textOf(file)).str();
+    }
+
     //- Set a field at cyclic patches that are divided between ranks, where
     //  decomposePar does not write the values of the other side
     template<class Type>
@@ -98,53 +130,23 @@ Foam::IOobject Foam::flowFields::fieldIO
 }
 
 
-Foam::fileName Foam::flowFields::unfinishedFile(const word& instance) const
+bool Foam::flowFields::isOwn(const fileName& path, const word& name)
 {
-    return checkpoint::unfinishedFlow(mesh_.time().path()/instance);
+    return digestsOf(path).getOrDefault<string>(name, "") == digest(path/name);
 }
 
 
-Foam::fileName Foam::flowFields::digestsFile(const word& instance) const
+void Foam::flowFields::setAside(const fileName& path, const word& name)
 {
-    return mesh_.time().path()/instance/"uniform"/"steadyFlow";
-}
-
-
-Foam::dictionary Foam::flowFields::digests(const word& instance) const
-{
-    IStringStream is(textOf(digestsFile(instance)));
-
-    return dictionary(is);
-}
-
-
-bool Foam::flowFields::isOwn(const word& instance, const word& name) const
-{
-    return
-        isFile(digestsFile(instance))
-     && digests(instance).getOrDefault<string>(name, "")
-     == SHA1(textOf(mesh_.time().path()/instance/name)).str();
-}
-
-
-void Foam::flowFields::setAside(const word& instance, const word& name) const
-{
-    const fileName plain(mesh_.time().path()/instance/name);
+    const fileName plain(path/name);
     const fileName file(plain + (isFile(plain, false) ? "" : ".gz"));
     const std::string text(textOf(plain));
 
-    if (fileHandler().type() != "uncollated" && hasFlux_)
-    {
-        FatalErrorInFunction
-            << "A flow in files that ranks share cannot be kept beside the new"
-            << " one: move U, p and phi of " << instance << " elsewhere, or"
-            << " solve with -fileHandler uncollated" << exit(FatalError);
-    }
     if
     (
         text.empty()
-     || isOwn(instance, name)
-     || text == textOf(mesh_.time().path()/"0.orig"/name)
+     || isOwn(path, name)
+     || text == textOf(path.path()/"0.orig"/name)
     )
     {
         return;
@@ -153,8 +155,37 @@ void Foam::flowFields::setAside(const word& instance, const word& name) const
     {
         cannotWrite(file);
     }
-    Info<< "flow: " << (instance/name).c_str() << " as it was read is kept as "
-        << name << ".bak" << endl;
+    Info<< "flow: " << (path.name()/name).c_str()
+        << " as it was read is kept as " << name << ".bak" << endl;
+}
+
+
+void Foam::flowFields::nameParts(const fileName& path)
+{
+    dictionary written;
+    written.set("ranks", Pstream::nProcs());
+
+    for (const word& name : names_)
+    {
+        if (isFile(partOf(path/name)))
+        {
+            setAside(path, name);
+            renamePart(path/name);
+        }
+        written.set(name, digest(path/name));
+    }
+    // decomposePar links the folder of the whole case
+    if ((path/"uniform").type(false) == fileName::LINK)
+    {
+        rm(path/"uniform");
+    }
+    OStringStream os;
+    written.write(os, false);
+    IOobject::writeEndDivider(os);
+    atomicWrite(digestsFile(path), os.str());
+
+    meet();
+    rm(checkpoint::unfinishedFlow(path));
 }
 
 
@@ -183,7 +214,12 @@ void Foam::flowFields::check() const
 
 bool Foam::flowFields::unfinished() const
 {
-    return returnReduce(isFile(unfinishedFile(instance_)), orOp<bool>());
+    const fileName path(mesh_.time().path()/instance_);
+
+    return returnReduce
+    (
+        isFile(checkpoint::unfinishedFlow(path)), orOp<bool>()
+    );
 }
 
 
@@ -192,18 +228,18 @@ bool Foam::flowFields::foreign() const
     // Digests that decomposePar links or reconstructPar copies are of the files
     // that it started from; U and p may have been edited, their boundary
     // conditions
-    const fileName uniform(digestsFile(instance_).path());
+    const fileName path(mesh_.time().path()/instance_);
     const bool copied =
-        uniform.type(false) == fileName::LINK
+        (path/"uniform").type(false) == fileName::LINK
      || (
-            isFile(digestsFile(instance_))
-         && digests(instance_).getOrDefault<label>("ranks", 0)
+            isFile(digestsFile(path))
+         && digestsOf(path).getOrDefault<label>("ranks", 0)
          != Pstream::nProcs()
         );
 
     return returnReduce
     (
-        hasFlux_ && !unfinished() && !copied && !isOwn(instance_, phi_.name()),
+        hasFlux_ && !unfinished() && !copied && !isOwn(path, phi_.name()),
         orOp<bool>()
     );
 }
@@ -386,42 +422,63 @@ void Foam::flowFields::checkPatches() const
 }
 
 
+void Foam::flowFields::finishWriting(const Time& time)
+{
+    const fileName path(time.path()/time.timeName());
+    const bool whole = textOf(checkpoint::unfinishedFlow(path)) == wholeParts;
+
+    if (returnReduce(whole, orOp<bool>()))
+    {
+        Info<< "flow: the files of " << time.timeName() << ", all written when"
+            << " a run was interrupted, get their names" << endl;
+        nameParts(path);
+        return;
+    }
+    for (const word& name : names_)
+    {
+        rm(partOf(path/name));
+    }
+}
+
+
 void Foam::flowFields::write()
 {
     const word& instance = mesh_.time().timeName();
     const fileName path(mesh_.time().path()/instance);
-    const wordList names({phi_.name(), p_.name(), U_.name()});
+    const fileName unfinished(checkpoint::unfinishedFlow(path));
 
-    for (const word& name : names)
+    if (fileHandler().type() == "uncollated")
     {
-        setAside(instance, name);
+        writePart(phi_);
+        writePart(p_);
+        writePart(U_);
+        for (const word& name : names_)
+        {
+            toDisk(partOf(path/name));
+        }
+        // What was read stays until all ranks have come so far
+        meet();
+        atomicWrite(unfinished, wholeParts);
     }
-
-    atomicWrite(unfinishedFile(instance), "Not all of the flow is written\n");
-    atomicWrite(phi_);
-    atomicWrite(p_);
-    atomicWrite(U_);
-
-    dictionary written;
-    written.set("ranks", Pstream::nProcs());
-    for (const word& name : names)
+    else if (hasFlux_)
     {
-        written.set(name, string(SHA1(textOf(path/name)).str()));
+        FatalErrorInFunction
+            << "A flow in files that ranks share cannot be kept beside the new"
+            << " one: move U, p and phi of " << instance << " elsewhere, or"
+            << " solve with -fileHandler uncollated" << exit(FatalError);
     }
-    // decomposePar links the folder of the whole case
-    if ((path/"uniform").type(false) == fileName::LINK)
+    else
     {
-        rm(path/"uniform");
+        for (const word& name : names_)
+        {
+            setAside(path, name);
+        }
+        atomicWrite(unfinished, "Not all of the flow is written\n");
+        atomicWrite(phi_);
+        atomicWrite(p_);
+        atomicWrite(U_);
     }
-    mkDir(path/"uniform");
-    OStringStream os;
-    written.write(os, false);
-    IOobject::writeEndDivider(os);
-    atomicWrite(digestsFile(instance), os.str());
-
-    label all = 1;
-    reduce(all, sumOp<label>());
-    rm(unfinishedFile(instance));
+    nameParts(path);
 
     Info<< "flow: written to " << instance << endl;
 }

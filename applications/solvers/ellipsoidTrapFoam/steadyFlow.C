@@ -183,6 +183,13 @@ void Foam::steadyFlow::checkControls() const
         "pMinFactor", "pMaxFactor", "rhoMin", "rhoMax"
     });
 
+    for (const char* field : {"U", "p"})
+    {
+        checkValues
+        (
+            mesh_.solverDict(field), {"solver", "tolerance", "relTol", "maxIter"}
+        );
+    }
     for (const entry& e : controls_)
     {
         if (e.isDict() && e.keyword() != "residualControl")

@@ -146,6 +146,7 @@ int main(int argc, char *argv[])
         " Version " ELLIPSOID_VERSION
     );
 
+    caseFiles::checkPath(argc, argv);
     #include "setRootCaseListOptions.H"
     argList args(argc, argv);
     #include "setRootCaseListOutput.H"

@@ -11,7 +11,11 @@
 
 #include <cstdio>
 #include <cstring>
+#include <fcntl.h>
+#include <fstream>
 #include <sstream>
+#include <unistd.h>
+#include <vector>
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
@@ -28,6 +32,22 @@ std::string Foam::textOf(const fileName& file)
 }
 
 
+Foam::SHA1 Foam::digestOf(const fileName& file, const scalar size)
+{
+    SHA1 digest;
+    std::ifstream is(file, std::ios::binary);
+    std::vector<char> part(1 << 20);
+
+    for (scalar left = size; left > 0 && is; left -= is.gcount())
+    {
+        is.read(part.data(), std::streamsize(min(left, scalar(part.size()))));
+        digest.append(part.data(), std::size_t(is.gcount()));
+    }
+
+    return digest;
+}
+
+
 void Foam::cannotWrite(const fileName& file, const int reason)
 {
     FatalErrorInFunction
@@ -37,14 +57,38 @@ void Foam::cannotWrite(const fileName& file, const int reason)
 }
 
 
-void Foam::atomicWrite
+void Foam::toDisk(const fileName& file)
+{
+    const std::string path(file + (isFile(file, false) ? "" : ".gz"));
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool done = descriptor >= 0 && ::fsync(descriptor) == 0;
+    const int reason = errno;
+
+    if (descriptor >= 0)
+    {
+        ::close(descriptor);
+    }
+    if (!done)
+    {
+        cannotWrite(file, reason);
+    }
+}
+
+
+Foam::fileName Foam::partOf(const fileName& file)
+{
+    return file + ".part";
+}
+
+
+void Foam::writePart
 (
     const fileName& file,
     const std::string& text,
     const IOstream::compressionType compression
 )
 {
-    const fileName part(file + ".part");
+    const fileName part(partOf(file));
 
     mkDir(file.path());
     {
@@ -71,9 +115,33 @@ void Foam::atomicWrite
         rm(part);
         cannotWrite(file, reason);
     }
+}
 
+
+void Foam::writePart(regIOobject& object)
+{
+    const Time& time = object.time();
+    const unsigned int precision = IOstream::defaultPrecision(17);
+
+    object.instance() = time.timeName();
+
+    OStringStream os;
+    os.format(time.writeFormat());
+    os.version(time.writeVersion());
+    object.writeHeader(os);
+    object.writeData(os);
+    IOobject::writeEndDivider(os);
+    writePart(object.objectPath(), os.str(), time.writeCompression());
+
+    IOstream::defaultPrecision(precision);
+}
+
+
+void Foam::renamePart(const fileName& file)
+{
     // OpenFOAM's own functions take a file and its compressed form for one
-    const bool zipped = compression == IOstream::COMPRESSED;
+    const fileName part(partOf(file));
+    const bool zipped = !isFile(part, false);
     const std::string suffix(zipped ? ".gz" : "");
 
     if (std::rename((part + suffix).c_str(), (file + suffix).c_str()))
@@ -84,29 +152,36 @@ void Foam::atomicWrite
 }
 
 
+void Foam::atomicWrite
+(
+    const fileName& file,
+    const std::string& text,
+    const IOstream::compressionType compression
+)
+{
+    writePart(file, text, compression);
+    renamePart(file);
+}
+
+
 void Foam::atomicWrite(regIOobject& object, const bool valid)
 {
-    const Time& time = object.time();
+    if (fileHandler().type() == "uncollated")
+    {
+        if (valid)
+        {
+            writePart(object);
+            renamePart(object.objectPath());
+        }
+        return;
+    }
+
     const unsigned int precision = IOstream::defaultPrecision(17);
 
-    object.instance() = time.timeName();
-
-    if (fileHandler().type() != "uncollated")
+    object.instance() = object.time().timeName();
+    if (!object.write(valid))
     {
-        if (!object.write(valid))
-        {
-            cannotWrite(object.objectPath());
-        }
-    }
-    else if (valid)
-    {
-        OStringStream os;
-        os.format(time.writeFormat());
-        os.version(time.writeVersion());
-        object.writeHeader(os);
-        object.writeData(os);
-        IOobject::writeEndDivider(os);
-        atomicWrite(object.objectPath(), os.str(), time.writeCompression());
+        cannotWrite(object.objectPath());
     }
 
     IOstream::defaultPrecision(precision);

@@ -5,7 +5,9 @@
 #include "atomicWrite.H"
 #include "dimensionedTypes.H"
 #include "IFstream.H"
+#include "masterGate.H"
 
+#include <functional>
 #include <vector>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -26,6 +28,28 @@ static std::string fileTextOf(const dictionary& dict)
     }
 
     return textOf(file);
+}
+
+
+//- What is said of an error that ends the run elsewhere; of a pattern it names
+//- neither file nor entry
+static string complaintOf(const std::function<void()>& act)
+{
+    string complaint;
+    const bool throwing = FatalError.throwExceptions();
+    try
+    {
+        act();
+    }
+    catch (const Foam::IOerror&)
+    {}
+    catch (const Foam::error& error)
+    {
+        complaint = error.message();
+    }
+    FatalError.throwExceptions(throwing);
+
+    return complaint;
 }
 
 
@@ -57,6 +81,63 @@ const Foam::ITstream& Foam::streamOf
     }
 
     return e.stream();
+}
+
+
+void Foam::checkValues(const dictionary& dict, const wordList& keywords)
+{
+    for (const word& keyword : keywords)
+    {
+        if (dict.found(keyword))
+        {
+            streamOf(dict, keyword);
+        }
+    }
+}
+
+
+Foam::wordRes Foam::patternsOf(const dictionary& dict, const word& keyword)
+{
+    wordRes patterns;
+    const string complaint
+    (
+        complaintOf([&] { dict.readIfPresent(keyword, patterns); })
+    );
+
+    if (!complaint.empty())
+    {
+        FatalIOErrorInFunction(streamOf(dict, keyword))
+            << keyword << ": " << complaint.c_str() << exit(FatalIOError);
+    }
+
+    return patterns;
+}
+
+
+void Foam::checkPatterns(const std::string& text, const fileName& file)
+{
+    // What else is wrong is told where the file is read
+    const bool throwing = FatalIOError.throwExceptions();
+    const string complaint
+    (
+        complaintOf
+        (
+            [&]
+            {
+                IStringStream is(text);
+                is.name() = file;
+                const dictionary entries(is);
+            }
+        )
+    );
+    FatalIOError.throwExceptions(throwing);
+
+    const masterGate once;
+    if (!complaint.empty())
+    {
+        FatalErrorInFunction
+            << file << ": " << complaint.c_str() << exit(FatalError);
+    }
 }
 
 

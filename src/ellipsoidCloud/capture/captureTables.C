@@ -33,7 +33,7 @@ void Foam::captureStatistics::writeCells() const
             continue;
         }
 
-        os  << id << ',' << cell.injection.time
+        os  << id << ',' << set_.timeText(cell.injection.time, 12)
             << commas{cell.injection.body.x, 3}
             << commas{cell.injection.body.q, 4}
             << ',' << cellState::fateNames[fate] << ','
@@ -41,14 +41,14 @@ void Foam::captureStatistics::writeCells() const
                (
                    fate == cellState::inFlight ? -1 : cell.last.patch
                )
-            << ',' << cell.last.time << ','
+            << ',' << set_.timeText(cell.last.time, 12) << ','
             << set_.patchName(cell.firstSieve) << ',';
         if (cell.firstSieve >= 0)
         {
-            os << cell.firstCatch;
+            os << set_.timeText(cell.firstCatch, 12);
         }
         os << ',' << cell.last.deepest << ',' << cell.last.deepestCell
-            << ',' << cell.planned << ',';
+            << ',' << set_.timeText(cell.planned, 12) << ',';
         if (fate == cellState::caught)
         {
             os << cell.last.imbalance;
@@ -94,19 +94,18 @@ void Foam::captureStatistics::writeCaptures(Ostream& os) const
 
         // No time lies halfway between two that are printed, as multiples of
         // 5 ms may with fewer digits: the log rounds them to twelve
-        std::ostringstream list;
-        list.precision(6);
+        std::string list;
         for (const scalar t : times)
         {
-            list << ' ' << t;
+            list += ' ' + set_.timeText(t, 6, 1);
         }
 
         os  << setw(5) << set_.patchNames[patchi].c_str()
-            << setw(8) << times.size() << "  " << list.str().c_str() << nl;
+            << setw(8) << times.size() << "  " << list.c_str() << nl;
 
         table
             << set_.patchName(patchi) << ',' << times.size() << ','
-            << list.str() << '\n';
+            << list << '\n';
     }
 
     atomicWrite(set_.folder/"captures.csv", table.str());

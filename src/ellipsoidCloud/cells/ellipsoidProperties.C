@@ -14,7 +14,7 @@
 
 void Foam::ellipsoidProperties::readUnreached(const polyBoundaryMesh& patches)
 {
-    const wordRes names(getOrDefault("unreached", wordRes()));
+    const wordRes names(patternsOf(*this, "unreached"));
     labelHashSet constrained;
     unreached_ = patches.patchSet(names, false, false);
 

@@ -26,6 +26,7 @@ Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
 
     const masterGate once;
 
+    checkValues(dict, {"transportModel", "nu"});
     const word model(dict.getOrDefault<word>("transportModel", "Newtonian"));
 
     if (model != "Newtonian")

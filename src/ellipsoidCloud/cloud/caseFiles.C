@@ -7,12 +7,18 @@
 #include "checkedEntries.H"
 #include "labelIOList.H"
 #include "masterGate.H"
+#include "plainLists.H"
 #include "OSspecific.H"
 #include "polyBoundaryMeshEntries.H"
 #include "polyMesh.H"
 #include "PstreamReduceOps.H"
 #include "Time.H"
 #include "volFields.H"
+
+#include <algorithm>
+#include <climits>
+#include <unistd.h>
+#include <vector>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -58,6 +64,119 @@ namespace Foam
                 << path << " is missing"
                 << (Pstream::parRun() ? ", or that of another processor" : "")
                 << nl << "    " << step.c_str() << exit(FatalError);
+        }
+    }
+
+    //- What is wrong with the patches of a mesh, or nothing
+    static string complaintOf
+    (
+        const polyBoundaryMeshEntries& patches,
+        const label nInternal,
+        const label nFaces
+    )
+    {
+        label start = nInternal;
+        forAll(patches, i)
+        {
+            const dictionary& patch = patches[i].dict();
+            const label first = patch.get<label>("startFace");
+            const label n = patch.get<label>("nFaces");
+            const label end =
+                i + 1 < patches.size()
+              ? patches[i + 1].dict().get<label>("startFace")
+              : nFaces;
+            const string name("patch " + patches[i].keyword() + " has ");
+
+            if (first != start)
+            {
+                return
+                    name + "startFace " + Foam::name(first) + nl
+                  + "    allowed: " + Foam::name(start)
+                  + ", after the faces that come before";
+            }
+            if (n < 0 || first + n != end)
+            {
+                return
+                    name + "nFaces " + Foam::name(n) + nl
+                  + "    allowed: " + Foam::name(end - first)
+                  + ", up to the next patch or the last of "
+                  + Foam::name(nFaces) + " faces";
+            }
+
+            const label self = Pstream::myProcNo();
+            const label rank = patch.getOrDefault<label>("myProcNo", self);
+            if (rank != self)
+            {
+                return
+                    name + "myProcNo " + Foam::name(rank) + nl
+                  + "    allowed: " + Foam::name(self) + ". The folder is another processor's: put it back, or"
+                  + " decomposePar -force";
+            }
+            start = end;
+        }
+
+        return string();
+    }
+
+    //- End the run if the patches are not those of the mesh, or of another rank
+    static void checkPatches
+    (
+        const polyBoundaryMeshEntries& patches,
+        const Time& time
+    )
+    {
+        const fileName folder(polyMesh::meshSubDir);
+        const labelIOList owner(latest("owner", folder, time));
+        const labelIOList neighbour(latest("neighbour", folder, time));
+        const label nInternal = std::count_if
+        (
+            neighbour.begin(), neighbour.end(),
+            [](const label celli) { return celli >= 0; }
+        );
+        string complaint(complaintOf(patches, nInternal, owner.size()));
+        if (!complaint.empty())
+        {
+            complaint = patches.objectPath() + ": " + complaint;
+        }
+        const List<string> complaints(fromAllRanks(complaint));
+
+        // Faces that a rank shares with others: the sum is for cyclic ones
+        labelList shared(Pstream::nProcs(), Zero);
+        for (const entry& patch : patches)
+        {
+            label rank = -1;
+            if
+            (
+                patch.dict().readIfPresent("neighbProcNo", rank)
+             && rank >= 0 && rank < shared.size()
+            )
+            {
+                shared[rank] += patch.dict().get<label>("nFaces");
+            }
+        }
+        const List<labelList> between(fromAllRanks(shared));
+        const masterGate once;
+
+        forAll(complaints, ranki)
+        {
+            if (!complaints[ranki].empty())
+            {
+                FatalErrorInFunction
+                    << complaints[ranki].c_str() << exit(FatalError);
+            }
+            for (label other = 0; other < ranki; ++other)
+            {
+                if (between[ranki][other] != between[other][ranki])
+                {
+                    FatalErrorInFunction
+                        << "processor " << ranki << " has "
+                        << between[ranki][other] << " faces to processor "
+                        << other << ", and that "
+                        << between[other][ranki] << " to it" << nl
+                        << "    They are of two decompositions: decomposePar"
+                        << " -force" << exit(FatalError);
+                }
+            }
         }
     }
 
@@ -135,6 +254,36 @@ Foam::dictionary Foam::caseFiles::controls(const argList& args)
 }
 
 
+void Foam::caseFiles::checkPath(const int argc, const char* const argv[])
+{
+    char folder[PATH_MAX] = "";
+    std::vector<std::string> paths;
+    if (::getcwd(folder, sizeof(folder)))
+    {
+        paths.push_back(folder);
+    }
+
+    for (int i = 1; i + 1 < argc; ++i)
+    {
+        if (std::string(argv[i]) == "-case")
+        {
+            paths.push_back(argv[i + 1]);
+        }
+    }
+
+    for (const std::string& path : paths)
+    {
+        if (!string::valid<fileName>(path))
+        {
+            FatalErrorInFunction
+                << "OpenFOAM cannot read the folder '" << path.c_str() << "'"
+                << nl << "    allowed: names without blanks, quotes and"
+                << " semicolons. Rename the folder" << exit(FatalError);
+        }
+    }
+}
+
+
 void Foam::caseFiles::checkCase(const argList& args, const fileNameList& files)
 {
     const fileName whole(args.rootPath()/args.globalCaseName());
@@ -171,8 +320,25 @@ void Foam::caseFiles::checkCase(const argList& args, const fileNameList& files)
         }
     }
 
+    for (const fileName& file : files)
+    {
+        string text(textOf(whole/file));
+        broadcast(text);
+        checkPatterns(text, whole/file);
+    }
     const dictionary control(controls(args));
     const masterGate once;
+
+    checkValues
+    (
+        control,
+        {
+            "startFrom", "startTime", "stopAt", "endTime", "deltaT",
+            "writeControl", "writeInterval", "purgeWrite", "writeFormat",
+            "writeVersion", "writePrecision", "writeCompression", "timeFormat",
+            "timePrecision", "runTimeModifiable"
+        }
+    );
 
     // OpenFOAM divides by it, or never comes to the next time
     if (control.getOrDefault<word>("writeControl", "timeStep") != "none")
@@ -200,6 +366,8 @@ void Foam::caseFiles::checkMesh(const Time& time, const bool forCells)
             IOobject::MUST_READ, IOobject::NO_WRITE, false
         )
     );
+
+    checkPatches(patches, time);
 
     for (const entry& patch : patches)
     {
@@ -239,6 +407,17 @@ Foam::word Foam::caseFiles::flowInstance(const fvMesh& mesh)
     const fileName now(time.path()/time.timeName());
     need<volVectorField>(U, now/"U", stepToField("U", time));
     need<volScalarField>(p, p.objectPath(), stepToField("p", time));
+
+    // decomposePar has read those of a rank
+    for (const IOobject& field : {U, p})
+    {
+        const std::string text(textOf(field.objectPath()));
+        const std::size_t patches = text.find("boundaryField");
+        if (!Pstream::parRun() && patches != std::string::npos)
+        {
+            checkPatterns(text.substr(patches), field.objectPath());
+        }
+    }
 
     return U.instance();
 }

@@ -15,6 +15,7 @@
 #include "Time.H"
 #include "volFields.H"
 
+#include <functional>
 #include <set>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -162,6 +163,36 @@ namespace Foam
     }
 
 
+    //- Are the tables of a case what a state says?
+    static bool hasTables(const dictionary& notes, const fileName& whole)
+    {
+        const dictionary& tables = notes.subDict("tables");
+        const fileName folder
+        (
+            whole/"postProcessing"/"ellipsoidCloud"
+           /fileName(notes.get<string>("folder"))
+        );
+
+        for (const entry& table : tables)
+        {
+            const dictionary& of = table.dict();
+            const SHA1 digest
+            (
+                digestOf
+                (
+                    folder/(table.keyword() + ".csv"), of.get<scalar>("bytes")
+                )
+            );
+            if (digest.str() != of.get<string>("digest"))
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
+
+
     //- End the run if there is a state of the present time under another name
     static void checkNames(const Time& time)
     {
@@ -214,10 +245,8 @@ Foam::checkpoint::checkpoint(const Time& time)
           : "time " + time.timeName() + " was not written to its end"
         );
         FatalErrorInFunction
-            << complaint.c_str() << nl
-            << "    Remove the directory " << time.timeName()
-            << (Pstream::parRun() ? " of every processor" : "")
-            << " to go on from an earlier time" << exit(FatalError);
+            << complaint.c_str() << nl << "    " << wayBack(time).c_str()
+            << exit(FatalError);
     }
     else
     {
@@ -231,6 +260,78 @@ Foam::checkpoint::checkpoint(const Time& time)
 Foam::fileName Foam::checkpoint::unfinishedFlow(const fileName& path)
 {
     return path/"U.unfinished";
+}
+
+
+std::string Foam::checkpoint::wayBack(const Time& time)
+{
+    std::set<namedTime, std::greater<namedTime>> earlier;
+    const fileName now(time.path()/time.timeName());
+    for (const fileName& path : {now, sharedTime(now)})
+    {
+        for (const fileName& folder : readDir(path.path(), fileName::DIRECTORY))
+        {
+            scalar t;
+            if
+            (
+                readScalar(folder, t)
+             && t < time.value() && folder != now.name()
+            )
+            {
+                earlier.insert({t, folder});
+            }
+        }
+    }
+    if (earlier.empty())
+    {
+        return
+            "Remove " + now.name()/fieldName + " and " + now.name()/stateFile
+          + " to begin anew from the flow";
+    }
+
+    // A flow or a mesh is not to be lost
+    bool removable =
+        time.controlDict().getOrDefault<word>("startFrom", "latestTime")
+     == "latestTime";
+    std::string names;
+    fileName path(now);
+    const auto pass = [&]()
+    {
+        names += (names.empty() ? "" : ", ") + path.name();
+        removable = removable && !isFile(path/"U") && !isDir(path/"polyMesh");
+    };
+    const auto leadsTo = [&](const word& name)
+    {
+        return
+            removable
+          ? "Remove the directory " + names
+          + (Pstream::parRun() ? " of every processor" : "")
+          : "Set startFrom startTime and startTime " + name
+          + " in system/controlDict";
+    };
+
+    pass();
+    for (const namedTime& of : earlier)
+    {
+        path = now.path()/of.second;
+        const std::string text(textOf(stateIn(path)));
+
+        if
+        (
+            isWhole(text)
+         && hasTables(parsed(text, path), time.globalPath())
+        )
+        {
+            return leadsTo(of.second) + " to go on from " + of.second;
+        }
+        if (std::next(earlier.find(of)) != earlier.end())
+        {
+            pass();
+        }
+    }
+    const word& first = earlier.rbegin()->second;
+
+    return leadsTo(first) + " to begin anew from " + first;
 }
 
 
@@ -395,11 +496,12 @@ void Foam::checkpoint::end(const Time& time, const std::string& text)
     if (Pstream::master())
     {
         const fileName path(time.path()/time.timeName());
-        atomicWrite
+        const fileName file
         (
-            (sharedFiles() ? sharedTime(path) : path)/stateFile,
-            text + digestEntry(text),
-            time.writeCompression()
+            (sharedFiles() ? sharedTime(path) : path)/stateFile
         );
+        writePart(file, text + digestEntry(text), time.writeCompression());
+        toDisk(partOf(file));
+        renamePart(file);
     }
 }

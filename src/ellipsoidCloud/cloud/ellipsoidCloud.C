@@ -38,10 +38,11 @@ namespace Foam
     }
 
     //- Say that a cell is lost, and why; on the master
-    static void reportLost(const cellSweep& cell)
+    static void reportLost(const cellSweep& cell, const tableSet& set)
     {
         Info<< "ellipsoidCloud: cell " << cell.state.id << " is lost at t = "
-            << cell.state.time << " s, " << cell.state.centre() << " m: "
+            << set.timeText(cell.state.time, 6).c_str() << " s, "
+            << cell.state.centre() << " m: "
             << ellipsoid_status_text(ellipsoid_status(cell.status));
 
         if (cell.refused == meshFlow::pBeyondCoupled)
@@ -446,7 +447,7 @@ void Foam::ellipsoidCloud::evolve()
         }
         if (cell.state.fate == cellState::lost)
         {
-            reportLost(cell);
+            reportLost(cell, tracks_->set());
         }
     }
 

@@ -44,7 +44,13 @@ void Foam::ellipsoidCloud::makeTables()
         population_,
         folder,
         domainImages::any(mesh_.boundaryMesh(), properties_.unreached()),
-        tables
+        tables,
+        mesh_.time(),
+        min
+        (
+            mesh_.time().deltaTValue(),
+            cellTracks::setting(properties_.section("tracks")).interval
+        )
     };
 
     statistics_.reset(new captureStatistics(set, criterion_.sieves()));

@@ -9,6 +9,7 @@ Description
 
 #include "ellipsoidCloud.H"
 #include "atomicWrite.H"
+#include "cellPoses.H"
 #include "fvMesh.H"
 #include "OSspecific.H"
 #include "Time.H"
@@ -41,6 +42,10 @@ void Foam::ellipsoidCloud::begin()
             << " are kept beside it, as .bak" << endl;
     }
 
+    if (goesOn)
+    {
+        removeLaterPoses(tracks_->set(), time_);
+    }
     statistics_->log.open();
     tracks_->file.open();
     if (occupancy_.valid())
@@ -68,6 +73,8 @@ void Foam::ellipsoidCloud::track
     while (runTime.loop())
     {
         evolve();
+        // Else it adds up rounding, and so do the names of times
+        static_cast<dimensionedScalar&>(runTime).value() = time_;
         if (occupied)
         {
             occupied->update();

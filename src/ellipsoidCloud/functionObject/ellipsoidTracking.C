@@ -4,6 +4,7 @@
 #include "ellipsoidTracking.H"
 #include "addToRunTimeSelectionTable.H"
 #include "caseFiles.H"
+#include "checkedEntries.H"
 #include "caseSummary.H"
 #include "cellPopulation.H"
 #include "ellipsoidCloud.H"
@@ -244,6 +245,11 @@ Foam::functionObjects::ellipsoidTracking::~ellipsoidTracking()
 bool Foam::functionObjects::ellipsoidTracking::read(const dictionary& dict)
 {
     fvMeshFunctionObject::read(dict);
+    checkValues
+    (
+        dict,
+        {"steady", "U", "p", "phi", "endTime", "deltaT", "writeInterval"}
+    );
 
     const word scheme
     (

@@ -251,6 +251,7 @@ Foam::autoPtr<Foam::cellInjection> Foam::cellInjection::New
 
 void Foam::cellInjection::checkEntries(const dictionary& dict)
 {
+    checkValues(dict, {"type"});
     const word type(dict.get<word>("type"));
 
     if (!keywords().found(type))

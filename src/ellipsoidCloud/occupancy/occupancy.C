@@ -22,8 +22,8 @@ Foam::occupancy::setting::setting
     const polyBoundaryMesh& patches
 )
 :
-    active(dict.getOrDefault("active", false)),
-    flow(flowNames.getOrDefault("flow", dict, SOLVED)),
+    active(false),
+    flow(SOLVED),
     fates({cellState::caught}),
     every(checkedNumber<label>(dict, "every", atLeast(1), 1)),
     tolerance(checkedNumber(dict, "tolerance", above(0), 1e-3))
@@ -34,6 +34,8 @@ Foam::occupancy::setting::setting
         {"active", "flow", "fates", "every", "tolerance", "apertures"},
         {"apertures"}
     );
+    active = dict.getOrDefault("active", false);
+    flow = flowNames.getOrDefault("flow", dict, SOLVED);
 
     if (dict.found("fates"))
     {
@@ -89,6 +91,7 @@ Foam::occupancy::occupancy
 :
     setting_(from),
     criterion_(criterion),
+    set_(set),
     population_(set.population),
     fluxes_(set, "fluxes", "t,sieve,flux,share,cells", 9)
 {
@@ -397,7 +400,7 @@ void Foam::occupancy::write
         const scalar flux = a.flux(phi);
 
         fluxes_.stream()
-            << time << ',' << csvField(a.name) << ',' << flux << ','
+            << set_.timeText(time, 9) << ',' << csvField(a.name) << ',' << flux << ','
             << flux/max(inflow, VSMALL) << ',' << n[i] << '\n';
     }
     fluxes_.flush();

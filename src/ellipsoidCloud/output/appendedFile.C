@@ -3,11 +3,36 @@
 
 #include "appendedFile.H"
 #include "atomicWrite.H"
+#include "checkpoint.H"
 #include "error.H"
 #include "OSspecific.H"
 #include "foamVersions.H"
 
+#include <cmath>
+#include <cstdio>
 #include <unistd.h>
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+std::string Foam::tableSet::timeText
+(
+    const scalar t,
+    const int digits,
+    const scalar part
+) const
+{
+    const scalar parts = max(mag(t)/(part*interval), scalar(1));
+    const int needed = int(std::ceil(std::log10(parts)));
+
+    // A double has no more than fifteen
+    char text[32];
+    std::snprintf
+    (
+        text, sizeof(text), "%.*g", max(digits, min(needed, 15)), t
+    );
+    return text;
+}
+
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -29,7 +54,7 @@ Foam::appendedFile::appendedFile
         size_ = earlier.getOrDefault<scalar>("bytes", 0);
     }
     buffer_.precision(precision);
-    digest_.append(text());
+    digest_ = digestOf(name_, size_);
 
     if (size_ == 0)
     {
@@ -40,7 +65,8 @@ Foam::appendedFile::appendedFile
         FatalErrorInFunction
             << "cannot go on with " << name_ << ": its first "
             << int64_t(size_) << " bytes are not what was written" << nl
-            << "    Put it back, or start again from the first time"
+            << "    Put it back, or:" << nl
+            << "    " << checkpoint::wayBack(set.time).c_str()
             << exit(FatalError);
     }
 }
@@ -85,6 +111,10 @@ void Foam::appendedFile::flush()
 
 Foam::dictionary Foam::appendedFile::notes()
 {
+    if (Pstream::master())
+    {
+        toDisk(name_);
+    }
     scalar size = size_;
     string digits(digest_.str());
     broadcast(size);

@@ -20,7 +20,7 @@ std::string Foam::cellEvent::header(const tableSet& set)
 
 void Foam::cellEvent::write(std::ostream& os, const tableSet& set) const
 {
-    os  << cell.time << ',' << cell.id << ',' << type << ','
+    os  << set.timeText(cell.time, 12) << ',' << cell.id << ',' << type << ','
         << set.patchName(cell.patch)
         << commas{cell.body.x, 3} << commas{cell.body.q, 4}
         << ',' << cell.deepest << ',' << cell.deepestCell;

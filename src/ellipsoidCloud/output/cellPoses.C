@@ -25,64 +25,68 @@ namespace Foam
         std::ostringstream os;
         os.precision(9);
 
-        List<vtkArray> arrays
+        const List<vtkArray> arrays
         ({
-            {"Float64", "x", 3, {}},
-            {"Int32", "id", 1, {}},
-            {"Int32", "fate", 1, {}},
-            {"Int32", "patch", 1, {}},
-            {"Float64", "U", 3, {}},
-            {"Float64", "omega", 3, {}},
-            {"Float64", "axes", 9, {}}
+            {"Float64", "x", 3},
+            {"Int32", "id", 1},
+            {"Int32", "fate", 1},
+            {"Int32", "patch", 1},
+            {"Float64", "U", 3},
+            {"Float64", "omega", 3},
+            {"Float64", "axes", 9}
         });
         const labelList points(identity(cells.size()));
-        labelList ends(points);
+        const labelList ends(identity(cells.size(), 1));
 
-        forAll(cells, i)
+        const auto writeNumbers = [&](std::ostream& to, label first, label n)
         {
-            const cellState& cell = cells[i];
-            const ellipsoid_state& body = cell.body;
-            scalar row[21];
-            scalar* at = std::copy_n(body.x, 3, row);
-            for (const label n : {cell.id, cell.fate, cell.patch})
+            for (const cellState& cell : cells)
             {
-                *at++ = n;
+                const ellipsoid_state& body = cell.body;
+                scalar row[21];
+                scalar* at = std::copy_n(body.x, 3, row);
+                for (const label i : {cell.id, cell.fate, cell.patch})
+                {
+                    *at++ = i;
+                }
+                at = std::copy_n(body.u, 3, at);
+                at = std::copy_n(body.omega, 3, at);
+                std::copy_n(fullAxes(cell, set.population).v_, 9, at);
+
+                for (label i = 0; i < n; ++i)
+                {
+                    to << row[first + i] << (i + 1 < n ? ' ' : '\n');
+                }
             }
-            at = std::copy_n(body.u, 3, at);
-            at = std::copy_n(body.omega, 3, at);
-            std::copy_n(fullAxes(cell, set.population).v_, 9, at);
-
-            appendPoint(arrays, row);
-            ++ends[i];
-        }
-
-        writePolyData(os, arrays, "Verts", points, ends);
+        };
+        writePolyData(os, arrays, writeNumbers, "Verts", points, ends);
 
         return os.str();
     }
 
-    //- Text of the series of the files in a folder, up to a time
-    static std::string seriesOf(const fileName& folder, const scalar end)
+    //- The files of a folder by their times
+    static std::map<scalar, word> posesIn(const fileName& folder)
     {
         std::map<scalar, word> times;
         for (const fileName& file : readDir(folder, fileName::FILE))
         {
             scalar time;
-            if
-            (
-                file.hasExt("vtp")
-             && readScalar(file.lessExt(), time)
-             && time <= end
-            )
+            if (file.hasExt("vtp") && readScalar(file.lessExt(), time))
             {
                 times[time] = file;
             }
         }
 
+        return times;
+    }
+
+    //- Write the series of the files in a folder
+    static void writeSeries(const fileName& folder)
+    {
         std::ostringstream os;
         os  << vtkProlog
             << "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-        for (const auto& time : times)
+        for (const auto& time : posesIn(folder))
         {
             os  << "<DataSet timestep=\"" << time.second.lessExt().c_str()
                 << "\" file=\"" << folder.name().c_str() << '/'
@@ -90,7 +94,7 @@ namespace Foam
         }
         os << "</Collection>\n</VTKFile>\n";
 
-        return os.str();
+        atomicWrite(folder + ".pvd", os.str());
     }
 }
 
@@ -146,9 +150,25 @@ void Foam::writePoses
     const fileName folder(set.folder/"poses");
     mkDir(folder);
     atomicWrite(folder/(timeName + ".vtp"), textOf(set, entered));
-    atomicWrite
-    (
-        set.folder/"poses.pvd",
-        seriesOf(folder, readScalar(timeName))
-    );
+    writeSeries(folder);
+}
+
+
+void Foam::removeLaterPoses(const tableSet& set, const scalar time)
+{
+    const fileName folder(set.folder/"poses");
+
+    if (!Pstream::master() || !isDir(folder))
+    {
+        return;
+    }
+
+    for (const auto& of : posesIn(folder))
+    {
+        if (of.first > time + 1e-6*set.interval)
+        {
+            rm(folder/of.second);
+        }
+    }
+    writeSeries(folder);
 }

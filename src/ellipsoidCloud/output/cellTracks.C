@@ -16,6 +16,40 @@
 
 namespace Foam
 {
+    //- The fields of a line
+    typedef SubStrings<std::string> csvLine;
+
+    static label idOf(const csvLine& line)
+    {
+        return std::atol(line[1].str().c_str());
+    }
+
+    //- The text of a number of tracks.vtp, of which positions come first, in a
+    //  line. The name of a patch, before what is unfolded, may have commas
+    static std::string fieldOf(const csvLine& line, const label i)
+    {
+        return line
+        [
+            i < 3 ? i + 2 : i < 5 ? i - 3 : i < 18 ? i : line.size() - 25 + i
+        ].str();
+    }
+
+    //- Visit all rows, of the runs that this one continues, too
+    static void forRows
+    (
+        const fileName& file,
+        const std::function<void(const csvLine&)>& act
+    )
+    {
+        std::ifstream is(file);
+        std::string line;
+        std::getline(is, line);
+        while (std::getline(is, line))
+        {
+            act(stringOps::split(line, ','));
+        }
+    }
+
     //- Append a row
     static void append
     (
@@ -190,7 +224,7 @@ void Foam::cellTracks::flush()
     {
         const vector O(longAxis(&r[8]));
 
-        os  << r[0] << ',' << label(r[1]) << commas{&r[2], 13}
+        os  << set_.timeText(r[0], 9) << ',' << label(r[1]) << commas{&r[2], 13}
             << commas{O.v_, 3}
             << ',' << cellState::fateNames[cellState::fateType(label(r[15]))]
             << ',' << set_.patchName(label(r[16]))
@@ -208,64 +242,69 @@ void Foam::cellTracks::writeVTP
 {
     List<vtkArray> arrays
     ({
-        {"Float64", "x", 3, {}},
-        {"Float64", "t", 1, {}},
-        {"Int32", "id", 1, {}},
-        {"Float64", "U", 3, {}},
-        {"Float64", "quaternion", 4, {}},
-        {"Float64", "omega", 3, {}},
-        {"Float64", "O", 3, {}},
-        {"Int32", "fate", 1, {}},
-        {"Float64", "semiAxes", 3, {}},
-        {"Float64", "unfolded", 3, {}}
+        {"Float64", "x", 3},
+        {"Float64", "t", 1},
+        {"Int32", "id", 1},
+        {"Float64", "U", 3},
+        {"Float64", "quaternion", 4},
+        {"Float64", "omega", 3},
+        {"Float64", "O", 3},
+        {"Int32", "fate", 1},
+        {"Float64", "semiAxes", 3},
+        {"Float64", "unfolded", 3}
     });
     if (!set_.unfolds)
     {
         arrays.setSize(9);
     }
 
-    // Of each cell, in the rows of the runs that this one continues, too
+    const auto writeNumbers = [&](std::ostream& os, label first, label n)
+    {
+        forRows(file.name(), [&](const csvLine& line)
+        {
+            const auto options = set_.population.optionsOf
+            (
+                sizeOf(idOf(line))
+            );
+            for (label i = first; i < first + n; ++i)
+            {
+                if (i == 18)
+                {
+                    os << cellState::fateNames[line[18].str()];
+                }
+                else if (i > 18 && i < 22)
+                {
+                    os << options.semi_axes[i - 19];
+                }
+                else
+                {
+                    os << fieldOf(line, i);
+                }
+                os << (i + 1 < first + n ? ' ' : '\n');
+            }
+        });
+    };
+
     std::map<label, DynamicList<label>> pointsOf;
     label nPoints = 0;
-    std::ifstream is(file.name());
-    std::string line;
-    std::getline(is, line);
-    while (std::getline(is, line))
+    forRows(file.name(), [&](const csvLine& line)
     {
-        const auto fields = stringOps::split(line, ',');
-        scalar row[25];
-        for (label i = 0; i < 18; ++i)
-        {
-            row[i] = std::strtod(fields[i].str().c_str(), nullptr);
-        }
-        row[18] = cellState::fateNames[fields[18].str()];
+        pointsOf[idOf(line)].append(nPoints++);
+    });
 
-        const label id = row[1];
-        const auto options = set_.population.optionsOf(sizeOf(id));
-        std::copy_n(options.semi_axes, 3, row + 19);
-        for (label i = 0; set_.unfolds && i < 3; ++i)
-        {
-            row[22 + i] = std::strtod(fields[fields.size() - 3 + i].str().c_str(), nullptr);
-        }
-
-        // Positions come first
-        std::rotate(row, row + 2, row + 5);
-        appendPoint(arrays, row);
-        pointsOf[id].append(nPoints++);
-    }
-
-    DynamicList<label> points;
+    DynamicList<label> points(nPoints);
     DynamicList<label> ends;
-    for (const auto& cell : pointsOf)
+    for (auto& cell : pointsOf)
     {
         points.append(cell.second);
         ends.append(points.size());
+        cell.second.clearStorage();
     }
 
     const fileName vtp(set_.folder/"tracks.vtp");
     std::ofstream os(vtp);
     os.precision(9);
-    writePolyData(os, arrays, "Lines", points, ends);
+    writePolyData(os, arrays, writeNumbers, "Lines", points, ends);
 
     if (!os.flush())
     {

@@ -15,51 +15,42 @@ const char* const Foam::vtkProlog =
 
 namespace Foam
 {
-    template<class Type>
-    static void writeArray
-    (
-        std::ostream& os,
-        const char* type,
-        const char* name,
-        const label nComponents,
-        const UList<Type>& values
-    )
+    static void beginArray(std::ostream& os, const vtkArray& array)
     {
-        os  << "<DataArray type=\"" << type << "\" Name=\"" << name
-            << "\" NumberOfComponents=\"" << nComponents
+        os  << "<DataArray type=\"" << array.type << "\" Name=\"" << array.name
+            << "\" NumberOfComponents=\"" << array.nComponents
             << "\" format=\"ascii\">\n";
-        forAll(values, i)
-        {
-            os << values[i] << ((i + 1) % nComponents ? ' ' : '\n');
-        }
+    }
+
+    static void endArray(std::ostream& os)
+    {
         os << "</DataArray>\n";
     }
 
-    static void writeArray(std::ostream& os, const vtkArray& of)
+    static void writeLabels
+    (
+        std::ostream& os,
+        const char* name,
+        const labelUList& labels
+    )
     {
-        writeArray(os, of.type, of.name, of.nComponents, of.values);
+        beginArray(os, {"Int64", name, 1});
+        for (const label i : labels)
+        {
+            os << i << '\n';
+        }
+        endArray(os);
     }
 }
 
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
-void Foam::appendPoint(UList<vtkArray>& arrays, const scalar* row)
-{
-    for (vtkArray& to : arrays)
-    {
-        for (label i = 0; i < to.nComponents; ++i)
-        {
-            to.values.append(*row++);
-        }
-    }
-}
-
-
 void Foam::writePolyData
 (
     std::ostream& os,
     const UList<vtkArray>& arrays,
+    const numberWriter& writeNumbers,
     const char* kind,
     const labelUList& points,
     const labelUList& ends
@@ -69,14 +60,17 @@ void Foam::writePolyData
         << "<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
         << "<Piece NumberOfPoints=\"" << points.size() << "\" NumberOf" << kind
         << "=\"" << ends.size() << "\">\n<Points>\n";
-    writeArray(os, arrays[0]);
-    os << "</Points>\n<PointData>\n";
-    for (label i = 1; i < arrays.size(); ++i)
+    label first = 0;
+    for (const vtkArray& array : arrays)
     {
-        writeArray(os, arrays[i]);
+        beginArray(os, array);
+        writeNumbers(os, first, array.nComponents);
+        endArray(os);
+        os << (first ? "" : "</Points>\n<PointData>\n");
+        first += array.nComponents;
     }
     os << "</PointData>\n<" << kind << ">\n";
-    writeArray(os, "Int64", "connectivity", 1, points);
-    writeArray(os, "Int64", "offsets", 1, ends);
+    writeLabels(os, "connectivity", points);
+    writeLabels(os, "offsets", ends);
     os  << "</" << kind << ">\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
