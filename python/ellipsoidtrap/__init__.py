@@ -4,6 +4,10 @@
 """Around the runs of ellipsoidTrapFoam: tables, pictures, geometry, sweeps."""
 
 
+class CaseError(Exception):
+    """An input is missing or malformed; the text names the file."""
+
+
 def read(case):
     """The tables of a run: see ellipsoidtrap.tables.read()."""
     from . import tables  # not for makeGeometry, which needs no NumPy

@@ -10,6 +10,8 @@ import importlib
 import os
 import sys
 
+from . import CaseError
+
 MODULES = {
     "makeGeometry": ".geometry.makeGeometry",
     "makePictures": ".pictures.makePictures",
@@ -29,7 +31,14 @@ def main():
         name, *words = words
     if name not in MODULES:
         sys.exit(__doc__.strip() + "\n\nCOMMAND is one of " + " ".join(MODULES))
-    return importlib.import_module(MODULES[name], "ellipsoidtrap").command(words)
+    try:
+        return importlib.import_module(MODULES[name], "ellipsoidtrap").command(words)
+    except CaseError as error:
+        sys.exit(f"{name}: {error}")
+    except OSError as error:
+        sys.exit(f"{name}: {error.filename}: {error.strerror}" if error.filename else f"{name}: {error}")
+    except ModuleNotFoundError as error:
+        sys.exit(f"{name}: {sys.executable} has no module {error.name}; what Python needs is in docs/guide/setUp.md")
 
 
 if __name__ == "__main__":

@@ -11,7 +11,8 @@ from collections import namedtuple
 
 import numpy as np
 
-from .pictures.files import CaseError, number_folders, plain
+from . import CaseError
+from .pictures.files import number_folders, plain
 
 WORDS = ("event", "fate", "firstSieve", "patch", "sieve")
 ROWS = 100_000          # at a time
@@ -39,7 +40,9 @@ def parts(name):
     written yet is left out."""
     with open(name, newline="", encoding="utf-8") as file:
         table = csv.reader(line for line in file if line.endswith("\n"))
-        header = next(table)
+        header = next(table, [])
+        if not header:
+            raise CaseError(f"{name}: no header")
         types = [(c, "U128" if c in WORDS else "i4" if c == "id" else "f8") for c in header]
         empty = {i: number for i, c in enumerate(header) if c in ("imbalance", "tFirstCatch")}
         rows = np.empty(0, types)
@@ -48,8 +51,11 @@ def parts(name):
             # A name may have commas in it
             lines = ("\t".join(map(plain, row)) for row in some)
             if some:
-                rows = np.loadtxt(lines, types, delimiter="\t", converters=empty, ndmin=1, encoding="utf-8",
-                                  comments=None)
+                try:
+                    rows = np.loadtxt(lines, types, delimiter="\t", converters=empty, ndmin=1, encoding="utf-8",
+                                      comments=None)
+                except ValueError as error:
+                    raise CaseError(f"{name}: {error}") from None
             yield rows
             first = False
 

@@ -13,8 +13,10 @@ import sys
 import h5py
 import numpy as np
 
+from . import CaseError
 from .tables import WORDS, parts
 
+TABLES = ("tracks", "cells", "events")
 CHUNK = 10_000          # of a dataset
 
 
@@ -40,12 +42,15 @@ def convert(name, group):
 
 def main(folder):
     """All tables of a folder."""
+    for table in TABLES:
+        if not os.path.isfile(os.path.join(folder, table + ".csv")):
+            raise CaseError(f"{folder} has no {table}.csv: FOLDER is one such as CASE/postProcessing/ellipsoidCloud/0")
     result = os.path.join(folder, "tables.h5")
     if os.path.exists(result):
-        sys.exit(f"{result} is there already")
+        raise CaseError(f"{result} is there already")
     unfinished = result + ".unfinished"
     with h5py.File(unfinished, "w") as file:
-        for table in ("tracks", "cells", "events"):
+        for table in TABLES:
             convert(os.path.join(folder, table + ".csv"), file.create_group(table))
     os.rename(unfinished, result)
 

@@ -10,6 +10,7 @@
 nested lists, with checked look-up. What is wrong ends the script with one line."""
 
 import math
+import re
 import sys
 
 from . import foamDictionary
@@ -26,13 +27,23 @@ def chosen(arguments, usage, names):
 
 
 def read(file):
-    """The entries of a parameter file."""
+    """The entries of a parameter file. What it says by #eval and the like OpenFOAM works out."""
+    twice, entries = [], None
     try:
-        entries = foamDictionary.read(file)
+        text = foamDictionary.text_of(file)
+        try:
+            entries = foamDictionary.parse(text, twice)
+        except ValueError:
+            if "#" not in text:
+                raise
+        if "#" in text:
+            entries = foamDictionary.parse(foamDictionary.expanded(file))
     except ValueError as error:
         fail(file, error)
+    if twice:
+        fail(file, f"'{twice[0]}' is given twice")
     _check(entries, file)
-    return Entries(entries, "", file)
+    return Entries(entries, "", file, set(re.findall(r"\$\{?[:.]*(\w+)", text)))
 
 
 def fail(file, message):
@@ -56,10 +67,10 @@ def shown(value):
 
 
 class Entries:
-    """A (sub-)dictionary with checked look-up."""
+    """A (sub-)dictionary with checked look-up; names in variables are used by other entries of the file."""
 
-    def __init__(self, entries, name, file):
-        self.entries, self.name, self.file = entries, name, file
+    def __init__(self, entries, name, file, variables):
+        self.entries, self.name, self.file, self.variables = entries, name, file, variables
 
     def __contains__(self, key):
         return key in self.entries
@@ -80,11 +91,11 @@ class Entries:
         if not isinstance(value, dict):
             have = [k for k, v in self.entries.items() if isinstance(v, dict)]
             self.fail(f"'{self.name}{key}' is no dictionary (there are: {' '.join(have)})")
-        return Entries(value, f"{self.name}{key}.", self.file)
+        return Entries(value, f"{self.name}{key}.", self.file, self.variables)
 
     def sub_if(self, key):
         """A sub-dictionary that may be left out."""
-        return self.sub(key) if key in self else Entries({}, f"{self.name}{key}.", self.file)
+        return self.sub(key) if key in self else Entries({}, f"{self.name}{key}.", self.file, self.variables)
 
     def choose(self, key):
         """The sub-dictionary that an option names."""
@@ -95,8 +106,15 @@ class Entries:
     def only(self, *known):
         """Refuse entries that nobody reads."""
         for key in self.entries:
-            if key not in known:
+            if key not in known and key not in self.variables:
                 self.fail(f"unknown entry '{self.name}{key}'; there are: {' '.join(known)}")
+
+    def path(self, key):
+        """The name of a file, with or without quotes; foamDictionary puts blanks about a slash."""
+        value = self.get(key)
+        if not isinstance(value, str):
+            self.fail(f"'{self.name}{key}' must be the name of a file: {shown(value)}")
+        return value.strip('"').replace(" / ", "/")
 
     def number(self, key, low=0.0, strict=True):
         """A number above low, or not below it."""
@@ -126,6 +144,21 @@ class Entries:
         if not isinstance(value, list) or not value:
             self.fail(f"'{self.name}{key}' must be a list ( ... ) that is not empty: {shown(value)}")
         return [(item, f"{key}[{i}]") for i, item in enumerate(value)]
+
+    def points(self, value, key, fewest):
+        """So many points (x y) or more."""
+        if not isinstance(value, list) or len(value) < fewest:
+            self.fail(f"'{self.name}{key}' must be a list of at least {fewest} points (x y): {shown(value)}")
+        return [self.numbers(one, 2, f"{key}[{i}]", "a point (x y)") for i, one in enumerate(value)]
+
+    def corners(self):
+        """The corners min and max of a box."""
+        self.only("min", "max")
+        low, high = self.point("min"), self.point("max")
+        if not (low[0] < high[0] and low[1] < high[1]):
+            self.fail(f"'{self.name}min' ({low[0]:g} {low[1]:g}) must lie below and left of max "
+                      f"({high[0]:g} {high[1]:g})")
+        return low, high
 
     def numbers(self, value, count, key, what):
         """So many finite numbers in brackets."""

@@ -4,13 +4,15 @@
 """OpenFOAM's dictionaries as nested dicts, for the scripts that make geometries and pictures.
 
 #include and $ are resolved. No code is run, as a case may be another's: what #calc, #codeStream and
-the like would give stays as it is written.
+the like would give stays as it is written. Only expanded(), for a user's own geometry, has OpenFOAM do so.
 """
 
 import os
 import re
+import subprocess
 
 TOKENS = re.compile(r'"[^"]*"|#\{.*?#\}|[{}();]|\[[^\]]*\]|\$\{[^}]*\}|[^\s{}();"]+', re.S)
+HEADER = re.compile(r"\bFoamFile\s*\{[^}]*\}")
 # Directives without which a dictionary has the same entries of our programs
 PASSED_OVER = ("#includeFunc", "#includeEtc", "#inputMode", "#message")
 FOLDERS = {
@@ -25,7 +27,7 @@ def text_of(file, above=()):
         raise ValueError(f"{file} includes itself")
     try:
         with open(file, encoding="utf-8", errors="replace") as source:
-            text = re.sub(r"\bFoamFile\s*\{[^}]*\}", " ", without_comments(source.read()))
+            text = HEADER.sub(" ", without_comments(source.read()))
     except OSError as error:
         raise ValueError(f"cannot read {file}: {error.strerror}") from None
 
@@ -52,12 +54,27 @@ def without_comments(text):
     return re.sub(r'("[^"]*")|/\*.*?\*/|//[^\n]*', lambda found: found[1] or " ", text, flags=re.S)
 
 
-def parse(text):
+def parse(text, twice=None):
     """The entries of a dictionary without comments and #include; lists as nested lists of words,
-    other values as strings. What cannot be read is a ValueError."""
+    other values as strings. What cannot be read is a ValueError. Names that stand twice in one
+    dictionary are added to a list, if one is given."""
     entries = {}
-    _entries(TOKENS.findall(text), 0, [entries])
+    _entries(TOKENS.findall(text), 0, [entries], "", [] if twice is None else twice)
     return entries
+
+
+def expanded(file):
+    """Text of a file as OpenFOAM's own foamDictionary expands it, #eval and #calc among it: code that a
+    case has is run, if OpenFOAM is set to do so. A ValueError says what is wrong."""
+    command = ["foamDictionary", "-expand", "-precision", "15", file]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except OSError:
+        raise ValueError("has #, which OpenFOAM's foamDictionary resolves: it must be on the PATH") from None
+    if done.returncode:
+        said = [line.strip() for line in done.stderr.splitlines() if line.strip() and "FOAM FATAL" not in line]
+        raise ValueError(" ".join(said[:2]))
+    return HEADER.sub(" ", without_comments(done.stdout))
 
 
 def spelled(value):
@@ -75,11 +92,14 @@ def _case_of(file):
     return folder
 
 
-def _entries(tokens, at, scopes):
-    """Read entries from a token on into the last of the scopes; the token behind them."""
-    entries = scopes[-1]
+def _entries(tokens, at, scopes, name, twice):
+    """Read entries of a dictionary from a token on into the last of the scopes; the token behind them."""
+    entries, seen = scopes[-1], set()
     while at < len(tokens) and tokens[at] != "}":
         key = tokens[at]
+        if key in seen and key[0] not in "#$":
+            twice.append(name + key)
+        seen.add(key)
         following = tokens[at + 1:at + 2]
         if key in PASSED_OVER:
             at += 2
@@ -92,7 +112,7 @@ def _entries(tokens, at, scopes):
             before = entries.get(key)
             # A dictionary that is there already is added to
             entries[key] = before if isinstance(before, dict) else {}
-            at = _entries(tokens, at + 2, [*scopes, entries[key]])
+            at = _entries(tokens, at + 2, [*scopes, entries[key]], f"{name}{key}.", twice)
         else:
             end = _end(tokens, at + 1, key)
             words = [part for word in tokens[at + 1:end] for part in _resolved(word, scopes)]

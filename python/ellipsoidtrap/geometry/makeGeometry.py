@@ -25,20 +25,6 @@ def is_serpentine():
         return False
 
 
-def keep_surfaces():
-    """Another name for what we have not written."""
-    for name in ("walls", "pockets", "apertures"):
-        file = f"constant/triSurface/{name}.stl"
-        if os.path.exists(file) and not os.path.exists("constant/generated/chosen"):
-            to = file + ".bak"
-            n = 1
-            while os.path.exists(to):
-                n += 1
-                to = f"{file}.bak{n}"
-            os.rename(file, to)
-            print(f"keeping {os.path.abspath(file)} as {os.path.basename(to)}")
-
-
 def command(words):
     """Of the device that is there."""
     words = [word for word in words if word not in ("-noPictures", "-parallel", "-flowOnly")]
@@ -46,7 +32,8 @@ def command(words):
         if "-" + name in words:
             at = words.index("-" + name)
             words[at:at + 1] = ["-resolution", name]
-    keep_surfaces()
+    if "--help" in words:
+        sys.exit(__doc__.strip())
     if os.path.exists("constant/trapGeometry"):
         from .circularTrap import make
     elif os.path.exists("constant/chip"):
@@ -54,5 +41,6 @@ def command(words):
     elif is_serpentine():
         from .serpentine import make
     else:
-        sys.exit(__doc__.strip())
+        sys.exit(f"makeGeometry: {os.getcwd()}: nothing to make: no constant/chip, no constant/trapGeometry, no "
+                 "system/blockMeshDict that includes generated/blocks; it runs in the folder of a case (--help)")
     make(words)

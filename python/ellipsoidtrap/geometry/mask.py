@@ -13,13 +13,12 @@ import itertools
 import math
 import re
 
-from . import rings
+from . import rings, stl
 from .entries import read
 from .rings import TOUCH, Ring
 from .surfaces import Output, aperture_entry, curtain, slab, through
 
 PARAMETERS = "constant/chip"
-WALLS = "walls.stl"
 CIRCLE_SIDES = 48
 RESERVED = ("top", "bottom", "outside")   # patches of the slab
 OPENING = re.compile(r"(inlet|outlet)\w*")
@@ -42,13 +41,54 @@ def patch_name(d, name):
 
 def corners(d, value, key):
     """Corners of a polygon whose first point stands at its end again."""
-    if not isinstance(value, list) or len(value) < 4:
-        d.fail(f"'{d.name}{key}' must be a list of at least 4 points, the first again at its end")
-    points = [d.numbers(one, 2, f"{key}[{i}]", "a point (x y)") for i, one in enumerate(value)]
+    points = d.points(value, key, 4)
     if math.dist(points[0], points[-1]) > TOUCH:
         d.fail(f"polygon '{d.name}{key}' is not closed: it begins at {at(points[0])} and ends at "
                f"{at(points[-1])}; it must end where it begins")
     return points[:-1]
+
+
+def lines_of(d, name):
+    """The polylines of an entry: one, or a list of them."""
+    items = d.items(name)
+    first = items[0][0]
+    if not (isinstance(first, list) and first and isinstance(first[0], list)):
+        items = [(d.get(name), name)]
+    return [d.points(value, key, 2) for value, key in items]
+
+
+def name_edges(d, plan, what):
+    """Give edges of rings the names that 'edges' has for the polylines that they lie on, or for the box."""
+    named = d.sub_if("edges")
+    lines = {name: lines_of(named, name) for name in named.entries if not isinstance(named.get(name), dict)}
+    segments = [(name, *ends) for name, some in lines.items() for line in some for ends in zip(line, line[1:])]
+    for name, start, end in segments:
+        if math.dist(start, end) < TOUCH:
+            named.fail(f"'{named.name}{name}' has two points in one place: {at(start)}")
+        for ring in plan:
+            rings.divide(ring, start)
+            rings.divide(ring, end)
+    taken = {}
+
+    def give(name, where, holds):
+        found = [edge for ring in plan for edge in rings.edges(ring) if holds(edge.start) and holds(edge.end)]
+        if not found:
+            named.fail(f"'{named.name}{name}': no edge of {what} lies {where}")
+        for edge in found:
+            other = taken.setdefault((id(edge.ring), edge.index), name)
+            if other != name:
+                named.fail(f"the edge from {at(edge.start)} to {at(edge.end)} is named twice: "
+                           f"'{named.name}{other}' and '{named.name}{name}'")
+            edge.ring.patches[edge.index] = name
+
+    for name, start, end in segments:
+        give(name, f"between {at(start)} and {at(end)}",
+             lambda p, a=start, b=end: math.dist(p, rings.foot(p, a, b)) < TOUCH)
+    for name in named.entries:
+        patch_name(named, name)
+        if name not in lines:
+            low, high = named.sub(name).corners()
+            give(name, "in this box", lambda p, a=low, b=high: all(x <= v <= y for x, v, y in zip(a, p, b)))
 
 
 def outline_of(d):
@@ -56,34 +96,17 @@ def outline_of(d):
     d.only("points", "patch", "edges")
     points = corners(d, d.get("points"), "points")
     ring = Ring("outline", points, [patch_name(d, d.get("patch"))]*len(points), True)
-    named = d.sub("edges")
-    for name in named.entries:
-        patch_name(named, name)
-        found = False
-        ends = named.items(name)
-        if len(ends) != 2:
-            named.fail(f"'{named.name}{name}' must be the two ends ((x0 y0) (x1 y1)) of a line")
-        start, end = (named.numbers(*one, "a point (x y)") for one in
-                      ((value, 2, key) for value, key in ends))
-        if math.dist(start, end) < TOUCH:
-            named.fail(f"'{named.name}{name}' has its two ends in one place: {at(start)}")
-        for edge in rings.edges(ring):
-            if all(math.dist(p, rings.foot(p, start, end)) < TOUCH for p in (edge.start, edge.end)):
-                ring.patches[edge.index] = name
-                found = True
-        if not found:
-            named.fail(f"'{named.name}{name}': no edge of the outline lies between {at(start)} "
-                       f"and {at(end)}")
+    name_edges(d, [ring], "the outline")
     return ring
 
 
 def obstacles_of(d):
-    """Every obstacle's ring; those of one entry are one patch."""
+    """Every obstacle's ring; those of one entry are one patch, but for edges that are named."""
     found = []
     for name in d.entries:
         one = d.sub(patch_name(d, name))
-        one.only("polygons", "circles")
-        if not one.entries:
+        one.only("polygons", "circles", "edges")
+        if "polygons" not in one and "circles" not in one:
             one.fail(f"'{one.name[:-1]}' has neither polygons nor circles")
         shapes = []
         if "polygons" in one:
@@ -94,74 +117,41 @@ def obstacles_of(d):
                 if radius <= TOUCH:
                     one.fail(f"'{one.name}{key}': the radius must be above {TOUCH:g}: {radius:g}")
                 shapes.append((key, rings.circle(x, y, radius, CIRCLE_SIDES)))
-        found += [Ring(one.name + key, points, [name]*len(points), False) for key, points in shapes]
+        these = [Ring(one.name + key, points, [name]*len(points), False) for key, points in shapes]
+        name_edges(one, these, f"these obstacles, {name},")
+        found += these
     return found
-
-
-def stl_segments(top, file, scale):
-    """(patch, start, end) of the walls' edges at the lowest z of an ASCII STL; triangles that
-    lie flat are its bottom and top."""
-    if file.endswith(f"/{WALLS}"):
-        top.fail(f"'stl': {file}: a file {WALLS} is written by makeGeometry: rename yours")
-    try:
-        with open(file, encoding="ascii") as source:
-            text = source.read()
-    except OSError as error:
-        top.fail(f"'stl': cannot read {file}: {error.strerror or error}")
-    except UnicodeDecodeError:
-        text = ""
-    if not re.match(r"\s*solid\b", text) or "vertex" not in text:
-        top.fail(f"'stl': {file} is no ASCII STL; a binary one holds no names of regions")
-    number = r"([-+.\deE]+)"
-    vertex = re.compile(rf"vertex\s+{number}\s+{number}\s+{number}")
-    triangles = []
-    for part in re.split(r"(?m)^\s*solid\b", text)[1:]:
-        region = part.split("\n", 1)[0].strip()
-        patch_name(top, region)
-        points = [tuple(scale*float(v) for v in found) for found in vertex.findall(part)]
-        triangles += [(region, points[i:i + 3]) for i in range(0, len(points) - 2, 3)]
-    heights = [point[2] for _, triangle in triangles for point in triangle]
-    low, high = min(heights), max(heights)
-    if high - low < TOUCH:
-        top.fail(f"'stl': {file} is flat: its walls must be drawn out along z")
-    segments = {}
-    for region, triangle in triangles:
-        if max(p[2] for p in triangle) - min(p[2] for p in triangle) < TOUCH:
-            continue
-        (ax, ay, _), (bx, by, _), (cx, cy, _) = triangle
-        longest = max(math.dist(p[:2], q[:2]) for p, q in itertools.combinations(triangle, 2))
-        if abs((bx - ax)*(cy - ay) - (by - ay)*(cx - ax)) > TOUCH*longest:
-            top.fail(f"'stl': {file}: a triangle of {region} at {at(triangle[0])} is neither upright "
-                     "nor flat: walls must be along z")
-        for p, q in zip(triangle, triangle[1:] + triangle[:1]):
-            if max(p[2], q[2]) < low + TOUCH and math.dist(p[:2], q[:2]) > TOUCH:
-                segments[frozenset((p[:2], q[:2]))] = (region, p[:2], q[:2])
-    return list(segments.values())
 
 
 def stl_plan(top):
     """The rings of an STL's walls, that about all others first."""
-    file = top.get("stl")
-    scale = top.number("stlScale") if "stlScale" in top else 1.0
-    loops, broken = rings.chain(stl_segments(top, file, scale))
+    outline = top.sub_if("outline")
+    outline.only("patch", "edges")
+    patch = patch_name(outline, outline.get("patch")) if "patch" in outline else None
+    loops, broken = rings.chain(stl.segments(top, patch))
     if broken:
-        top.fail(f"'stl': {file}: its walls are not closed at {at(broken)} (micrometres)")
+        top.fail(f"'stl': its walls are not closed at {at(broken)} (micrometres)")
     if not loops:
-        top.fail(f"'stl': {file} has no upright walls that reach its lowest z")
+        top.fail("'stl': no upright walls reach its lowest z")
     outer = max(loops, key=lambda loop: abs(rings.area(loop[0])))
     loops.remove(outer)
-    return [Ring(f"{file}: outline", *outer, True)] + [
-        Ring(f"{file}: {patches[0]}[{i}]", points, patches, False)
+    plan = [Ring("stl: outline", *outer, True)] + [
+        Ring(f"stl: {patches[0]}[{i}]", points, patches, False)
         for i, (points, patches) in enumerate(loops)
     ]
+    name_edges(outline, plan, "the STL's walls")
+    for ring in plan:
+        for name in ring.patches:
+            patch_name(top, name)
+    return plan
 
 
 def plan_of(top):
     """The outline and the obstacles."""
     if "stl" in top:
-        for key in ("outline", "obstacles"):
-            if key in top:
-                top.fail(f"give either 'stl' or '{key}', not both")
+        for given, key in ((top.sub_if("outline"), "points"), (top, "obstacles")):
+            if key in given:
+                top.fail(f"give either 'stl' or '{given.name}{key}', not both")
         plan = stl_plan(top)
     else:
         plan = [outline_of(top.sub("outline"))] + obstacles_of(top.sub_if("obstacles"))
@@ -171,9 +161,9 @@ def plan_of(top):
             top.fail(f"no edge of the outline is named {kind}; there are: {' '.join(sorted(names))}")
     for ring in plan[1:]:
         for name in ring.patches:
-            if name in names or OPENING.fullmatch(name):
-                top.fail(f"obstacle '{ring.what}': the patch {name} is one of the outline's: "
-                         "another name, not beginning with inlet or outlet")
+            if OPENING.fullmatch(name):
+                top.fail(f"obstacle '{ring.what}': the patch {name} would be an opening: another name, "
+                         "not beginning with inlet or outlet")
     return plan
 
 
@@ -240,7 +230,8 @@ class Mesh:
         self.levels = {name: size_of(mesh, "outline", self.base) for name in outer}
         if inner:
             level = size_of(mesh, "obstacles", self.base)
-            self.levels.update((name, level) for name in inner)
+            # A patch may be of both
+            self.levels.update((name, max(level, self.levels.get(name, 0))) for name in inner)
         special = mesh.sub_if("patches")
         for name in special.entries:
             if name not in self.levels:
@@ -249,11 +240,7 @@ class Mesh:
         given, sizes = top.sub_if("boxes"), mesh.sub_if("boxes")
         self.boxes = {}
         for name in given.entries:
-            one = given.sub(name)
-            one.only("min", "max")
-            low, high = one.point("min"), one.point("max")
-            if not (low[0] < high[0] and low[1] < high[1]):
-                one.fail(f"'{one.name}min' {at(low)} must lie below and left of max {at(high)}")
+            low, high = given.sub(name).corners()
             if name in sizes:
                 self.boxes[name] = low, high, size_of(sizes, name, self.base)
         for name in sizes.entries:
@@ -369,7 +356,7 @@ def make_mask(resolution):
     area = abs(rings.area(plan[0].points)) - sum(abs(rings.area(ring.points)) for ring in plan[1:])
 
     out = Output(PARAMETERS)
-    out.stl(WALLS, walls_of(plan, mesh.base))
+    out.stl(stl.WALLS, walls_of(plan, mesh.base))
     out.entries("mesh", {
         **slab(rings.bounds(plan[0].points), mesh.base),
         "slab": mesh.base,

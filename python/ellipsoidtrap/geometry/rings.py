@@ -53,7 +53,7 @@ def foot(point, start, end):
     """The point of a segment that is nearest to a point."""
     (x, y), (x0, y0), (x1, y1) = point, start, end
     dx, dy = x1 - x0, y1 - y0
-    s = ((x - x0)*dx + (y - y0)*dy)/(dx*dx + dy*dy)
+    s = ((x - x0)*dx + (y - y0)*dy)/(dx*dx + dy*dy or 1)
     s = min(max(s, 0), 1)
     return x0 + s*dx, y0 + s*dy
 
@@ -70,6 +70,16 @@ def nearest(a, b, c, d):
         return 0.0, x, x
     pairs = [(p, foot(p, c, d)) for p in (a, b)] + [(foot(p, a, b), p) for p in (c, d)]
     return min((math.dist(p, q), p, q) for p, q in pairs)
+
+
+def divide(ring, point):
+    """Make a point that lies on an edge a corner, if it is none."""
+    for edge in edges(ring):
+        if math.dist(point, foot(point, edge.start, edge.end)) < TOUCH:
+            if min(math.dist(point, edge.start), math.dist(point, edge.end)) > TOUCH:
+                ring.points.insert(edge.index + 1, point)
+                ring.patches.insert(edge.index + 1, ring.patches[edge.index])
+            return
 
 
 def length_between(rings, start, end):

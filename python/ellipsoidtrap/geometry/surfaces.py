@@ -65,8 +65,16 @@ class Output:
 
     @staticmethod
     def stl(name, regions):
-        """A surface: region name to triangles."""
-        with open(f"{SURFACES}/{name}", "w", encoding="ascii") as out:
+        """A surface: region name to triangles. What we have not written gets another name."""
+        file = f"{SURFACES}/{name}"
+        if os.path.exists(file) and not os.path.exists(f"{FRAGMENTS}/chosen"):
+            to, n = file + ".bak", 1
+            while os.path.exists(to):
+                n += 1
+                to = f"{file}.bak{n}"
+            os.rename(file, to)
+            print(f"keeping {os.path.abspath(file)} as {os.path.basename(to)}")
+        with open(file, "w", encoding="ascii") as out:
             for region, triangles in regions.items():
                 out.write(f"solid {region}\n")
                 for triangle in triangles:

@@ -11,12 +11,9 @@ import warnings
 
 import numpy as np
 
+from .. import CaseError
 from ..geometry import foamDictionary
 from ..geometry.foamDictionary import spelled, without_comments  # noqa: F401  (others take them from here)
-
-
-class CaseError(Exception):
-    """An input is missing or malformed; the text names the file."""
 
 
 def read_text(file):

@@ -16,7 +16,6 @@ With --into FILE the table is written into a file, between the lines '<!-- state
 import argparse
 import itertools
 import re
-import sys
 from math import exp, factorial, log, sqrt
 
 import numpy as np
@@ -294,16 +293,12 @@ def command(words):
     parser.add_argument("--members", nargs="+", default=(), metavar="CASE")
     parser.add_argument("--into", metavar="FILE")
     given = parser.parse_args(words)
-    try:
-        case = Case(given.case)
-        if not (case.chamber and set(NAMED) <= set(case.sieves)):
-            raise CaseError(f"{given.case}: the supplement is of a circular trap with the sieves S1 to S8")
-        page = marked(given.into) if given.into else ""
-        text = table(case, [Case(one) for one in given.members])
-        if given.into:
-            put_into(given.into, page, text)
-        else:
-            print(text, end="")
-    except CaseError as error:
-        sys.exit(f"statements: {error}")
-
+    case = Case(given.case)
+    if not (case.chamber and set(NAMED) <= set(case.sieves)):
+        raise CaseError(f"{given.case}: the supplement is of a circular trap with the sieves S1 to S8")
+    page = marked(given.into) if given.into else ""
+    text = table(case, [Case(one) for one in given.members])
+    if given.into:
+        put_into(given.into, page, text)
+    else:
+        print(text, end="")

@@ -17,7 +17,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from . import style  # the look, by being read
-from .files import CaseError, not_formula, read_csv
+from .files import not_formula, read_csv
 from .shares import mcnemar, wilson
 
 RESULTS = ("postProcessing", "ellipsoidCloud", "0")
@@ -266,7 +266,4 @@ def command(words):
     """The command."""
     if len(words) != 1:
         sys.exit(__doc__)
-    try:
-        main(words[0])
-    except CaseError as problem:
-        sys.exit(f"sweep: {problem}")
+    main(words[0])

@@ -7,8 +7,10 @@
 #include "checkedEntries.H"
 #include "caseSummary.H"
 #include "cellPopulation.H"
+#include "checkedEntries.H"
 #include "ellipsoidCloud.H"
 #include "masterGate.H"
+#include "meshSearch.H"
 #include "Time.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -111,6 +113,31 @@ void Foam::functionObjects::ellipsoidTracking::check(const fvMesh& mesh) const
     const caseProperties properties(mesh);
     const cellPopulation population(properties);
     const label nMeshCells = returnReduce(mesh.nCells(), sumOp<label>());
+
+    // Whether walls leave listed cells room is known with the flow
+    const meshSearch search(mesh);
+    for (const entry& e : properties.section("injection"))
+    {
+        const pointField listed
+        (
+            e.isDict()
+          ? e.dict().getOrDefault<pointField>("positions", pointField())
+          : pointField()
+        );
+        for (const point& x : listed)
+        {
+            if (!returnReduce(search.findCell(x) >= 0, orOp<bool>()))
+            {
+                const masterGate once;
+                FatalIOErrorInFunction(e.dict())
+                    << "positions of injection " << e.keyword() << ": "
+                    << shortText(x).c_str() << " lies outside the mesh, which"
+                    << " reaches from " << shortText(mesh.bounds().min()).c_str()
+                    << " to " << shortText(mesh.bounds().max()).c_str() << " m"
+                    << exit(FatalIOError);
+            }
+        }
+    }
 
     const masterGate once;
     if (Pstream::master())
