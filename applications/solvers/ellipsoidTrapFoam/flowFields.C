@@ -182,7 +182,7 @@ void Foam::flowFields::nameParts(const fileName& path)
     OStringStream os;
     written.write(os, false);
     IOobject::writeEndDivider(os);
-    atomicWrite(digestsFile(path), os.str());
+    durableWrite(digestsFile(path), os.str());
 
     meet();
     rm(checkpoint::unfinishedFlow(path));
@@ -458,7 +458,7 @@ void Foam::flowFields::write()
         }
         // What was read stays until all ranks have come so far
         meet();
-        atomicWrite(unfinished, wholeParts);
+        durableWrite(unfinished, wholeParts);
     }
     else if (hasFlux_)
     {

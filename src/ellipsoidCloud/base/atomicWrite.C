@@ -164,6 +164,19 @@ void Foam::atomicWrite
 }
 
 
+void Foam::durableWrite
+(
+    const fileName& file,
+    const std::string& text,
+    const IOstream::compressionType compression
+)
+{
+    writePart(file, text, compression);
+    toDisk(partOf(file));
+    renamePart(file);
+}
+
+
 void Foam::atomicWrite(regIOobject& object, const bool valid)
 {
     if (fileHandler().type() == "uncollated")

@@ -4,6 +4,7 @@
 #include "checkedEntries.H"
 #include "atomicWrite.H"
 #include "dimensionedTypes.H"
+#include "foamVersions.H"
 #include "IFstream.H"
 #include "masterGate.H"
 
@@ -36,7 +37,7 @@ static std::string fileTextOf(const dictionary& dict)
 static string complaintOf(const std::function<void()>& act)
 {
     string complaint;
-    const bool throwing = FatalError.throwExceptions();
+    const bool throwing = throwErrors(FatalError, true);
     try
     {
         act();
@@ -47,7 +48,7 @@ static string complaintOf(const std::function<void()>& act)
     {
         complaint = error.message();
     }
-    FatalError.throwExceptions(throwing);
+    throwErrors(FatalError, throwing);
 
     return complaint;
 }
@@ -117,7 +118,7 @@ Foam::wordRes Foam::patternsOf(const dictionary& dict, const word& keyword)
 void Foam::checkPatterns(const std::string& text, const fileName& file)
 {
     // What else is wrong is told where the file is read
-    const bool throwing = FatalIOError.throwExceptions();
+    const bool throwing = throwErrors(FatalIOError, true);
     const string complaint
     (
         complaintOf
@@ -130,7 +131,7 @@ void Foam::checkPatterns(const std::string& text, const fileName& file)
             }
         )
     );
-    FatalIOError.throwExceptions(throwing);
+    throwErrors(FatalIOError, throwing);
 
     const masterGate once;
     if (!complaint.empty())

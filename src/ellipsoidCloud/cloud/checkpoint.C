@@ -496,12 +496,11 @@ void Foam::checkpoint::end(const Time& time, const std::string& text)
     if (Pstream::master())
     {
         const fileName path(time.path()/time.timeName());
-        const fileName file
+        durableWrite
         (
-            (sharedFiles() ? sharedTime(path) : path)/stateFile
+            (sharedFiles() ? sharedTime(path) : path)/stateFile,
+            text + digestEntry(text),
+            time.writeCompression()
         );
-        writePart(file, text + digestEntry(text), time.writeCompression());
-        toDisk(partOf(file));
-        renamePart(file);
     }
 }

@@ -17,7 +17,7 @@
 namespace Foam
 {
     //- The fields of a line
-    typedef SubStrings<std::string> csvLine;
+    typedef decltype(stringOps::split(std::string(), ',')) csvLine;
 
     static label idOf(const csvLine& line)
     {
