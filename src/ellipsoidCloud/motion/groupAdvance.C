@@ -144,7 +144,7 @@ struct Foam::groupAdvance::member
             }
 
             meshFlow::probe at(here.home);
-            meshFlow::tetCoordinates c;
+            tetCoordinates c;
             if (!domain.flow.reach(state.centre(), at, c))
             {
                 state.imbalance = 1;
