@@ -376,6 +376,44 @@ Foam::vector Foam::meshFlow::velocity
 }
 
 
+Foam::vector Foam::meshFlow::velocityIn
+(
+    const label celli,
+    const point& x,
+    probe& at,
+    tetCoordinates& c
+) const
+{
+    if (at.tet < 0 || cell(at) != celli)
+    {
+        at.tet = cellTets_[celli];
+    }
+    if (reach(x, at, c))
+    {
+        return velocity(0, c);
+    }
+
+    // The way from one tetrahedron of a mesh cell that is not convex may meet a
+    // wall where that from another does not
+    locationType location = pBeyondWall;
+    for
+    (
+        label teti = cellTets_[celli];
+        location == pBeyondWall && teti < cellTets_[celli + 1];
+        ++teti
+    )
+    {
+        at.tet = teti;
+        location = walk(x, at, c);
+    }
+    if (location == pBeyondWall)
+    {
+        toFace(c.weight);
+    }
+    return velocity(0, c);
+}
+
+
 Foam::vector Foam::meshFlow::field
 (
     const tetCoordinates& c,

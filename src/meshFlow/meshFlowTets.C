@@ -3,7 +3,7 @@
 
 /*---------------------------------------------------------------------------*\
 Description
-    The tetrahedra of the frozen flow and their vertices, made on the master.
+    The tetrahedra of the flow and their vertices, made on the master.
 
 \*---------------------------------------------------------------------------*/
 #include "meshFlow.H"

@@ -3,7 +3,7 @@
 
 /*---------------------------------------------------------------------------*\
 Description
-    Values at the vertices of the frozen flow, on the master from the
+    Values at the vertices of the flow, on the master from the
     undecomposed fields.
 
 \*---------------------------------------------------------------------------*/
@@ -320,7 +320,10 @@ void Foam::meshFlow::setFlow
     const vertexPlaces places{apexes, images_, baffles};
     const pointImages images(undecomposed.mesh(), images_);
     checkFinite(undecomposed.U());
-    checkFinite(undecomposed.p());
+    if (undecomposed.hasPressure())
+    {
+        checkFinite(undecomposed.p());
+    }
 
     if (pressure_)
     {

@@ -328,7 +328,7 @@ const Foam::tetFlow& Foam::meshFlow::flowIn
 }
 
 
-const Foam::meshFlow::linearFlow& Foam::meshFlow::linearIn
+const Foam::linearFlow& Foam::meshFlow::linearIn
 (
     const flowValues& values,
     tetCoordinates& c

@@ -49,7 +49,7 @@ SourceFiles
 #include "commit.H"
 #include "ellipsoidProperties.H"
 #include "masterGate.H"
-#include "tetDecomposition.H"
+#include "checkCells.H"
 
 #include <cerrno>
 #include <fcntl.h>

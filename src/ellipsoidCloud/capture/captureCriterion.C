@@ -228,7 +228,7 @@ void Foam::captureCriterion::ended
     }
 
     meshFlow::probe at{state.tet, -1};
-    meshFlow::tetCoordinates c;
+    tetCoordinates c;
     if (!domain.flow.reach(state.centre(), at, c))
     {
         state.imbalance = 1;

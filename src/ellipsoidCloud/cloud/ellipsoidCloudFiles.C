@@ -45,7 +45,7 @@ void Foam::ellipsoidCloud::makeTables()
         folder,
         domainImages::any(mesh_.boundaryMesh(), properties_.unreached()),
         tables,
-        mesh_.time(),
+        [this]() { return checkpoint::wayBack(mesh_.time()); },
         min
         (
             mesh_.time().deltaTValue(),

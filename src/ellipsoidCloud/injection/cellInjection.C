@@ -335,7 +335,7 @@ void Foam::cellInjection::wait
     cell.patch = -1;
 
     meshFlow::probe at{cell.tet, -1};
-    meshFlow::tetCoordinates c;
+    tetCoordinates c;
     const bool there = flow.reach(cell.centre(), at, c);
     Foam::check(cell, there ? ELLIPSOID_OK : ELLIPSOID_FLOW_FAILED);
     std::copy_n(flow.velocity(time, c).v_, 3, cell.body.u);

@@ -3,7 +3,6 @@
 
 #include "appendedFile.H"
 #include "atomicWrite.H"
-#include "checkpoint.H"
 #include "error.H"
 #include "OSspecific.H"
 #include "foamVersions.H"
@@ -66,7 +65,7 @@ Foam::appendedFile::appendedFile
             << "cannot go on with " << name_ << ": its first "
             << int64_t(size_) << " bytes are not what was written" << nl
             << "    Put it back, or:" << nl
-            << "    " << checkpoint::wayBack(set.time).c_str()
+            << "    " << set.wayBack().c_str()
             << exit(FatalError);
     }
 }
@@ -111,7 +110,7 @@ void Foam::appendedFile::flush()
 
 Foam::dictionary Foam::appendedFile::notes()
 {
-    if (Pstream::master())
+    if (file_.is_open())
     {
         toDisk(name_);
     }

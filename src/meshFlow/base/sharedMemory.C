@@ -54,7 +54,7 @@ Foam::sharedMemory::sharedMemory(const std::size_t size)
     if (status != MPI_SUCCESS)
     {
         FatalErrorInFunction
-            << "no shared memory for " << size << " bytes of the frozen flow"
+            << "no shared memory for " << size << " bytes of the flow"
             << nl << "    The node needs this much of memory, and its folder of"
             << " shared memory, /dev/shm unless MPI is told otherwise, as much"
             << " room" << abort(FatalError);

@@ -28,8 +28,9 @@ namespace Foam
             << "patch " << pp.name() << " of "
             << pp.boundaryMesh().mesh().meshDir()/"boundary"
             << " is of type " << pp.type() << ", and " << what << nl
-            << "    " << advice << "; or, if no cell comes there, say so: "
-            << "unreached (" << pp.name() << ");" << exit(FatalError);
+            << "    " << advice << "; or, where that is an entry and nothing"
+            << " comes there, unreached (" << pp.name() << ");"
+            << exit(FatalError);
     }
 }
 
@@ -99,7 +100,7 @@ Foam::domainImages::seam Foam::domainImages::translational(const polyPatch& pp)
         (
             pp,
             "its other half is turned against it",
-            "Cells pass where one half is the other moved along; mesh the whole"
+            "One half has to be the other moved along; mesh the whole"
         );
     }
 

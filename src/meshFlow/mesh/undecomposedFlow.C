@@ -2,6 +2,7 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "undecomposedFlow.H"
+#include "checkCells.H"
 #include "foamVersions.H"
 #include "fromRanks.H"
 #include "processorPolyPatch.H"
@@ -169,9 +170,19 @@ Foam::undecomposedFlow::~undecomposedFlow()
 
 void Foam::undecomposedFlow::gather(const solverFields& flow)
 {
-    U_ = gather(flow.U);
+    gather(flow.U, flow.phi);
     p_ = gather(flow.p);
-    phi_ = gather(flow.phi);
+}
+
+
+void Foam::undecomposedFlow::gather
+(
+    const volVectorField& U,
+    const surfaceScalarField& phi
+)
+{
+    U_ = gather(U);
+    phi_ = gather(phi);
 }
 
 

@@ -7,6 +7,7 @@ Description
 
 \*---------------------------------------------------------------------------*/
 #include "vertexFit.H"
+#include "numberRow.H"
 #include "wallsAtVertices.H"
 #include "symmTensorField.H"
 #include "symmTransform.H"
@@ -25,13 +26,10 @@ namespace Foam
         static const direction nUnknowns = 9;
         static const direction nColumns = 12;
 
-        //- Two numbers that the processor takes at once
-        typedef scalar two __attribute__((vector_size(2*sizeof(scalar))));
-
         //- A row; also a number for each column
         struct row
         {
-            two v[nColumns/2];
+            numberPair v[nColumns/2];
 
             scalar operator[](const direction j) const
             {
@@ -63,9 +61,9 @@ namespace Foam
             (
                 row
                 {{
-                    two{w*d.x(), w*d.y()}, two{w*d.z(), w*dd.xx()/2},
-                    two{w*dd.yy()/2, w*dd.zz()/2}, two{w*dd.xy(), w*dd.xz()},
-                    two{w*dd.yz(), w*du.x()}, two{w*du.y(), w*du.z()}
+                    numberPair{w*d.x(), w*d.y()}, numberPair{w*d.z(), w*dd.xx()/2},
+                    numberPair{w*dd.yy()/2, w*dd.zz()/2}, numberPair{w*dd.xy(), w*dd.xz()},
+                    numberPair{w*dd.yz(), w*du.x()}, numberPair{w*du.y(), w*du.z()}
                 }}
             );
         }
@@ -179,7 +177,7 @@ namespace Foam
             {
                 const row& r = rows_[i];
                 const scalar f = r[along]*inverseNorm;
-                const two by = {f, f};
+                const numberPair by = {f, f};
                 along_[i] = f;
                 for (direction p = first; p < nColumns/2; ++p)
                 {
@@ -191,7 +189,7 @@ namespace Foam
             forAll(rows_, i)
             {
                 row& r = rows_[i];
-                const two by = {along_[i], along_[i]};
+                const numberPair by = {along_[i], along_[i]};
                 for (direction p = first; p < nColumns/2; ++p)
                 {
                     r.v[p] -= parts.v[p]*by;

@@ -12,7 +12,7 @@ Foam::scalar Foam::cellFluxes::take(const flowValues& values)
     of_.setSize(n_);
     conductances_.setSize(n_);
     missing_.setSize(nPairs_);
-    missing_[nPairs_ - 1] = two{0, 0};
+    missing_[nPairs_ - 1] = numberPair{0, 0};
     scalar* missing = numbers(missing_);
     scalar volume = 0;
     scalar net = 0;
@@ -61,7 +61,7 @@ void Foam::cellFluxes::setByCentre
     byCentre_.setSize(nCentre*nPairs_);
     for (direction k = 0; k < nCentre; ++k)
     {
-        byCentre_[(k + 1)*nPairs_ - 1] = two{0, 0};
+        byCentre_[(k + 1)*nPairs_ - 1] = numberPair{0, 0};
     }
     scalar* byCentre = numbers(byCentre_);
     const label stride = 2*nPairs_;
@@ -110,16 +110,16 @@ void Foam::cellFluxes::setColumns(const scalar volume)
 
     for (label j = 0; j < n_; ++j)
     {
-        two factors[nCentre];
+        numberPair factors[nCentre];
         for (direction k = 0; k < nCentre; ++k)
         {
             const scalar factor = byCentre_[k*nPairs_ + j/2][j % 2];
-            factors[k] = two{factor, factor};
+            factors[k] = numberPair{factor, factor};
         }
 
         for (label p = j/2; p < nPairs_; ++p)
         {
-            two sum = {0, 0};
+            numberPair sum = {0, 0};
             for (direction k = 0; k < nCentre; ++k)
             {
                 sum += byCentre_[k*nPairs_ + p]*factors[k];
@@ -157,7 +157,7 @@ void Foam::cellFluxes::solve()
     // Each column is taken from all later ones, and from the right-hand side
     for (label k = 0; k < n_; ++k)
     {
-        two* column = columns_.data() + k*nPairs_;
+        numberPair* column = columns_.data() + k*nPairs_;
         scalar& diagonal = numbers(columns_)[2*k*nPairs_ + k];
         if (!(diagonal > 0))
         {
@@ -168,7 +168,7 @@ void Foam::cellFluxes::solve()
         }
 
         const scalar root = Foam::sqrt(diagonal);
-        const two roots = {root, root};
+        const numberPair roots = {root, root};
         for (label p = k/2; p < nPairs_; ++p)
         {
             column[p] /= roots;
@@ -176,7 +176,7 @@ void Foam::cellFluxes::solve()
         diagonal = root;
 
         x[k] /= root;
-        const two known = {x[k], x[k]};
+        const numberPair known = {x[k], x[k]};
         if (k % 2 == 0)
         {
             x[k + 1] -= column[k/2][1]*x[k];
@@ -188,9 +188,9 @@ void Foam::cellFluxes::solve()
 
         for (label j = k + 1; j < n_; ++j)
         {
-            two* later = columns_.data() + j*nPairs_;
+            numberPair* later = columns_.data() + j*nPairs_;
             const scalar factor = column[j/2][j % 2];
-            const two factors = {factor, factor};
+            const numberPair factors = {factor, factor};
             for (label p = j/2; p < nPairs_; ++p)
             {
                 later[p] -= column[p]*factors;

@@ -161,7 +161,7 @@ class tracer
 
     bool slope(const point& x, vector& u)
     {
-        meshFlow::tetCoordinates c;
+        tetCoordinates c;
         meshFlow::probe at(probe_);
 
         ++nSamples;

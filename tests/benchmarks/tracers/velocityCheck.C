@@ -23,7 +23,7 @@ static bool sampleAt
     tensor* gradient = nullptr
 )
 {
-    meshFlow::tetCoordinates c;
+    tetCoordinates c;
     if (!flow.reach(x, at, c))
     {
         return false;
@@ -272,8 +272,8 @@ void Foam::checkVelocity
     const auto errorOfGradient =
         [&](const point& x, meshFlow::probe at)
         {
-            meshFlow::tetCoordinates c;
-            meshFlow::flowSample sample;
+            tetCoordinates c;
+            flowSample sample;
 
             flow.reach(x, at, c);
             flow.sample(0, c, false, sample);
