@@ -84,6 +84,12 @@ class Case:
         off = ("off", "no", "false", "n", "f", "none")
         return contact.get("cells", "on") in off or contact.get("active", "yes") in off
 
+    @property
+    def blocking(self):
+        """Whether the cells that are held change the flow."""
+        given = self.properties.get("occupancy", {})
+        return given.get("active", "no") in ("on", "yes", "true", "y", "t") and given.get("flow", "solved") == "solved"
+
     @cached_property
     def _of_model(self):
         """constant/modelBand, or nothing."""

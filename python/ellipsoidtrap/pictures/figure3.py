@@ -6,6 +6,7 @@ with its velocity and angular velocity; the paper's Figure 3. --cell is as in fi
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.patches import Rectangle
 
 from . import account
 from . import bodies
@@ -216,6 +217,8 @@ def scale_bar(ax, length=5.0):
     right, low = ax.get_xlim()[1], ax.get_ylim()[0] + 1
     left = right - length - 0.5
     # Walls may run below it
+    low_edge, (x0, x1) = ax.get_ylim()[0], ax.get_xlim()
+    ax.add_patch(Rectangle((x0, low_edge), x1 - x0, 2.6, facecolor="white", edgecolor="none", zorder=2))
     ax.plot((left, left + length), (low, low), color="black", linewidth=2.5, solid_capstyle="butt",
             path_effects=style.framed("white", 10), zorder=3)
     ax.annotate(f"{length:g} µm along $x_1$", (left + length / 2, low), (0, 7),

@@ -109,7 +109,8 @@ def cast(case, sieve, window):
     passing, staying = [], []
     reach = 0.7 * MARGIN
     tracks = {
-        cell: track.until(track.t[0] + 1) for cell, track in case.tracks.items()
+        cell: track for cell, track in
+        ((cell, track.until(track.t[0] + 1)) for cell, track in case.tracks.items())
         if visit(track, window)
     }
     for cell, track in tracks.items():
@@ -275,6 +276,7 @@ def film_of(case, sieve, window, times, actors, caption):
 
     film = Film(frames)
     style.describe(
-        film, f"{caption} Cells: {', '.join(str(cell) for cell, *_ in actors)}.", rows_of(times, actors)
+        film, caption + (f" Cells: {', '.join(str(cell) for cell, *_ in actors)}." if sieve else ""),
+        rows_of(times, actors)
     )
     return film

@@ -55,8 +55,10 @@ POINTS = {"linestyle": "none", "marker": "o", "markersize": 2.6}
 
 
 def whole_numbers(most):
-    """From 1 to so many, in even steps where there are many."""
-    return np.unique(np.linspace(1, most, min(most, MARKS)).round().astype(int))
+    """From 1 to so many, in even ratios where there are many: the peak is at 1/p, wherever that is."""
+    if most <= MARKS:
+        return np.arange(1, most + 1)
+    return np.unique(np.geomspace(1, most, MARKS).round().astype(int))
 
 
 def holders(case):
@@ -110,6 +112,9 @@ def draw(case, members=(), cells=None, precision=0.05, confidence=0.95):
     sieves = cases[0].sieves
     if not sieves:
         raise NotApplicable("the case has no sieves")
+    if not members and case.blocking:
+        raise NotApplicable("held cells block the flow, so that P(exactly one of N) is not that of independent "
+                            "cells: runs of several seeds tell (--members)")
     if not members and not case.independent:
         print(f"probability: not of independent cells: {PUSH}")
     cells = cells or fewest
@@ -145,6 +150,10 @@ def draw(case, members=(), cells=None, precision=0.05, confidence=0.95):
         ax.vlines(marks, *limits[shown].T, color="0.75", linewidth=1.2,
                   label=f"{100 * confidence:g} % interval")
         ax.plot(marks, share[shown], label="P(exactly one)", **POINTS, color="black")
+        # No peak is missed between the marks
+        ax.plot(numbers, share, color="black", linewidth=0.6)
+        if fewest > MARKS:
+            ax.set_xscale("log")
         alone = exactly_one(p, numbers)
         if members:
             ax.plot(marks, alone[shown], label="N independent cells", **POINTS, color=style.VERMILLION,
