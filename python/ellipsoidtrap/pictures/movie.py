@@ -45,11 +45,19 @@ PASSES, STAYS = (style.ORANGE, style.YELLOW), (style.BLUE, style.SKY)
 OPTIONS = {
     "sieve": {"help": "to look at [the one that holds most cells]"},
     "device": {"action": "store_true", "help": "all of it, from the first cell to the end"},
+    "begin": {"type": float, "default": 0.0, "metavar": "T", "help": "of the film of the device [0 s]"},
+    "end": {"type": float, "metavar": "T", "help": "of the film of the device [that of the run]"},
+    "frames": {"type": int, "default": WHOLE, "metavar": "N", "help": f"of the film of the device [{WHOLE}]"},
 }
 
 # Frames from the standard input; even sides, as the format asks for
 ENCODE = "ffmpeg -y -loglevel error -f rawvideo -pix_fmt rgb24 -s {}x{} -r {:g} -i - -c:v libx264 " \
     "-crf 18 -pix_fmt yuv420p -movflags +faststart -bitexact"
+
+
+def smaller(frame):
+    """A frame with two thirds of its lines, where there is nothing but a WebP."""
+    return frame.resize((frame.width * 2 // 3, frame.height * 2 // 3), Image.BOX)
 
 
 class Film:
@@ -67,7 +75,7 @@ class Film:
         if file.endswith(".mp4"):
             self.encode(file)
             return
-        first, *others = self.halves or [frame.reduce(2) for frame in self.frames()]
+        first, *others = self.halves or [smaller(frame) for frame in self.frames()]
         first.save(
             file, save_all=True, append_images=others, duration=FRAME, loop=0,
             quality=QUALITY, method=1,
@@ -193,9 +201,8 @@ def follow(case, shown):
     return times, actors
 
 
-def follow_all(case):
+def follow_all(case, times):
     """The same of all cells at the run's own times."""
-    times = np.linspace(0, case.end_time, WHOLE)
     actors = []
     for cell, track in case.tracks.items():
         fate = case.fates[cell]
@@ -204,7 +211,7 @@ def follow_all(case):
         at = track.at(np.clip(times, track.t[0], track.t[-1]))
         colours = STAYS if fate.name == "caught" else PASSES
         actors.append((cell, there, at, case.semi_axes_of(cell), colours))
-    return times, actors
+    return actors
 
 
 def rows_of(times, actors):
@@ -216,26 +223,43 @@ def rows_of(times, actors):
     ]
 
 
-def draw_device(case):
-    """The film of all cells."""
+def crossing(case):
+    """How long it takes a cell to pass the device, the median of those that did; infinite if none."""
+    spent = [track.t[-1] - track.t[0] for cell, track in case.tracks.items()
+             if case.fates[cell].name == "escaped"]
+    return np.median(spent) if spent else np.inf
+
+
+def draw_device(case, begin, end, frames):
+    """The film of all cells from one time to another."""
+    end = case.end_time if end is None else end
+    if not 0 <= begin < end <= case.end_time:
+        raise CaseError(f"--begin {begin:g} and --end {end:g}: allowed: 0 to {case.end_time:g}, in order")
+    if frames < 2:
+        raise CaseError(f"--frames {frames}: allowed: 2 or more")
     window = tuple((low - 1, high + 1) for low, high in case.plane.bounds)
-    times, actors = follow_all(case)
-    factor = FRAME / (MILLI * times[1])
+    times = np.linspace(begin, end, frames)
+    actors = follow_all(case, times)
+    step, passing = times[1] - times[0], crossing(case)
+    if step > passing / 4:
+        print(f"movie: from frame to frame {step:.3g} s pass, and a cell crosses the device in "
+              f"{passing:.3g} s: give --begin and --end, or more --frames")
+    factor = FRAME / (MILLI * step)
     caption = f"""All cells of the run, true ellipsoids seen from above,
         {factor if factor > 1 else 1 / factor:.3g} times {"slowed down" if factor > 1 else "as fast"}.
         The speed is that of the flow as it was at the start."""
     return film_of(case, None, window, times, actors, " ".join(caption.split()))
 
 
-def draw(case, sieve=None, device=False):
-    """The film."""
+def draw(case, sieve=None, device=False, begin=0.0, end=None, frames=WHOLE):
+    """The film; the times and frames are those of the device's."""
     if not case.sieves:
         raise NotApplicable("the case has no sieves")
     if sieve is not None and sieve not in case.sieves:
         file = case.path("constant", "ellipsoidCloudProperties")
         raise CaseError(f"{file}: no sieve {sieve}")
     if device:
-        return draw_device(case)
+        return draw_device(case, begin, end, frames)
     sieve = sieve or busiest(case)
     low, high = in_view(case, sieve)
     window = tuple(zip(low - MARGIN, high + MARGIN))

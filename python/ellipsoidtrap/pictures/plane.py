@@ -6,8 +6,10 @@
 from functools import cached_property
 
 import numpy as np
+from PIL import Image, ImageDraw
 
 SMOOTH = 50000   # triangles that make a smooth picture
+RASTER = 4000    # pixels along the longer side of where there is fluid
 
 
 class Plane:
@@ -41,6 +43,25 @@ class Plane:
     def polygons(self):
         """List of (k, 2) corner arrays."""
         return np.split(self.points[self.connectivity], self.offsets[1:-1])
+
+    @cached_property
+    def _raster(self):
+        """Where there is fluid, a pixel more about it; its first corner, and pixels for each unit."""
+        low, high = np.transpose(self.bounds)
+        scale = RASTER / (high - low).max()
+        size = np.ceil(scale * (high - low)).astype(int) + 1
+        image = Image.new("1", tuple(size.tolist()))
+        pen = ImageDraw.Draw(image)
+        for polygon in self.polygons:
+            pen.polygon([tuple(corner) for corner in scale * (polygon - low)], fill=1, outline=1)
+        return np.asarray(image), low, scale
+
+    def has_fluid(self, points):
+        """Which of (n, 2) points are in the fluid, to a pixel."""
+        raster, low, scale = self._raster
+        columns, rows = np.round(scale * (points - low)).astype(int).T
+        there = (columns >= 0) & (columns < raster.shape[1]) & (rows >= 0) & (rows < raster.shape[0])
+        return there & raster[rows.clip(0, raster.shape[0] - 1), columns.clip(0, raster.shape[1] - 1)]
 
     @cached_property
     def areas(self):

@@ -10,12 +10,37 @@ from matplotlib.patches import Patch
 from . import style
 
 SHOWN = 100   # tracks of escaped cells at most: more would hide the flow
-FAINT = 0.45  # how much of them is seen
+FEW = 20      # tracks of each other fate that are shown in any case
+FAINT = 0.45  # how much of those that escaped is seen
+PARTS = 6     # of a way between two rows
 
 
-def thinned(cells):
-    """So many of the cells, in even steps; they entered in no order."""
-    return [cells[i * len(cells) // min(SHOWN, len(cells))] for i in range(min(SHOWN, len(cells)))]
+def thinned(cells, most):
+    """So many of the cells at most, in even steps; they entered in no order."""
+    most = min(most, len(cells))
+    return [cells[i * len(cells) // most] for i in range(most)]
+
+
+def shown(cells):
+    """The cells of every fate whose tracks are drawn: where not all that escaped are, the others
+    are so many that the picture does not seem to hold more of them than the device."""
+    escaped = max(len(cells.get("escaped", ())), 1)
+    share = min(SHOWN / escaped, 1)
+    return {
+        fate: thinned(some, SHOWN if fate == "escaped" else max(FEW, round(share * len(some))))
+        for fate, some in cells.items()
+    }
+
+
+def beyond_walls(plane, tracks):
+    """How many tracks lead between two of their rows through what is not fluid at half depth,
+    though both rows are in fluid."""
+    many = 0
+    for track in tracks:
+        rows = plane.has_fluid(track.x[:, :2])
+        between = plane.has_fluid(track.finer(PARTS).x[:-1, :2]).reshape(-1, PARTS)
+        many += bool((rows[:-1] & rows[1:] & ~between.all(axis=1)).any())
+    return many
 
 
 def rows_of(plane, tracks):
@@ -43,19 +68,19 @@ def draw(case):
     figure.colorbar(image, ax=ax, label="speed |u| at\nhalf depth [mm/s]", aspect=35, pad=0.02)
 
     keys, drawn = [], []
-    for fate, line in style.FATE_LINES.items():
-        cells = [
-            cell for cell, one in case.fates.items() if one.name == fate and cell in case.tracks
-        ]
-        if not cells:
-            continue
-        key = style.fate_key(fate, len(cells))
-        if fate == "escaped" and len(cells) > SHOWN:
-            key.set_label(f"escaped ({len(cells)}; {SHOWN} shown)")
-            cells = thinned(cells)
+    of_fate = {
+        fate: [cell for cell, one in case.fates.items() if one.name == fate and cell in case.tracks]
+        for fate in style.FATE_LINES
+    }
+    chosen = shown({fate: cells for fate, cells in of_fate.items() if cells})
+    for fate, cells in chosen.items():
+        line = style.FATE_LINES[fate]
+        key = style.fate_key(fate, len(of_fate[fate]))
+        if len(cells) < len(of_fate[fate]):
+            key.set_label(f"{fate} ({len(of_fate[fate])}; {len(cells)} shown)")
         keys.append(key)
         drawn += [(cell, fate, case.tracks[cell]) for cell in cells]
-        tracks = [case.tracks[cell].finer().x[:, :2] for cell in cells]
+        tracks = [case.tracks[cell].finer(PARTS).x[:, :2] for cell in cells]
         effects = [] if fate == "escaped" else style.framed("white", line["linewidth"] + 0.6)
         ax.add_collection(LineCollection(
             tracks, colors=line["color"], linewidths=line["linewidth"],
@@ -78,7 +103,13 @@ def draw(case):
     keys.append(Patch(facecolor=style.SOLID, edgecolor="black", label="no fluid"))
     # Wider than the plan it would part that from its colour bar
     style.legend_below(ax, keys, most=3 if len(keys) == 3 else 2)
+    sparse = beyond_walls(plane, [track for *_, track in drawn])
+    warning = f"""{sparse} of the {len(drawn)} paths drawn lead through walls: the rows of the tracks
+        are too far apart for this flow (tracks/interval).""" if sparse else ""
+    if sparse:
+        print(f"speedAndTracks: {' '.join(warning.split())}")
     style.describe(figure, f"""Speed of the flow at half depth, and the paths of the cells' centres
-        by fate, of those that escaped {SHOWN} at most; points mark where cells are that have not
-        left. Numbers beside the sieves are the cells that they hold.""", rows_of(plane, drawn))
+        by fate, of those that escaped {SHOWN} at most, and of others no larger a share, but {FEW};
+        points mark where cells are that have not left. Numbers beside the sieves are the cells that
+        they hold. {warning}""", rows_of(plane, drawn))
     return figure
