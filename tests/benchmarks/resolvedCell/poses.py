@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the models make of walls, beside the resolved cell, at poses about the sieve of singleSieve.
+
+usage: poses.py PROGRAM CASE FOLDER [FINENESS]
+    PROGRAM     resolvedCell, built
+    CASE        a singleSieve that has been run, in the environment of OpenFOAM
+    FOLDER      is made; what is run is there
+    FINENESS    of the panels [2]
+
+Prints for every pose the speed of the flow at the centre, the resolved speed over that, and of each
+model how far its velocity is off, over the speed of the flow, and its spin, over the resolved one.
+"""
+
+import csv
+import math
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+
+AXES = (0.5, 2, 0.5)        # um
+DEPTH = 10
+POSTS = (
+    [(-4, -4), (-2, -4), (-2, 0), (-0.4, 0), (-0.4, 1), (-4, 1)],
+    [(4, -4), (4, 1), (0.4, 1), (0.4, 0), (2, 0), (2, -4)],
+)
+CHANNEL = (-12, 12, -30, 30)
+X, Y, Z = (1, 0, 0), (0, 1, 0), (0, 0, 1)
+MODELS = {
+    "none": "", "plane": "wallResistance plane;", "body": "flow body;",
+    "both": "wallResistance plane; flow body;",
+}
+HEADER = "FoamFile { version 2.0; format ascii; class dictionary; object ellipsoidCloudProperties; }\n"
+
+
+def support(axis, normal):
+    """Height of the centre of a cell that touches a plane."""
+    along = np.dot(axis, normal) / np.linalg.norm(axis)
+    return math.sqrt(AXES[0]**2 * (1 - along**2) + AXES[1]**2 * along**2)
+
+
+def quaternion(axis):
+    """That turns the body axis x2 to an axis, not to its reverse."""
+    axis = np.array(axis) / np.linalg.norm(axis)
+    turned = np.append(np.cross(Y, axis), 1 + axis[1])
+    return turned / np.linalg.norm(turned)
+
+
+def rotation(q):
+    """From the body to the lab."""
+    v, w = q[:3], q[3]
+    return (w * w - v @ v) * np.eye(3) + 2 * np.outer(v, v) + 2 * w * np.cross(v, np.eye(3)).T
+
+
+def make_poses():
+    """(name, centre [um], axis)"""
+    poses = []
+    for gap in (0.1, 0.3, 1):
+        oblique, aside = (1, 2, 0), math.sqrt(0.5)
+        poses += [
+            (f"beside the post, along, {gap}", (4 + support(Y, X) + gap, -1.5, 5), Y),
+            (f"beside the post, upright, {gap}", (4 + support(Z, X) + gap, -1.5, 5), Z),
+            (f"beside the post, oblique, {gap}", (4 + support(oblique, X) + gap, -1.5, 5), oblique),
+            (f"before the post, across, {gap}", (3, -4 - support(X, Y) - gap, 5), X),
+            (f"before the post, tip on, {gap}", (3, -4 - support(Y, Y) - gap, 5), Y),
+            (f"corner, across, {gap}", (4 + (0.5 + gap) * aside, -4 - (0.5 + gap) * aside, 5), (1, 1, 0)),
+            (f"corner, tip on, {gap}", (4 + (2 + gap) * aside, -4 - (2 + gap) * aside, 5), (1, -1, 0)),
+            (f"aperture, oblique, {gap}", (0, -0.5 - gap, 5), (1, 0, 1)),
+            (f"aperture, upright, {gap}", (0, -0.5 - gap, 5), Z),
+            (f"in the sieve, along, {gap}", (1.5 - gap, -2.2, 5), Y),
+            (f"floor, along, {gap}", (8, -2, 0.5 + gap), Y),
+            (f"edge of post and floor, {gap}", (4.5 + gap, -1.5, 0.5 + gap), Y),
+        ]
+    return poses + [("in the aperture, 0.1", (0, -1.6, 5), Y), ("far from walls", (8, -12, 5), (1, 1, 1))]
+
+
+def write_walls(file):
+    """The device in few triangles, an STL in um."""
+    x0, x1, y0, y1 = CHANNEL
+    edges = [pair for post in POSTS for pair in zip(post, post[1:] + post[:1])]
+    edges += [((x0, y0), (x0, y1)), ((x1, y0), (x1, y1))]
+    squares = [((*a, 0), (*b, 0), (*b, DEPTH), (*a, DEPTH)) for a, b in edges]
+    squares += [((x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z)) for z in (0, DEPTH)]
+    with open(file, "w", encoding="utf-8") as out:
+        for a, b, c, d in squares:
+            for corners in ((a, b, c), (a, c, d)):
+                out.write("".join("vertex {:g} {:g} {:g}\n".format(*corner) for corner in corners))
+
+
+def run(command, folder):
+    """What a shell command prints."""
+    return subprocess.run(command, shell=True, cwd=folder, check=True, capture_output=True, text=True).stdout
+
+
+def motions(case, folder, poses, forces):
+    """Velocity [m/s] and spin [rad/s, body] of every cell by the program, in its first microsecond."""
+    folder.mkdir()
+    for name in ("constant", "system", "0"):
+        shutil.copytree(case / name, folder / name)
+    cells = "".join(
+        "p{} {{ type positions; positions (({:.9g} {:.9g} {:.9g})); orientation quaternion;"
+        " quaternion ({:.15g} {:.15g} {:.15g} {:.15g}); }}\n".format(
+            n, *(1e-6 * np.array(x)), *quaternion(axis)) for n, (_, x, axis) in enumerate(poses)
+    )
+    (folder / "constant/ellipsoidCloudProperties").write_text(
+        f"{HEADER}motion inertialess;\ninjection {{ {cells} }}\ncontact {{ cells off; }}\n"
+        f"tracks {{ interval 1e-7; minimumMove 1e-12; }}\nforces {{ {forces} }}\n", encoding="utf-8")
+    control = (folder / "system/controlDict").read_text(encoding="utf-8")
+    for name in ("endTime", "deltaT", "writeInterval"):
+        control = re.sub(rf"^{name} .*;", f"{name} 1e-6;", control, flags=re.M)
+    (folder / "system/controlDict").write_text(control, encoding="utf-8")
+    run("ellipsoidTrapFoam -frozenFlow > log.ellipsoidTrapFoam 2>&1", folder)
+    found = {}
+    with open(folder / "postProcessing/ellipsoidCloud/0/tracks.csv", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            if float(row["t"]) > 0:
+                found.setdefault(int(row["id"]), [
+                    np.array([float(row[f"{name}{i}"]) for i in (1, 2, 3)]) for name in ("u", "omega")])
+    return [found[n] for n in range(len(poses))]
+
+
+def resolved(program, folder, poses, fineness):
+    """(velocity, spin, velocity of the flow at the centre) of every cell, resolved."""
+    write_walls(folder / "walls.stl")
+    commands = [
+        " ".join([program, "walls.stl", *map(str, (*AXES, *x, *quaternion(axis), fineness))])
+        for _, x, axis in poses
+    ]
+    panels = [np.array([line.split() for line in run(f"{one} -", folder).splitlines()], float) for one in commands]
+    points = np.concatenate(panels + [np.array([x for _, x, _ in poses])])
+    listed = "\n".join("({:.10g} {:.10g} {:.10g})".format(*point) for point in 1e-6 * points)
+    (folder / "system/samples").write_text(
+        'type sets; libs ("libsampling.so" "libmeshFlow.so"); interpolationScheme divergenceFree;\n'
+        f"setFormat raw; fields (U); sets ( panels {{ type cloud; axis xyz; points ({listed}); }} );\n",
+        encoding="utf-8")
+    run("postProcess -func samples -fields '(U phi)' -time 0 > log.postProcess 2>&1", folder)
+    sampled = np.loadtxt(next(folder.glob("postProcessing/samples/0/*.xy")))
+    assert np.abs(sampled[:, :3] - 1e-6 * points).max() < 1e-11, "not all panels are in the fluid"
+    velocities = np.split(sampled[:, 3:], np.cumsum([len(one) for one in panels]))
+    found = []
+    for n, (_, _, axis) in enumerate(poses):
+        np.savetxt(folder / "flow", np.column_stack((panels[n], velocities[n])), fmt="%.9g")
+        motion = np.array(run(f"{commands[n]} flow", folder).split("free")[1].split(), float)
+        found.append((motion[:3], rotation(quaternion(axis)).T @ motion[3:] * 1e6, velocities[-1][n]))
+    return found
+
+
+def main(program, case, folder, fineness="2"):
+    """The table."""
+    program, case, folder = str(Path(program).resolve()), Path(case), Path(folder)
+    folder.mkdir()
+    poses = make_poses()
+    models = {name: motions(case, folder / name, poses, forces) for name, forces in MODELS.items()}
+    truth = resolved(program, folder / "none", poses, fineness)
+    print("| pose, gap [um] | flow [mm/s] | speed | " + " | ".join(models) + " | spin [rad/s] | " + " | ".join(models) + " |")
+    print("| --- " * (4 + 2 * len(models)) + "|")
+    errors = []
+    for n, (name, _, _) in enumerate(poses):
+        u, omega, flow = truth[n]
+        speed, spin = np.linalg.norm(flow), np.linalg.norm(omega)
+        off = [np.linalg.norm(one[n][0] - u) / speed for one in models.values()]
+        turned = [np.linalg.norm(one[n][1] - omega) / spin for one in models.values()]
+        errors.append(off + turned)
+        print(f"| {name} | {1e3 * speed:.2f} | {np.linalg.norm(u) / speed:.3f} | " + " | ".join(f"{e:.3f}" for e in off)
+              + f" | {spin:.3g} | " + " | ".join(f"{e:.3f}" for e in turned) + " |")
+    for name, of in (("median", 0.5), ("nine of ten below", 0.9), ("worst", 1)):
+        row = np.quantile(errors, of, axis=0)
+        half = len(models)
+        print(f"| **{name}** | | | " + " | ".join(f"{e:.3f}" for e in row[:half]) + " | | "
+              + " | ".join(f"{e:.3f}" for e in row[half:]) + " |")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) not in (4, 5):
+        sys.exit(__doc__.strip())
+    main(*sys.argv[1:])
