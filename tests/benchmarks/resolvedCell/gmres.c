@@ -33,6 +33,9 @@ static void apply(const resolved_cell *p, const double *x, double *y)
     }
 }
 
+/* Of the residual, in parts of b. */
+static const double tolerance = 2e-5;
+
 /* x with matrix x = b by GMRES, preconditioned by the diagonal from the right. */
 int resolved_solve(const resolved_cell *p, const double *b, double *x)
 {
@@ -62,7 +65,7 @@ int resolved_solve(const resolved_cell *p, const double *b, double *x)
     {
         v[i] = b[i] / norm;
     }
-    for (; k < MOST && fabs(g[k]) > 2e-5 * norm; k++)
+    for (; k < MOST && fabs(g[k]) > tolerance * norm; k++)
     {
         double *w = v + (size_t)(k + 1) * n, length = 0;
 
@@ -130,5 +133,5 @@ int resolved_solve(const resolved_cell *p, const double *b, double *x)
     }
     free(v);
     free(z);
-    return k;
+    return fabs(g[k]) > tolerance * norm ? -1 : k;
 }

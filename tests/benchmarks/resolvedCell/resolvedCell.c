@@ -13,9 +13,10 @@
     Usage: resolvedCell WALLS a1 a2 a3 x1 x2 x3 eps1 eps2 eps3 eta FINENESS [FLOW]
     Lengths in um, viscosity 1. WALLS: an ASCII STL of few large triangles,
     `plane` for x3 = 0, or `none`. FLOW: a file with lines `x1 x2 x3 u1 u2 u3`
-    for the points that FLOW `-` prints; without it u = (x3, 0, 0). FINENESS: 2
-    is usual; panels are smaller with it, and the matrix grows as its fourth
-    power. Linear velocities first, angular ones follow, both lab.
+    for the points that FLOW `-` prints; without it u = (x3, 0, 0). FINENESS is
+    that of panels in parts of their usual size, 2 for tables, 1 to check them: the
+    matrix grows as its inverse to the fourth power. Linear velocities come
+    first, angular ones follow, both lab.
 */
 #include "resolvedCell.h"
 
@@ -110,7 +111,14 @@ static int judge(resolved_cell *p, FILE *flow)
             fputs("the flow is not that at the points\n", stderr);
             return 1;
         }
-        steps += resolved_solve(p, b, x);
+        const int taken = resolved_solve(p, b, x);
+
+        if (taken < 0)
+        {
+            fputs("GMRES did not converge\n", stderr);
+            return 1;
+        }
+        steps += taken;
         wrench(p, x, force[mode]);
     }
     printf("# %d panels of the body, %d of walls, %d steps\n", p->body.count,

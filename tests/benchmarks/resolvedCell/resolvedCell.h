@@ -43,7 +43,8 @@ void resolved_project(const resolved_cell *cell, double x[3]);
    of area of each (stokeslets.c). */
 void resolved_matrix_set(resolved_cell *cell);
 
-/* x with matrix x = b; how many steps that took (gmres.c). */
+/* x with matrix x = b; how many steps that took, -1 if they did not converge
+   (gmres.c). */
 int resolved_solve(const resolved_cell *cell, const double *b, double *x);
 
 #endif
