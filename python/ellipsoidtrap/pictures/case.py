@@ -28,6 +28,7 @@ from .shares import PUSHING_DISPERSION, in_words, wilson
 from .track import MICRO, MILLI, Track  # noqa: F401  (others take the units from here)
 
 # That of ellipsoid_options_default() in src/ellipsoid
+OFF = ("off", "no", "false", "n", "f", "none")   # of a switch
 DEFAULT_SEMI_AXES = (0.5e-6, 2e-6, 0.5e-6)
 
 # Fate that an event of events.csv leads to
@@ -81,14 +82,13 @@ class Case:
     def independent(self):
         """Whether its cells do not see one another."""
         contact = self.properties.get("contact", {})
-        off = ("off", "no", "false", "n", "f", "none")
-        return contact.get("cells", "on") in off or contact.get("active", "yes") in off
+        return contact.get("cells", "on") in OFF or contact.get("active", "yes") in OFF
 
     @property
     def blocking(self):
         """Whether the cells that are held change the flow."""
         given = self.properties.get("occupancy", {})
-        return given.get("active", "no") in ("on", "yes", "true", "y", "t") and given.get("flow", "solved") == "solved"
+        return given.get("active", "no") not in OFF and given.get("flow", "solved") == "solved"
 
     @cached_property
     def _of_model(self):

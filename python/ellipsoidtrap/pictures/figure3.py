@@ -214,11 +214,10 @@ def name_times(ax, places, times, taken, width):
 
 def scale_bar(ax, length=5.0):
     """A bar along x, which the view does not foreshorten, in the corner below to the right."""
-    right, low = ax.get_xlim()[1], ax.get_ylim()[0] + 1
-    left = right - length - 0.5
+    (x0, right), edge = ax.get_xlim(), ax.get_ylim()[0]
+    left, low = right - length - 0.5, edge + 1
     # Walls may run below it
-    low_edge, (x0, x1) = ax.get_ylim()[0], ax.get_xlim()
-    ax.add_patch(Rectangle((x0, low_edge), x1 - x0, 2.6, facecolor="white", edgecolor="none", zorder=2))
+    ax.add_patch(Rectangle((x0, edge), right - x0, 2.6, facecolor="white", edgecolor="none", zorder=2))
     ax.plot((left, left + length), (low, low), color="black", linewidth=2.5, solid_capstyle="butt",
             path_effects=style.framed("white", 10), zorder=3)
     ax.annotate(f"{length:g} µm along $x_1$", (left + length / 2, low), (0, 7),

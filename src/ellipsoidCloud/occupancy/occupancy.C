@@ -92,7 +92,6 @@ Foam::occupancy::occupancy
     setting_(from),
     criterion_(criterion),
     set_(set),
-    population_(set.population),
     fluxes_(set, "fluxes", "t,sieve,flux,share,cells", 9)
 {
     const labelList ids(notes.getOrDefault("held", labelList()));
@@ -344,7 +343,7 @@ Foam::List<Foam::heldBody> Foam::occupancy::bodies
                 heldBody
                 {
                     cell.id, cell.patch, cell.centre(), rotationOf(cell.body.q),
-                    pointOf(population_.model(cell.id).options.semi_axes)
+                    pointOf(set_.population.model(cell.id).options.semi_axes)
                 }
             );
         }

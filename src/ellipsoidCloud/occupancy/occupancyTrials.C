@@ -36,15 +36,15 @@ namespace Foam
 bool Foam::occupancy::isNear(const cellState& a, const cellState& b) const
 {
     const scalar horizon =
-        nearGap*population_.properties().options().bead_radius;
+        nearGap*set_.population.properties().options().bead_radius;
 
     return
-        population_.properties().pushing()
+        set_.population.properties().pushing()
      && b.fate != cellState::waiting
      && ellipsoid_cell_gap
         (
-            &population_.model(a.id), a.body.x, a.body.q,
-            &population_.model(b.id), b.body.x, b.body.q,
+            &set_.population.model(a.id), a.body.x, a.body.q,
+            &set_.population.model(b.id), b.body.x, b.body.q,
             horizon
         ) < horizon;
 }
@@ -171,7 +171,7 @@ bool Foam::occupancy::hasBorne(const cellState& cell) const
         return false;
     }
 
-    const scalar arm = longestSemiAxis(population_.model(cell.id).options);
+    const scalar arm = longestSemiAxis(set_.population.model(cell.id).options);
     const heldWrench& now = held_[cell.id];
     const heldWrench& then = *before;
 

@@ -17,10 +17,53 @@ static const double coarsest = 0.4; /* um of panels of the body */
 static const double finest = 0.04;  /* um */
 static const double of_distance = 0.5;
 
-static void add(mesh *m, double v[3][3])
+double resolved_area(double v[3][3])
 {
     double e[2][3], n[3];
+
+    ellipsoid_difference(v[1], v[0], e[0]);
+    ellipsoid_difference(v[2], v[0], e[1]);
+    ellipsoid_cross(e[0], e[1], n);
+    return 0.5 * ellipsoid_length(n);
+}
+
+void resolved_middle(double v[3][3], double middle[3])
+{
+    for (int c = 0; c < 3; c++)
+    {
+        middle[c] = (v[0][c] + v[1][c] + v[2][c]) / 3;
+    }
+}
+
+double resolved_distance(const double a[3], const double b[3])
+{
+    double d[3];
+
+    ellipsoid_difference(a, b, d);
+    return ellipsoid_length(d);
+}
+
+double resolved_longest(double v[3][3], int *edge)
+{
+    double longest = 0;
+
+    for (int i = 0; i < 3; i++)
+    {
+        const double length = resolved_distance(v[i], v[(i + 1) % 3]);
+
+        if (length > longest)
+        {
+            longest = length;
+            *edge = i;
+        }
+    }
+    return longest;
+}
+
+static void add(mesh *m, double v[3][3])
+{
     triangle *t;
+    int edge;
 
     if (m->count == m->room)
     {
@@ -33,52 +76,25 @@ static void add(mesh *m, double v[3][3])
     }
     t = &m->at[m->count++];
     memcpy(t->v, v, sizeof(t->v));
-    t->size = 0;
-    for (int i = 0; i < 3; i++)
-    {
-        double edge = 0;
-
-        for (int c = 0; c < 3; c++)
-        {
-            edge += pow(v[(i + 1) % 3][c] - v[i][c], 2);
-        }
-        t->size = fmax(t->size, sqrt(edge));
-    }
-    for (int c = 0; c < 3; c++)
-    {
-        t->at[c] = t->middle[c] = (v[0][c] + v[1][c] + v[2][c]) / 3;
-        e[0][c] = v[1][c] - v[0][c];
-        e[1][c] = v[2][c] - v[0][c];
-    }
-    n[0] = e[0][1] * e[1][2] - e[0][2] * e[1][1];
-    n[1] = e[0][2] * e[1][0] - e[0][0] * e[1][2];
-    n[2] = e[0][0] * e[1][1] - e[0][1] * e[1][0];
-    t->area = 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-}
-
-double resolved_distance(const double a[3], const double b[3])
-{
-    return sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2)
-                + pow(a[2] - b[2], 2));
+    resolved_middle(v, t->middle);
+    ellipsoid_copy(t->middle, t->at);
+    t->area = resolved_area(v);
+    t->size = resolved_longest(v, &edge);
 }
 
 /* The distance of a point from a triangle (Ericson 2005). */
 static double from_triangle(const triangle *t, const double x[3])
 {
     double e[2][3], d[3], n[3], best = HUGE_VAL;
-    double d00 = 0, d01 = 0, d11 = 0, d20 = 0, d21 = 0;
 
-    for (int c = 0; c < 3; c++)
-    {
-        e[0][c] = t->v[1][c] - t->v[0][c];
-        e[1][c] = t->v[2][c] - t->v[0][c];
-        d[c] = x[c] - t->v[0][c];
-        d00 += e[0][c] * e[0][c];
-        d01 += e[0][c] * e[1][c];
-        d11 += e[1][c] * e[1][c];
-        d20 += d[c] * e[0][c];
-        d21 += d[c] * e[1][c];
-    }
+    ellipsoid_difference(t->v[1], t->v[0], e[0]);
+    ellipsoid_difference(t->v[2], t->v[0], e[1]);
+    ellipsoid_difference(x, t->v[0], d);
+
+    const double d00 = ellipsoid_dot(e[0], e[0]);
+    const double d01 = ellipsoid_dot(e[0], e[1]);
+    const double d11 = ellipsoid_dot(e[1], e[1]);
+    const double d20 = ellipsoid_dot(d, e[0]), d21 = ellipsoid_dot(d, e[1]);
     const double denominator = d00 * d11 - d01 * d01;
     const double v = (d11 * d20 - d01 * d21) / denominator;
     const double w = (d00 * d21 - d01 * d20) / denominator;
@@ -89,29 +105,24 @@ static double from_triangle(const triangle *t, const double x[3])
         {
             n[c] = d[c] - v * e[0][c] - w * e[1][c];
         }
-        return sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        return ellipsoid_length(n);
     }
     for (int i = 0; i < 3; i++)
     {
-        double length = 0, along = 0, squared = 0;
+        const double *from = t->v[i];
+        double edge[3], to[3], part;
 
+        ellipsoid_difference(t->v[(i + 1) % 3], from, edge);
+        ellipsoid_difference(x, from, to);
+        part = ellipsoid_dot(edge, to) / ellipsoid_dot(edge, edge);
+        part = fmin(fmax(part, 0), 1);
         for (int c = 0; c < 3; c++)
         {
-            const double edge = t->v[(i + 1) % 3][c] - t->v[i][c];
-
-            length += edge * edge;
-            along += edge * (x[c] - t->v[i][c]);
+            to[c] -= part * edge[c];
         }
-        along = fmin(fmax(along / length, 0), 1);
-        for (int c = 0; c < 3; c++)
-        {
-            squared += pow(
-                t->v[i][c] + along * (t->v[(i + 1) % 3][c] - t->v[i][c]) - x[c],
-                2);
-        }
-        best = fmin(best, squared);
+        best = fmin(best, ellipsoid_length(to));
     }
-    return sqrt(best);
+    return best;
 }
 
 static double from_mesh(const mesh *m, const double x[3])
@@ -152,20 +163,11 @@ void resolved_project(const resolved_cell *p, double x[3])
 static void refine(const resolved_cell *p, double v[3][3], const mesh *other,
                    int body, mesh *to)
 {
-    double middle[3], most, longest = 0;
+    double middle[3], most;
     int at = 0;
+    const double longest = resolved_longest(v, &at);
 
-    for (int c = 0; c < 3; c++)
-    {
-        middle[c] = (v[0][c] + v[1][c] + v[2][c]) / 3;
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        const double length = resolved_distance(v[i], v[(i + 1) % 3]);
-
-        at = length > longest ? i : at;
-        longest = fmax(longest, length);
-    }
+    resolved_middle(v, middle);
     if (!body && resolved_distance(middle, p->x) - longest > farthest)
     {
         return;

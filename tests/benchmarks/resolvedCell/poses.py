@@ -22,6 +22,9 @@ from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "python"))
+from ellipsoidtrap.pictures.poses import rotation  # noqa: E402
+
 AXES = (0.5, 2, 0.5)        # um
 DEPTH = 10
 POSTS = (
@@ -48,12 +51,6 @@ def quaternion(axis):
     axis = np.array(axis) / np.linalg.norm(axis)
     turned = np.append(np.cross(Y, axis), 1 + axis[1])
     return turned / np.linalg.norm(turned)
-
-
-def rotation(q):
-    """From the body to the lab."""
-    v, w = q[:3], q[3]
-    return (w * w - v @ v) * np.eye(3) + 2 * np.outer(v, v) + 2 * w * np.cross(v, np.eye(3)).T
 
 
 def make_poses():

@@ -8,6 +8,8 @@
 #ifndef RESOLVED_CELL_H
 #define RESOLVED_CELL_H
 
+#include "body/vectors.h"
+
 typedef struct triangle
 {
     double v[3][3];
@@ -35,6 +37,12 @@ typedef struct resolved_cell
 int resolved_cell_set(resolved_cell *cell, const char *walls);
 
 double resolved_distance(const double a[3], const double b[3]);
+
+/* Of a triangle with these corners; the longest edge, which begins at corner
+   `edge` (panels.c). */
+double resolved_area(double v[3][3]);
+void resolved_middle(double v[3][3], double middle[3]);
+double resolved_longest(double v[3][3], int *edge);
 
 /* Puts a point onto the ellipsoid, along the line from the centre. */
 void resolved_project(const resolved_cell *cell, double x[3]);

@@ -28,16 +28,11 @@ static void add_stokeslet(const double d[3], double weight, double g[3][3])
 static void integrate(const resolved_cell *curved, double v[3][3],
                       const double x[3], int depth, double g[3][3])
 {
-    double middle[3], size = 0;
+    double middle[3];
+    int edge;
+    const double size = resolved_longest(v, &edge);
 
-    for (int c = 0; c < 3; c++)
-    {
-        middle[c] = (v[0][c] + v[1][c] + v[2][c]) / 3;
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        size = fmax(size, resolved_distance(v[i], v[(i + 1) % 3]));
-    }
+    resolved_middle(v, middle);
     if (depth < 6 && resolved_distance(middle, x) < 1.7 * size)
     {
         double m[3][3];
@@ -61,17 +56,8 @@ static void integrate(const resolved_cell *curved, double v[3][3],
         integrate(curved, m, x, depth + 1, g);
         return;
     }
-    double e[2][3], n[3], area;
+    const double area = resolved_area(v);
 
-    for (int c = 0; c < 3; c++)
-    {
-        e[0][c] = v[1][c] - v[0][c];
-        e[1][c] = v[2][c] - v[0][c];
-    }
-    n[0] = e[0][1] * e[1][2] - e[0][2] * e[1][1];
-    n[1] = e[0][2] * e[1][0] - e[0][0] * e[1][2];
-    n[2] = e[0][0] * e[1][1] - e[0][1] * e[1][0];
-    area = 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++) /* of second degree */
     {
         double d[3], y[3];
