@@ -6,7 +6,6 @@
 #include "checkedEntries.H"
 #include "checkFinite.H"
 #include "dictionary.H"
-#include "fileOperation.H"
 #include "fvcFlux.H"
 #include "fvcSurfaceIntegrate.H"
 #include "fvMesh.H"
@@ -14,11 +13,6 @@
 #include "masterGate.H"
 #include "processorCyclicFvPatchField.H"
 #include "PstreamReduceOps.H"
-#include "SHA1.H"
-#include "StringStream.H"
-#include "Time.H"
-#include "atomicWrite.H"
-#include "checkpoint.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -30,43 +24,11 @@ Foam::flowFields::solveTypeNames_
     { solveType::AUTO, "auto" }
 });
 
-const Foam::wordList Foam::flowFields::names_({"phi", "p", "U"});
-
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
-    //- In the file of an unfinished flow: what is left to do is to rename
-    static const std::string wholeParts
-    (
-        "The flow is all written, in the files NAME.part\n"
-    );
-
-    //- All ranks have come so far
-    static void meet()
-    {
-        returnReduce(true, andOp<bool>());
-    }
-
-    //- What names the files of a time that this class has written
-    static fileName digestsFile(const fileName& path)
-    {
-        return path/"uniform"/"steadyFlow";
-    }
-
-    //- What that says
-    static dictionary digestsOf(const fileName& path)
-    {
-        IStringStream is(textOf(digestsFile(path)));
-        return dictionary(is);
-    }
-
-    static string digest(const fileName& file)
-    {
-        return SHA1(textOf(file)).str();
-    }
-
     //- Set a field at cyclic patches that are divided between ranks, where
     //  decomposePar does not write the values of the other side
     template<class Type>
@@ -130,65 +92,6 @@ Foam::IOobject Foam::flowFields::fieldIO
 }
 
 
-bool Foam::flowFields::isOwn(const fileName& path, const word& name)
-{
-    return digestsOf(path).getOrDefault<string>(name, "") == digest(path/name);
-}
-
-
-void Foam::flowFields::setAside(const fileName& path, const word& name)
-{
-    const fileName plain(path/name);
-    const fileName file(plain + (isFile(plain, false) ? "" : ".gz"));
-    const std::string text(textOf(plain));
-
-    if
-    (
-        text.empty()
-     || isOwn(path, name)
-     || text == textOf(path.path()/"0.orig"/name)
-    )
-    {
-        return;
-    }
-    if (!mvBak(file, "bak"))
-    {
-        cannotWrite(file);
-    }
-    Info<< "flow: " << (path.name()/name).c_str()
-        << " as it was read is kept as " << name << ".bak" << endl;
-}
-
-
-void Foam::flowFields::nameParts(const fileName& path)
-{
-    dictionary written;
-    written.set("ranks", Pstream::nProcs());
-
-    for (const word& name : names_)
-    {
-        if (isFile(partOf(path/name)))
-        {
-            setAside(path, name);
-            renamePart(path/name);
-        }
-        written.set(name, digest(path/name));
-    }
-    // decomposePar links the folder of the whole case
-    if ((path/"uniform").type(false) == fileName::LINK)
-    {
-        rm(path/"uniform");
-    }
-    OStringStream os;
-    written.write(os, false);
-    IOobject::writeEndDivider(os);
-    durableWrite(digestsFile(path), os.str());
-
-    meet();
-    rm(checkpoint::unfinishedFlow(path));
-}
-
-
 void Foam::flowFields::check() const
 {
     checkDimensions(U_, dimVelocity, ": a velocity in m/s");
@@ -207,41 +110,6 @@ void Foam::flowFields::check() const
     checkFinite(U_, mesh_.C(), "mesh cell");
     checkFinite(p_, mesh_.C(), "mesh cell");
     checkFinite(phi_, mesh_.Cf(), "mesh face");
-}
-
-
-// * * * * * * * * * * * *  Protected Member Functions * * * * * * * * * * * //
-
-bool Foam::flowFields::unfinished() const
-{
-    const fileName path(mesh_.time().path()/instance_);
-
-    return returnReduce
-    (
-        isFile(checkpoint::unfinishedFlow(path)), orOp<bool>()
-    );
-}
-
-
-bool Foam::flowFields::foreign() const
-{
-    // Digests that decomposePar links or reconstructPar copies are of the files
-    // that it started from; U and p may have been edited, their boundary
-    // conditions
-    const fileName path(mesh_.time().path()/instance_);
-    const bool copied =
-        (path/"uniform").type(false) == fileName::LINK
-     || (
-            isFile(digestsFile(path))
-         && digestsOf(path).getOrDefault<label>("ranks", 0)
-         != Pstream::nProcs()
-        );
-
-    return returnReduce
-    (
-        hasFlux_ && !unfinished() && !copied && !isOwn(path, phi_.name()),
-        orOp<bool>()
-    );
 }
 
 
@@ -419,68 +287,6 @@ void Foam::flowFields::checkPatches() const
                 << " system/fvSolution)" << exit(FatalError);
         }
     }
-}
-
-
-void Foam::flowFields::finishWriting(const Time& time)
-{
-    const fileName path(time.path()/time.timeName());
-    const bool whole = textOf(checkpoint::unfinishedFlow(path)) == wholeParts;
-
-    if (returnReduce(whole, orOp<bool>()))
-    {
-        Info<< "flow: the files of " << time.timeName() << ", all written when"
-            << " a run was interrupted, get their names" << endl;
-        nameParts(path);
-        return;
-    }
-    for (const word& name : names_)
-    {
-        rm(partOf(path/name));
-    }
-}
-
-
-void Foam::flowFields::write()
-{
-    const word& instance = mesh_.time().timeName();
-    const fileName path(mesh_.time().path()/instance);
-    const fileName unfinished(checkpoint::unfinishedFlow(path));
-
-    if (fileHandler().type() == "uncollated")
-    {
-        writePart(phi_);
-        writePart(p_);
-        writePart(U_);
-        for (const word& name : names_)
-        {
-            toDisk(partOf(path/name));
-        }
-        // What was read stays until all ranks have come so far
-        meet();
-        durableWrite(unfinished, wholeParts);
-    }
-    else if (hasFlux_)
-    {
-        FatalErrorInFunction
-            << "A flow in files that ranks share cannot be kept beside the new"
-            << " one: move U, p and phi of " << instance << " elsewhere, or"
-            << " solve with -fileHandler uncollated" << exit(FatalError);
-    }
-    else
-    {
-        for (const word& name : names_)
-        {
-            setAside(path, name);
-        }
-        atomicWrite(unfinished, "Not all of the flow is written\n");
-        atomicWrite(phi_);
-        atomicWrite(p_);
-        atomicWrite(U_);
-    }
-    nameParts(path);
-
-    Info<< "flow: written to " << instance << endl;
 }
 
 

@@ -11,7 +11,9 @@ Description
 
 \*---------------------------------------------------------------------------*/
 #include "flowFields.C"
+#include "flowFieldsFiles.C"
 #include "occupiedFlow.C"
 #include "solidBodies.C"
 #include "steadyFlow.C"
+#include "steadyFlowChecks.C"
 #include "ellipsoidTrapFoam.C"

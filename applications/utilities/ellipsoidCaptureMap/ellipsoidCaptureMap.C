@@ -37,7 +37,7 @@ SourceFiles
 #include "caseSummary.H"
 #include "masterGate.H"
 #include "checkpoint.H"
-#include "ellipsoid.h"
+#include "ellipsoidCore.H"
 #include "surfaceFields.H"
 #include "undecomposedFlow.H"
 #include "volFields.H"

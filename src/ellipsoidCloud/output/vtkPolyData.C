@@ -2,7 +2,7 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "vtkPolyData.H"
-#include "ellipsoid.h"
+#include "ellipsoidCore.H"
 
 // * * * * * * * * * * * * * * * Global Constants  * * * * * * * * * * * * * //
 

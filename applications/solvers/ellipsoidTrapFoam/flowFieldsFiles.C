@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
+
+#include "flowFields.H"
+#include "atomicWrite.H"
+#include "checkpoint.H"
+#include "dictionary.H"
+#include "fileOperation.H"
+#include "fvMesh.H"
+#include "PstreamReduceOps.H"
+#include "SHA1.H"
+#include "StringStream.H"
+#include "Time.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::wordList Foam::flowFields::names_({"phi", "p", "U"});
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- In the file of an unfinished flow: what is left to do is to rename
+    static const std::string wholeParts
+    (
+        "The flow is all written, in the files NAME.part\n"
+    );
+
+    //- All ranks have come so far
+    static void meet()
+    {
+        returnReduce(true, andOp<bool>());
+    }
+
+    //- What names the files of a time that this class has written
+    static fileName digestsFile(const fileName& path)
+    {
+        return path/"uniform"/"steadyFlow";
+    }
+
+    //- What that says
+    static dictionary digestsOf(const fileName& path)
+    {
+        IStringStream is(textOf(digestsFile(path)));
+        return dictionary(is);
+    }
+
+    static string digest(const fileName& file)
+    {
+        return SHA1(textOf(file)).str();
+    }
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+bool Foam::flowFields::isOwn(const fileName& path, const word& name)
+{
+    return digestsOf(path).getOrDefault<string>(name, "") == digest(path/name);
+}
+
+
+void Foam::flowFields::setAside(const fileName& path, const word& name)
+{
+    const fileName plain(path/name);
+    const fileName file(plain + (isFile(plain, false) ? "" : ".gz"));
+    const std::string text(textOf(plain));
+
+    if
+    (
+        text.empty()
+     || isOwn(path, name)
+     || text == textOf(path.path()/"0.orig"/name)
+    )
+    {
+        return;
+    }
+    if (!mvBak(file, "bak"))
+    {
+        cannotWrite(file);
+    }
+    Info<< "flow: " << (path.name()/name).c_str()
+        << " as it was read is kept as " << name << ".bak" << endl;
+}
+
+
+void Foam::flowFields::nameParts(const fileName& path)
+{
+    dictionary written;
+    written.set("ranks", Pstream::nProcs());
+
+    for (const word& name : names_)
+    {
+        if (isFile(partOf(path/name)))
+        {
+            setAside(path, name);
+            renamePart(path/name);
+        }
+        written.set(name, digest(path/name));
+    }
+    // decomposePar links the folder of the whole case
+    if ((path/"uniform").type(false) == fileName::LINK)
+    {
+        rm(path/"uniform");
+    }
+    OStringStream os;
+    written.write(os, false);
+    IOobject::writeEndDivider(os);
+    durableWrite(digestsFile(path), os.str());
+
+    meet();
+    rm(checkpoint::unfinishedFlow(path));
+}
+
+
+// * * * * * * * * * * * *  Protected Member Functions * * * * * * * * * * * //
+
+bool Foam::flowFields::unfinished() const
+{
+    const fileName path(mesh_.time().path()/instance_);
+
+    return returnReduce
+    (
+        isFile(checkpoint::unfinishedFlow(path)), orOp<bool>()
+    );
+}
+
+
+bool Foam::flowFields::foreign() const
+{
+    // Digests that decomposePar links or reconstructPar copies are of the files
+    // that it started from; U and p may have been edited, their boundary
+    // conditions
+    const fileName path(mesh_.time().path()/instance_);
+    const bool copied =
+        (path/"uniform").type(false) == fileName::LINK
+     || (
+            isFile(digestsFile(path))
+         && digestsOf(path).getOrDefault<label>("ranks", 0)
+         != Pstream::nProcs()
+        );
+
+    return returnReduce
+    (
+        hasFlux_ && !unfinished() && !copied && !isOwn(path, phi_.name()),
+        orOp<bool>()
+    );
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::flowFields::finishWriting(const Time& time)
+{
+    const fileName path(time.path()/time.timeName());
+    const bool whole = textOf(checkpoint::unfinishedFlow(path)) == wholeParts;
+
+    if (returnReduce(whole, orOp<bool>()))
+    {
+        Info<< "flow: the files of " << time.timeName() << ", all written when"
+            << " a run was interrupted, get their names" << endl;
+        nameParts(path);
+        return;
+    }
+    for (const word& name : names_)
+    {
+        rm(partOf(path/name));
+    }
+}
+
+
+void Foam::flowFields::write()
+{
+    const word& instance = mesh_.time().timeName();
+    const fileName path(mesh_.time().path()/instance);
+    const fileName unfinished(checkpoint::unfinishedFlow(path));
+
+    if (fileHandler().type() == "uncollated")
+    {
+        writePart(phi_);
+        writePart(p_);
+        writePart(U_);
+        for (const word& name : names_)
+        {
+            toDisk(partOf(path/name));
+        }
+        // What was read stays until all ranks have come so far
+        meet();
+        durableWrite(unfinished, wholeParts);
+    }
+    else if (hasFlux_)
+    {
+        FatalErrorInFunction
+            << "A flow in files that ranks share cannot be kept beside the new"
+            << " one: move U, p and phi of " << instance << " elsewhere, or"
+            << " solve with -fileHandler uncollated" << exit(FatalError);
+    }
+    else
+    {
+        for (const word& name : names_)
+        {
+            setAside(path, name);
+        }
+        atomicWrite(unfinished, "Not all of the flow is written\n");
+        atomicWrite(phi_);
+        atomicWrite(p_);
+        atomicWrite(U_);
+    }
+    nameParts(path);
+
+    Info<< "flow: written to " << instance << endl;
+}

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
+
+#include "steadyFlow.H"
+#include "checkedEntries.H"
+#include "findRefCell.H"
+#include "fvMesh.H"
+#include "inletFlux.H"
+#include "IOdictionary.H"
+#include "jumpCyclicFvPatchField.H"
+#include "masterGate.H"
+#include "PstreamReduceOps.H"
+#include "regionSplit.H"
+#include "Time.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- A dictionary that may be absent; collective
+static dictionary readIfPresent
+(
+    const fvMesh& mesh,
+    const word& name,
+    const fileName& folder
+)
+{
+    IOobject io
+    (
+        name, folder, mesh.time(), IOobject::MUST_READ, IOobject::NO_WRITE, false
+    );
+
+    if (!io.typeHeaderOk<IOdictionary>(true))
+    {
+        return dictionary();
+    }
+    return IOdictionary(io);
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::steadyFlow::checkControls() const
+{
+    const masterGate once;
+
+    // What other solvers read there is in many a case
+    const wordHashSet known
+    ({
+        "coupled", "consistent", "nNonOrthogonalCorrectors", "maxIterations",
+        "residualControl", "fluxTolerance", "fluxWindow",
+        "pRefCell", "pRefPoint", "pRefValue"
+    });
+    const wordHashSet knownElsewhere
+    ({
+        "momentumPredictor", "transonic", "frozenFlow", "nCorrectors",
+        "nOuterCorrectors", "turbOnFinalIterOnly", "pMin", "pMax",
+        "pMinFactor", "pMaxFactor", "rhoMin", "rhoMax"
+    });
+
+    for (const char* field : {"U", "p"})
+    {
+        checkValues
+        (
+            mesh_.solverDict(field), {"solver", "tolerance", "relTol", "maxIter"}
+        );
+    }
+    for (const entry& e : controls_)
+    {
+        if (e.isDict() && e.keyword() != "residualControl")
+        {
+            streamOf(controls_, e.keyword());
+        }
+    }
+
+    wordHashSet unknown(controls_.toc());
+    unknown -= known;
+    unknown -= knownElsewhere;
+    for (const word& name : unknown.toc())
+    {
+        if (isVariable(controls_, name))
+        {
+            unknown.erase(name);
+        }
+    }
+
+    if (unknown.size())
+    {
+        FatalIOErrorInFunction(controls_)
+            << "Unknown entries " << unknown.sortedToc() << nl
+            << "Known are " << known.sortedToc() << exit(FatalIOError);
+    }
+
+    if
+    (
+        controls_.getOrDefault("consistent", true)
+     && !(
+            mesh_.relaxEquation("U")
+         && mesh_.equationRelaxationFactor("U") < 1
+        )
+    )
+    {
+        FatalIOErrorInFunction(mesh_.solutionDict())
+            << "SIMPLEC needs a relaxation factor of the U equation below 1:"
+            << " relaxationFactors { equations { U 0.9; } }"
+            << exit(FatalIOError);
+    }
+}
+
+
+Foam::coupledStokes::settings Foam::steadyFlow::readControls() const
+{
+    checkJumps();
+    checkControls();
+
+    coupledStokes::settings how;
+    const string refusal(coupledStokes::refusal(U_, p_));
+    how.coupled = controls_.getOrDefault("coupled", refusal.empty());
+    how.consistent = controls_.getOrDefault("consistent", how.consistent);
+    {
+        const masterGate once;
+
+        if (how.coupled && !refusal.empty())
+        {
+            FatalIOErrorInFunction(controls_)
+                << "coupled yes does not deal with " << refusal.c_str()
+                << ": set coupled no" << exit(FatalIOError);
+        }
+
+        how.nNonOrthogonalCorrectors = checkedNumber
+        (
+            controls_, "nNonOrthogonalCorrectors", atLeast(0),
+            how.nNonOrthogonalCorrectors
+        );
+        how.maxIterations = checkedNumber
+        (
+            controls_, "maxIterations", atLeast(1), how.maxIterations
+        );
+        how.fluxTolerance = checkedNumber
+        (
+            controls_, "fluxTolerance", above(0), how.fluxTolerance
+        );
+        how.fluxWindow = checkedNumber
+        (
+            controls_, "fluxWindow", atLeast(1), how.fluxWindow
+        );
+        const dictionary& targets = subDictOf(controls_, "residualControl");
+        how.pResidual = checkedNumber(targets, "p", above(0), how.pResidual);
+        how.UResidual = checkedNumber(targets, "U", above(0), how.UResidual);
+    }
+    setRefCell(p_, controls_, how.pRefCell, how.pRefValue);
+
+    return how;
+}
+
+
+void Foam::steadyFlow::checkModels() const
+{
+    for (const word& folder : {mesh_.time().constant(), mesh_.time().system()})
+    {
+        const dictionary sources(readIfPresent(mesh_, "fvOptions", folder));
+        const masterGate once;
+
+        if (sources.size())
+        {
+            FatalErrorInFunction
+                << "The sources of " << folder << "/fvOptions are not solved"
+                << " for. Solve the flow with a solver that does, and take it as"
+                << " it is: -frozenFlow, or flow { solve no; } in"
+                << " system/fvSolution" << exit(FatalError);
+        }
+    }
+
+    const word constant(mesh_.time().constant());
+    const dictionary turbulence
+    (
+        readIfPresent(mesh_, "turbulenceProperties", constant)
+    );
+    const word type
+    (
+        turbulence.getOrDefault<word>("simulationType", "laminar")
+    );
+    const dictionary motion(readIfPresent(mesh_, "dynamicMeshDict", constant));
+    const word moving
+    (
+        motion.getOrDefault<word>("dynamicFvMesh", "staticFvMesh")
+    );
+
+    if (type != "laminar")
+    {
+        WarningInFunction
+            << "The flow is solved without the " << type << " model of "
+            << constant << "/turbulenceProperties: it is laminar" << nl << endl;
+    }
+    if (moving != "staticFvMesh")
+    {
+        WarningInFunction
+            << "The mesh stands still: " << moving << " of " << constant
+            << "/dynamicMeshDict is not read" << nl << endl;
+    }
+}
+
+
+void Foam::steadyFlow::checkRegions() const
+{
+    const regionSplit regions(mesh_);
+    const label n = regions.nRegions();
+    if (n == 1)
+    {
+        return;
+    }
+
+    boolList open(n, false);
+    for (const label patchi : inletFlux::openPatches(mesh_.boundaryMesh()))
+    {
+        for (const label celli : mesh_.boundary()[patchi].faceCells())
+        {
+            open[regions[celli]] = true;
+        }
+    }
+    Pstream::listCombineGather(open, orEqOp<bool>());
+
+    labelList sizes(n, Zero);
+    pointField places(n, point::uniform(GREAT));
+    forAll(regions, celli)
+    {
+        ++sizes[regions[celli]];
+        places[regions[celli]] = mesh_.C()[celli];
+    }
+    Pstream::listCombineGather(sizes, plusEqOp<label>());
+    Pstream::listCombineGather(places, minMagSqrEqOp<point>());
+
+    const masterGate once;
+    const label closed = open.find(false);
+    // Where all are closed, walls drive the flow of each
+    if (Pstream::master() && closed >= 0 && open.found(true))
+    {
+        FatalErrorInFunction
+            << "The mesh is in " << n << " regions, of which "
+            << std::count(open.begin(), open.end(), false)
+            << " are reached by no opening: the first has " << sizes[closed]
+            << " mesh cells, one at " << places[closed] << " m" << nl
+            << "    Remove them (splitMeshRegions -largestOnly, or"
+            << " cellSet and subsetMesh), or give each a patch that the fluid"
+            << " passes" << exit(FatalError);
+    }
+}
+
+
+void Foam::steadyFlow::checkJumps() const
+{
+    const masterGate once;
+
+    for (const fvPatchScalarField& pp : p_.boundaryField())
+    {
+        if
+        (
+            Pstream::parRun() && isA<jumpCyclicFvPatchField<scalar>>(pp)
+        )
+        {
+            FatalErrorInFunction
+                << "p has a jump, " << pp.type() << ", at patch "
+                << pp.patch().name() << ", which decomposePar loses" << nl
+                << "    Solve the flow on one rank, then decomposePar and"
+                << " -frozenFlow" << exit(FatalError);
+        }
+    }
+}
