@@ -52,8 +52,10 @@ class Plane:
         size = np.ceil(scale * (high - low)).astype(int) + 1
         image = Image.new("1", tuple(size.tolist()))
         pen = ImageDraw.Draw(image)
-        for polygon in self.polygons:
-            pen.polygon([tuple(corner) for corner in scale * (polygon - low)], fill=1, outline=1)
+        # In whole pixels neighbours share an edge; what Pillow makes of others depends on its version
+        corners = np.round(scale * (self.points - low)).astype(int)
+        for polygon in np.split(corners[self.connectivity], self.offsets[1:-1]):
+            pen.polygon([tuple(corner) for corner in polygon.tolist()], fill=1, outline=1)
         return np.asarray(image), low, scale
 
     def has_fluid(self, points):
