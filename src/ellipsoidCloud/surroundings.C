@@ -16,5 +16,4 @@ Description
 #include "motion/groupSharing.C"
 #include "motion/overlapGroups.C"
 
-#include "walls/flatMerging.C"
 #include "walls/wallFacets.C"
