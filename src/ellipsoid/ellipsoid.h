@@ -3,7 +3,8 @@
 
 /*
     ellipsoid.h - the public header of the core; statuses, options and model are
-    in ellipsoidModel.h, walls in ellipsoidWalls.h, which come with it.
+    in ellipsoidModel.h, walls in ellipsoidWalls.h, a world of cells in
+    ellipsoidWorld.h, which come with it.
 
     One rigid ellipsoid carried by a given flow and touching given walls:
     thirteen stiff equations (velocity, position, angular velocity,
@@ -466,5 +467,7 @@ double ellipsoid_cell_gap(const ellipsoid_model *a, const double x_a[3],
 #ifdef __cplusplus
 }
 #endif
+
+#include "ellipsoidWorld.h"
 
 #endif

@@ -16,47 +16,6 @@
 
 /* ---------------------------------------------------------------- order */
 
-static int is_before(const ellipsoid_sort_key *a, const ellipsoid_sort_key *b)
-{
-    return a->key < b->key || (a->key == b->key && a->index < b->index);
-}
-
-/* Puts keys[at] where it belongs in the heap below it. */
-static void sift(ellipsoid_sort_key *keys, int at, int count)
-{
-    const ellipsoid_sort_key moved = keys[at];
-    int child;
-
-    while ((child = 2 * at + 1) < count && child > at)
-    {
-        child += child + 1 < count && is_before(&keys[child], &keys[child + 1]);
-        if (!is_before(&moved, &keys[child]))
-        {
-            break;
-        }
-        keys[at] = keys[child];
-        at = child;
-    }
-    keys[at] = moved;
-}
-
-/* A heap: qsort() may allocate. */
-void ellipsoid_sort(ellipsoid_sort_key *keys, int count)
-{
-    for (int at = count / 2 - 1; at >= 0; at--)
-    {
-        sift(keys, at, count);
-    }
-    for (int end = count - 1; end > 0; end--)
-    {
-        const ellipsoid_sort_key largest = keys[0];
-
-        keys[0] = keys[end];
-        keys[end] = largest;
-        sift(keys, 0, end);
-    }
-}
-
 /* Ascending; in place, and quick for the few tens of a list. */
 static void sort_indices(int *index, int count)
 {

@@ -9,7 +9,6 @@
 #include "walls/wallSurface.h"
 
 #include <math.h>
-#include <string.h>
 
 static const ellipsoid_isometry identity;
 
@@ -147,15 +146,6 @@ static double shortest_edge(const ellipsoid_triangles *triangles, int mirror)
     return shortest;
 }
 
-/* A number at least zero, in the order of what it is. */
-static uint64_t key_of(double number)
-{
-    uint64_t bits;
-
-    memcpy(&bits, &number, sizeof bits);
-    return bits;
-}
-
 /* Lets corners that are no farther apart than that [m] be the first point of
    those. Points that are one have one distance to a common centre. */
 static void join_points(double tolerance, ellipsoid_arena scratch,
@@ -177,7 +167,7 @@ static void join_points(double tolerance, ellipsoid_arena scratch,
         ellipsoid_difference(s->point[i], centre, off);
         distance[i] = ellipsoid_length(off);
         same[i] = i;
-        sorted[i] = (ellipsoid_sort_key){key_of(distance[i]), i};
+        sorted[i] = (ellipsoid_sort_key){ellipsoid_sort_key_of(distance[i]), i};
     }
     ellipsoid_sort(sorted, n);
     for (int k = 1; k < n; k++)

@@ -8,46 +8,8 @@
 #ifndef ELLIPSOID_WALL_SURFACE_H
 #define ELLIPSOID_WALL_SURFACE_H
 
+#include "body/arena.h"
 #include "walls/walls.h"
-
-#include <stdint.h>
-
-/* The rest of the caller's memory. */
-typedef struct ellipsoid_arena
-{
-    char *next;
-    size_t left; /* [bytes] */
-} ellipsoid_arena;
-
-/* All pieces begin as malloc() has them. */
-#define ELLIPSOID_ALIGNMENT 16
-
-static inline size_t ellipsoid_aligned(size_t bytes)
-{
-    return (bytes + ELLIPSOID_ALIGNMENT - 1) / ELLIPSOID_ALIGNMENT
-         * ELLIPSOID_ALIGNMENT;
-}
-
-static inline size_t ellipsoid_piece(size_t count, size_t size)
-{
-    return ellipsoid_aligned(count * size);
-}
-
-/* NULL if there is too little. */
-static inline void *ellipsoid_take(ellipsoid_arena *arena, size_t count,
-                                   size_t size)
-{
-    const size_t bytes = ellipsoid_piece(count, size);
-    void *taken = arena->next;
-
-    if (bytes > arena->left)
-    {
-        return NULL;
-    }
-    arena->next += bytes;
-    arena->left -= bytes;
-    return taken;
-}
 
 typedef struct ellipsoid_wall_surface
 {
@@ -89,16 +51,6 @@ void ellipsoid_flat_merge(double longest_edge, ellipsoid_arena scratch,
                           ellipsoid_wall_surface *surface);
 
 /* ---------------------------------------------------------- facetTree.c */
-
-/* A number to sort by, and what it belongs to. */
-typedef struct ellipsoid_sort_key
-{
-    uint64_t key;
-    int index;
-} ellipsoid_sort_key;
-
-/* Ascending, those of one key by index. */
-void ellipsoid_sort(ellipsoid_sort_key *keys, int count);
 
 #define ELLIPSOID_TREE_LEAF 8    /* facets in a leaf */
 #define ELLIPSOID_TREE_FAN 4     /* boxes in a box */

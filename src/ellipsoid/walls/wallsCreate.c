@@ -46,7 +46,7 @@ int ellipsoid_wall_surface_take(ellipsoid_arena *arena, size_t points,
 
 static size_t result_size(size_t count)
 {
-    return ellipsoid_aligned(sizeof(ellipsoid_walls))
+    return ellipsoid_piece(1, sizeof(ellipsoid_walls))
          + ellipsoid_piece(count, sizeof(ellipsoid_facet))
          + ellipsoid_piece(STARS * count, sizeof(double[3]))
          + ellipsoid_facet_tree_size(count);
@@ -102,7 +102,7 @@ size_t ellipsoid_walls_size(const ellipsoid_triangles *triangles,
     if (find_astray(triangles) >= 0)
     {
         /* which one ellipsoid_walls_create() says */
-        return ellipsoid_aligned(sizeof(ellipsoid_walls));
+        return ellipsoid_piece(1, sizeof(ellipsoid_walls));
     }
     ellipsoid_images_count(triangles, options, &points, &count);
     if (3 * count > INT_MAX / 64)
