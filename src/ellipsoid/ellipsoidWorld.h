@@ -16,6 +16,8 @@
 #ifndef ELLIPSOID_WORLD_PUBLIC_H
 #define ELLIPSOID_WORLD_PUBLIC_H
 
+#include "ellipsoid.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
