@@ -7,7 +7,7 @@ and fails. --planted moves one member."""
 
 import sys
 
-from ellipsoidtrap.core import ellipsoid, library
+from ellipsoidtrap.core import ellipsoid, library, walls, world
 from ellipsoidtrap.core.options import Options
 
 # Structs that Python makes itself are mirrored whole; of the others the start
@@ -16,6 +16,9 @@ WHOLE = {
     "ellipsoid_controller": library.Controller, "ellipsoid_statistics": library.Statistics,
     "ellipsoid_surroundings": library.Surroundings, "ellipsoid_member": library.Member,
     "ellipsoid_contact": library.Contact, "ellipsoid_option": library.Option, "ellipsoid_options": Options,
+    "ellipsoid_triangles": walls.Triangles, "ellipsoid_walls_options": walls.WallsOptions,
+    "ellipsoid_walls_context": walls.WallsContext, "ellipsoid_sweep": world.Sweep, "ellipsoid_world_body": world.Body,
+    "ellipsoid_world_bodies": world.Bodies, "ellipsoid_world_cells": world.WorldCells,
 }
 START = {"ellipsoid_model": ellipsoid.ModelStart}
 

@@ -6,5 +6,7 @@
 from .ellipsoid import Ellipsoid
 from .library import CoreError
 from .options import options
+from .walls import Walls
+from .world import World
 
-__all__ = ["CoreError", "Ellipsoid", "options"]
+__all__ = ["CoreError", "Ellipsoid", "Walls", "World", "options"]

@@ -8,7 +8,7 @@ from ctypes import POINTER, Structure, byref, c_double, cast
 
 import numpy as np
 
-from .library import Controller, FlowFunction, Member, State, Statistics, Surroundings, check, core, vector
+from .library import Contact, Controller, FlowFunction, Member, State, Statistics, Surroundings, check, core, vector
 from .options import Options, make
 
 
@@ -83,7 +83,8 @@ class Ellipsoid:
     flow        function of the place x [m] (of x and t [s] if unsteady) that returns the velocity [m/s] and its
                 gradient [1/s], G[i][j] = du_i/dx_j; or None where there is no fluid, so that the step is shortened.
                 Without one the body is in vacuum
-    seed, id    the key of its Brownian motion
+    walls       Walls that it touches
+    seed, id    the key of its Brownian motion; the id names it in a World
     options     any of ellipsoidtrap.core.options(), by name
     """
 
@@ -93,10 +94,10 @@ class Ellipsoid:
     q = state_part(9, 13, "quaternion, scalar last")
 
     def __init__(self, semi_axes=None, *, x=(0, 0, 0), q=(0, 0, 0, 1), u=(0, 0, 0), omega=(0, 0, 0), t=0.0, flow=None,
-                 unsteady=False, seed=0, id=0, **options):  # pylint: disable=redefined-builtin,too-many-arguments
+                 walls=None, unsteady=False, seed=0, id=0, **options):  # pylint: disable=redefined-builtin,too-many-arguments
         if semi_axes is not None:
             options["semi_axes"] = semi_axes
-        self.t = float(t)
+        self.t, self.id, self.walls = float(t), id, walls
         self._model = ctypes.create_string_buffer(core.ellipsoid_model_size())
         check(core.ellipsoid_model_init(self._model, byref(make(options))))
         self.model = ModelStart.from_buffer(self._model)
@@ -107,9 +108,14 @@ class Ellipsoid:
         self._surroundings = Surroundings(unsteady=bool(unsteady), seed=seed, id=id)
         if flow is not None:
             self._surroundings.flow = self._flow.callback
+        self._cache = None
+        if walls is not None:
+            walls.put_around(self._surroundings)
+            self._cache = ctypes.create_string_buffer(core.ellipsoid_facet_cache_size(self._model))
+            core.ellipsoid_facet_cache_clear(self._cache)
         self._member = Member(ctypes.addressof(self._model), ctypes.pointer(self._surroundings),
-                              ctypes.pointer(self._state), ctypes.pointer(self._controller), None, None,
-                              ctypes.pointer(self.statistics))
+                              ctypes.pointer(self._state), ctypes.pointer(self._controller),
+                              self._cache and ctypes.addressof(self._cache), None, ctypes.pointer(self.statistics))
 
     def __repr__(self):
         return f"<Ellipsoid at t = {self.t:g} s, x = {self.x} m, q = {self.q}>"
@@ -119,11 +125,19 @@ class Ellipsoid:
         t = c_double(self.t)
         status = core.ellipsoid_advance(byref(self._member), byref(t), float(end), None)
         self.t = t.value
-        self._finish(status)
+        self.finish(status)
 
     def balance(self):
         """Set u and omega to those with which the drag balances all other forces here."""
-        self._finish(core.ellipsoid_balance(self._model, byref(self._surroundings), byref(self._state), self._member.cache))
+        self.finish(core.ellipsoid_balance(self._model, byref(self._surroundings), byref(self._state), self._cache))
+
+    @property
+    def contact(self):
+        """What the walls do here: ellipsoid_contact, with force [N], gap [m], surface_count and surface, the labels."""
+        found = Contact()
+        self.finish(core.ellipsoid_contact_evaluate(self._model, byref(self._surroundings), byref(self._state), self._cache,
+                                                    byref(found), None))
+        return found
 
     @property
     def rotation(self):
@@ -132,6 +146,17 @@ class Ellipsoid:
         core.ellipsoid_rotation(cast(byref(self._state, State.q.offset), POINTER(c_double)), turned)
         return np.array(turned)
 
-    def _finish(self, status):
+    def parts(self):
+        """The state and what step control remembers: what a World moves."""
+        return self._state, self._controller
+
+    def set_parts(self, state, controller, t):
+        """Take these back from a World."""
+        ctypes.memmove(byref(self._state), byref(state), ctypes.sizeof(State))
+        ctypes.memmove(byref(self._controller), byref(controller), ctypes.sizeof(Controller))
+        self.t = t
+
+    def finish(self, status):
+        """Raise what the flow has raised, or why the core could not go on."""
         self._flow.raise_again()
-        check(status, f" (t = {self.t:g} s, x = {self.x} m)")
+        check(status, f" (cell {self.id}, t = {self.t:g} s, x = {self.x} m)")

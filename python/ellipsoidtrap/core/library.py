@@ -137,6 +137,8 @@ def declare(library):
     library.ellipsoid_facet_cache_size.restype = c_size_t
     library.ellipsoid_advance.argtypes = [POINTER(Member), POINTER(c_double), c_double, c_void_p]
     library.ellipsoid_balance.argtypes = [c_void_p, POINTER(Surroundings), POINTER(State), c_void_p]
+    library.ellipsoid_contact_evaluate.argtypes = [c_void_p, POINTER(Surroundings), POINTER(State), c_void_p,
+                                                   POINTER(Contact), c_void_p]
     return library
 
 
