@@ -3,80 +3,9 @@
 
 /*
     Walls made of triangles: the facets against those of wallMesh.c, which joins
-    them by another method; merging, images and search against what geometry
-    says.
+    them by another method; images and search against what geometry says.
 */
-#include "coreTest.h"
-#include "wallMesh.h"
-
-/* Triangles in memory of the test's, and the walls made of them */
-typedef struct made_walls
-{
-    double (*point)[3];
-    int (*corner)[3];
-    int *label, *mirror;
-    ellipsoid_triangles triangles;
-    ellipsoid_walls_options options;
-    void *memory;
-    ellipsoid_walls *walls;
-    const ellipsoid_facet *facets;
-    int count, which;
-} made_walls;
-
-/* Each triangle of the mesh with three points of its own, as in an STL */
-static made_walls triangles_of(const wall_mesh *mesh)
-{
-    made_walls m = {.which = -1};
-
-    m.point = malloc(3 * mesh->count * sizeof *m.point);
-    m.corner = malloc(mesh->count * sizeof *m.corner);
-    m.label = malloc(mesh->count * sizeof *m.label);
-    m.mirror = calloc(mesh->count, sizeof *m.mirror);
-    for (int f = 0; f < mesh->count; f++)
-    {
-        for (int k = 0; k < 3; k++)
-        {
-            m.corner[f][k] = 3 * f + k;
-            memcpy(m.point[3 * f + k], mesh->facets[f].vertex[k],
-                   sizeof m.point[0]);
-        }
-        m.label[f] = mesh->facets[f].surface;
-    }
-    m.triangles = (ellipsoid_triangles){.point_count = 3 * mesh->count,
-                                        .point = (const double(*)[3])m.point,
-                                        .count = mesh->count,
-                                        .corner = (const int(*)[3])m.corner,
-                                        .label = m.label};
-    m.options.same_point = 1e-9;
-    return m;
-}
-
-static ellipsoid_status create(made_walls *m)
-{
-    const size_t size = ellipsoid_walls_size(&m->triangles, &m->options);
-    ellipsoid_status status;
-
-    assert_true(size > 0);
-    free(m->memory);
-    m->memory = malloc(size);
-    status = ellipsoid_walls_create(m->memory, size, &m->triangles, &m->options,
-                                    &m->walls, &m->which);
-    if (status == ELLIPSOID_OK)
-    {
-        assert_true(ellipsoid_walls_bytes(m->walls) <= size);
-        m->facets = ellipsoid_walls_facets(m->walls, &m->count);
-    }
-    return status;
-}
-
-static void destroy(made_walls *m)
-{
-    free(m->point);
-    free(m->corner);
-    free(m->label);
-    free(m->mirror);
-    free(m->memory);
-}
+#include "wallsTest.h"
 
 static const double *star_of(const ellipsoid_facet *f, int k)
 {
@@ -188,71 +117,6 @@ static void test_is_position_independent(void **state)
     m.walls = copy;
     m.facets = ellipsoid_walls_facets(m.walls, &m.count);
     assert_same_facets(&m, &mesh);
-    destroy(&m);
-    wall_mesh_free(&mesh);
-}
-
-static double area_of(const made_walls *m, int label)
-{
-    double area = 0;
-
-    for (int f = 0; f < m->count; f++)
-    {
-        const ellipsoid_facet *a = &m->facets[f];
-        double u[3], v[3], w[3];
-
-        ellipsoid_difference(a->vertex[1], a->vertex[0], u);
-        ellipsoid_difference(a->vertex[2], a->vertex[0], v);
-        ellipsoid_cross(u, v, w);
-        area += a->surface == label ? 0.5 * ellipsoid_length(w) : 0;
-    }
-    return area;
-}
-
-/* A square of 16 x 16 quads is two triangles, of which none is longer than its
-   diagonal; within labels, each is as large as it was; a long edge is not made
-   where it is not wanted */
-static void test_merges_what_is_flat(void **state)
-{
-    const double origin[3] = {1, 2, 3}, u[3] = {4, 0, 0}, v[3] = {0, 4, 0};
-    wall_mesh mesh;
-    made_walls m;
-
-    (void)state;
-    wall_mesh_init(&mesh);
-    wall_mesh_plane(&mesh, origin, u, v, 16, 16, 2, 0);
-    m = triangles_of(&mesh);
-    m.options.longest_edge = 6;
-    assert_ok(create(&m));
-    assert_int_equal(m.count, 2);
-    assert_near(area_of(&m, 0), 16, 1e-12);
-
-    for (int f = 0; f < m.triangles.count; f++)
-    {
-        m.label[f] = mesh.facets[f].vertex[0][0] + mesh.facets[f].vertex[1][0]
-                       + mesh.facets[f].vertex[2][0]
-                   < 9;
-    }
-    assert_ok(create(&m));
-    assert_int_equal(m.count, 4);
-    assert_near(area_of(&m, 0), 8, 1e-12);
-    assert_near(area_of(&m, 1), 8, 1e-12);
-
-    m.options.longest_edge = 1;
-    assert_ok(create(&m));
-    assert_true(m.count > 32 && m.count < 512);
-    assert_near(area_of(&m, 0) + area_of(&m, 1), 16, 1e-12);
-    for (int f = 0; f < m.count; f++)
-    {
-        for (int k = 0; k < 3; k++)
-        {
-            double along[3];
-
-            ellipsoid_difference(m.facets[f].vertex[k],
-                                 m.facets[f].vertex[(k + 1) % 3], along);
-            assert_true(ellipsoid_length(along) <= 1);
-        }
-    }
     destroy(&m);
     wall_mesh_free(&mesh);
 }
@@ -522,7 +386,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_joins_and_stars),
         cmocka_unit_test(test_is_position_independent),
-        cmocka_unit_test(test_merges_what_is_flat),
         cmocka_unit_test(test_images_of_a_plane),
         cmocka_unit_test(test_planes_of_symmetry),
         cmocka_unit_test(test_search),

@@ -15,7 +15,7 @@ uint64_t ellipsoid_sort_key_of(double number)
 
     number += 0.0; /* no -0 */
     memcpy(&bits, &number, sizeof bits);
-    return bits & sign ? ~bits : bits | sign;
+    return (bits & sign) != 0 ? ~bits : (bits | sign);
 }
 
 static int is_before(const ellipsoid_sort_key *a, const ellipsoid_sort_key *b)

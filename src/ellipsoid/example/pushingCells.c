@@ -62,7 +62,7 @@ int main(void)
     ellipsoid_world_cells cells;
     const double low[3] = {0, 0, 0}, high[3] = {36 * um, 36 * um, 20 * um};
     double point[8][3];
-    int corner[12][3], index[12];
+    int corner[12][3], index[12] = {0};
     const ellipsoid_triangles box = {
         8, (const double(*)[3])point, 12, (const int(*)[3])corner, NULL, NULL};
     const ellipsoid_walls_options as_given = {.same_point = 0};
@@ -83,13 +83,14 @@ int main(void)
     char *caches = malloc(CELLS * ellipsoid_facet_cache_size(&model));
 
     bodies.memory = malloc(ellipsoid_group_size(CELLS));
-    if (status != ELLIPSOID_OK || !walls_memory || !world || !caches
-        || !bodies.memory
-        || ellipsoid_walls_create(walls_memory, walls_size, &box, &as_given,
-                                  &made, NULL)
-               != ELLIPSOID_OK)
+    if (!walls_memory || !world || !caches || !bodies.memory)
     {
-        return 1;
+        status = ELLIPSOID_BAD_ARGUMENT;
+    }
+    if (status == ELLIPSOID_OK)
+    {
+        status = ellipsoid_walls_create(walls_memory, walls_size, &box,
+                                        &as_given, &made, NULL);
     }
 
     ellipsoid_walls_context walls = {made, 12, index};
@@ -97,11 +98,13 @@ int main(void)
                                            .walls = ellipsoid_walls_list,
                                            .walls_context = &walls};
 
-    set_cells(body, &model, &around, caches);
-    ellipsoid_world_cells_set(&cells, &bodies);
+    if (status == ELLIPSOID_OK)
+    {
+        set_cells(body, &model, &around, caches);
+        ellipsoid_world_cells_set(&cells, &bodies);
+    }
     printf("# t[s]  mean height[um]  cells that touch others  deepest[um]  "
            "force of the walls/weight\n");
-    print_cells(0, body);
     for (int n = 0; n < 200 && status == ELLIPSOID_OK; n++)
     {
         status = ellipsoid_world_advance(world, world_size, &cells, 0.1 * n,

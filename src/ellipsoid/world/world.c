@@ -172,7 +172,7 @@ static ellipsoid_status advance_group(ellipsoid_world *world, ellipsoid_span *s,
                                       int group)
 {
     const ellipsoid_world_cells *cells = world->cells;
-    int count, done = 0;
+    int count;
     int *index = take_group(world, s, group, &count);
     double entry;
 
@@ -192,8 +192,9 @@ static ellipsoid_status advance_group(ellipsoid_world *world, ellipsoid_span *s,
     }
     if (!s->in_parts[group])
     {
-        done = cells->advance(cells->context, count, index, s->end,
-                              s->halvings < ELLIPSOID_MOST_HALVINGS);
+        const int done = cells->advance(cells->context, count, index, s->end,
+                                        s->halvings < ELLIPSOID_MOST_HALVINGS);
+
         if (done != 0)
         {
             return done > 0 ? ELLIPSOID_OK : ELLIPSOID_STOPPED;
