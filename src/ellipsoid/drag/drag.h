@@ -116,9 +116,8 @@ typedef struct ellipsoid_plane_values
 {
     double f[ELLIPSOID_PLANE_FUNCTIONS], by_nu[ELLIPSOID_PLANE_FUNCTIONS];
     double by_gap[ELLIPSOID_PLANE_FUNCTIONS];
-    /* with its derivatives: q; c x n over e x n; the velocity along n at c in
-       the shear, over gamma.e */
-    double squeeze[3], arm[3], rate[3];
+    /* with its derivatives: q; c x n over e x n */
+    double squeeze[3], arm[3];
 } ellipsoid_plane_values;
 
 /* One plane and one body. */
@@ -135,14 +134,16 @@ void ellipsoid_plane_effect_set(const ellipsoid_plane_table *own,
                                 ellipsoid_plane_effect *effect);
 
 /*
-    What the plane adds to force [m2/s] and torque [m3/s] over mu on a body that
-    a free one outruns by `rates`, in a flow of which (z - z of the centre)
-    shear [1/s] is a part; all in the body frame, FAR and NEAR apart. change, if
-    not NULL: its derivatives by the components of the normal and the gap.
+    What the plane adds to force [m2/s] and torque [m3/s] over mu on a body of
+    this velocity, u and omega, that a free one outruns by `rates`, in a flow of
+    which (z - z of the centre) shear [1/s] is a part; all in the body frame, FAR
+    and NEAR apart. change, if not NULL: its derivatives by the components of the
+    normal and the gap.
 */
 void ellipsoid_plane_action(const ellipsoid_plane_effect *effect,
-                            const double rates[6], const double shear[3],
-                            double action[2][6], double change[4][2][6]);
+                            const double rates[6], const double velocity[6],
+                            const double shear[3], double action[2][6],
+                            double change[4][2][6]);
 
 /* What the drag near walls depends on besides the pose. */
 typedef struct ellipsoid_near_walls

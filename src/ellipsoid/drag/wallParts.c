@@ -14,6 +14,10 @@
     Phi over the angle along its rim, over 2 pi, and so adds up over facets, is
     the same for any triangulation, and continuous. At r = c, beyond which no
     wall is looked for, Phi = (r^2/(1 + r^2) - k r^2)/N is flat and 1.
+    Where a wall ends the pressure of squeezing does, too, and so it counts by the
+    square of its part: over a half-plane Reynolds' equation gives 0.29, 0.53 and
+    0.84 of the force where the part is 0.5, 0.72 and 0.92, and its square 0.25,
+    0.52 and 0.84.
     Edges between facets of one plane are left out: the angle alone gives 1 if
     the foot is on the wall, else 0, and edges that are no seams the integral of
     Phi - 1.
@@ -278,10 +282,12 @@ static void set_slopes(view *s, const wall *w, int n, const double fade[3],
     for (int m = 0; m < 2; m++)
     {
         const rim *sum = &w->sum[m];
+        const double part = sum->inside + sum->value;
+        const double by = sum_slope(s, &w->seen[m], sum, n, scale[m], shift[m]);
 
         plane->weight_slope[m][n] =
-            (fade[1] * h_n + fade[2] * p_n) * (sum->inside + sum->value)
-            + fade[0] * sum_slope(s, &w->seen[m], sum, n, scale[m], shift[m]);
+            (fade[1] * h_n + fade[2] * p_n) * (m == NEAR ? part * part : part)
+            + fade[0] * (m == NEAR ? 2 * part * by : by);
     }
 }
 
@@ -302,7 +308,9 @@ int ellipsoid_wall_plane(view *s, const wall *w, int slopes,
     ellipsoid_copy(w->seen[FAR].normal, plane->normal);
     for (int m = 0; m < 2; m++)
     {
-        plane->weight[m] = fade[0] * (w->sum[m].inside + w->sum[m].value);
+        const double part = w->sum[m].inside + w->sum[m].value;
+
+        plane->weight[m] = fade[0] * (m == NEAR ? part * part : part);
     }
     for (int n = 0; slopes && n < POSE; n++)
     {
