@@ -86,11 +86,29 @@ enum
     ELLIPSOID_PLANE_NEAR
 };
 
+/* The functions of tilt and gap, and their derivatives by nu and the gap;
+   lengths in equatorial radii. */
+typedef struct ellipsoid_plane_values
+{
+    double f[ELLIPSOID_PLANE_FUNCTIONS], by_nu[ELLIPSOID_PLANE_FUNCTIONS];
+    double by_gap[ELLIPSOID_PLANE_FUNCTIONS];
+    /* with its derivatives: q; c x n over e x n */
+    double squeeze[3], arm[3];
+} ellipsoid_plane_values;
+
+/* One plane and one body. */
+typedef struct ellipsoid_plane_effect
+{
+    const ellipsoid_plane_table *own;
+    double normal[3]; /* body frame */
+    ellipsoid_plane_values values;
+} ellipsoid_plane_effect;
+
 /* A wall as the body sees it; slopes, by the pose, only where asked for. */
 typedef struct ellipsoid_plane
 {
-    double wall[3];   /* unit normal, lab, into the fluid */
-    double normal[3]; /* the same in the body frame */
+    double wall[3]; /* unit normal, lab, into the fluid */
+    ellipsoid_plane_effect effect;
     double gap;       /* [m] to the body, cut off at the lubrication_gap */
     double weight[2]; /* [-] of each action: 1 on a wall without end */
     double normal_slope[ELLIPSOID_POSE_SIZE][3];
@@ -109,24 +127,6 @@ ellipsoid_status ellipsoid_find_planes(
     const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
     const ellipsoid_state *state, const ellipsoid_frame *frame,
     ellipsoid_facet_cache *cache, ellipsoid_planes *planes);
-
-/* The functions of tilt and gap, and their derivatives by nu and the gap;
-   lengths in equatorial radii. */
-typedef struct ellipsoid_plane_values
-{
-    double f[ELLIPSOID_PLANE_FUNCTIONS], by_nu[ELLIPSOID_PLANE_FUNCTIONS];
-    double by_gap[ELLIPSOID_PLANE_FUNCTIONS];
-    /* with its derivatives: q; c x n over e x n */
-    double squeeze[3], arm[3];
-} ellipsoid_plane_values;
-
-/* One plane and one body. */
-typedef struct ellipsoid_plane_effect
-{
-    const ellipsoid_plane_table *own;
-    double normal[3]; /* body frame */
-    ellipsoid_plane_values values;
-} ellipsoid_plane_effect;
 
 /* slopes: are derivatives to be asked for? */
 void ellipsoid_plane_effect_set(const ellipsoid_plane_table *own,

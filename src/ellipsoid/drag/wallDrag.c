@@ -79,18 +79,15 @@ static void set_matrices(const ellipsoid_model *model,
     for (int p = 0; p < planes->count; p++)
     {
         const ellipsoid_plane *plane = &planes->at[p];
-        ellipsoid_plane_effect effect;
 
-        ellipsoid_plane_effect_set(&model->plane, plane->normal, plane->gap, 0,
-                                   &effect);
         for (int m = 0; m < 6; m++)
         {
             double rates[6] = {0}, velocity[6] = {0}, action[2][6];
 
             rates[m] = 1;
             velocity[m] = -1;
-            ellipsoid_plane_action(&effect, rates, velocity, none, action,
-                                   NULL);
+            ellipsoid_plane_action(&plane->effect, rates, velocity, none,
+                                   action, NULL);
             add_part(mu * plane->weight[ELLIPSOID_PLANE_FAR], action[0],
                      slip[m]);
             add_part(mu * plane->weight[ELLIPSOID_PLANE_NEAR], action[1],
@@ -126,13 +123,11 @@ static void add_planes(const ellipsoid_near_walls *near, const double rates[6],
     for (int p = 0; p < near->planes->count; p++)
     {
         const ellipsoid_plane *plane = &near->planes->at[p];
-        ellipsoid_plane_effect effect;
         double lab[3], shear[3], parts[2][6];
 
-        ellipsoid_plane_effect_set(&m->plane, plane->normal, plane->gap, 0,
-                                   &effect);
         set_shear(near, plane, lab, shear);
-        ellipsoid_plane_action(&effect, rates, velocity, shear, parts, NULL);
+        ellipsoid_plane_action(&plane->effect, rates, velocity, shear, parts,
+                               NULL);
         add_weighted(plane->weight, m->viscosity, parts, action);
     }
 }
@@ -145,13 +140,10 @@ static void add_pose_changes(const ellipsoid_near_walls *near,
                              double change[POSE][6])
 {
     const double mu = near->model->viscosity, *n = plane->wall;
-    ellipsoid_plane_effect effect;
     double lab[3], shear[3], parts[2][6], by[4][2][6];
 
-    ellipsoid_plane_effect_set(&near->model->plane, plane->normal, plane->gap,
-                               1, &effect);
     set_shear(near, plane, lab, shear);
-    ellipsoid_plane_action(&effect, rates, velocity, shear, parts, by);
+    ellipsoid_plane_action(&plane->effect, rates, velocity, shear, parts, by);
     for (int l = 0; l < POSE; l++)
     {
         const double of_weight[2] = {plane->weight_slope[0][l],
@@ -182,7 +174,8 @@ static void add_pose_changes(const ellipsoid_near_walls *near,
         {
             ellipsoid_product(near->frame->by_q[l - 3], lab, of_shear);
         }
-        ellipsoid_plane_action(&effect, none, none, of_shear, driven, NULL);
+        ellipsoid_plane_action(&plane->effect, none, none, of_shear, driven,
+                               NULL);
         add_weighted(plane->weight, mu, driven, change[l]);
     }
 }

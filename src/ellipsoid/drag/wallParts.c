@@ -107,6 +107,16 @@ void ellipsoid_wall_begin(view *s, const ellipsoid_facet *facet, double height,
     }
     set_cut(far, reach * far->scale);
     set_cut(near, reach * near->scale / longest);
+    for (int m = 0; m < 2; m++)
+    {
+        kernel *k = &w->seen[m];
+
+        k->reach = k->cut / k->scale * (m == NEAR ? longest : 1);
+        for (int i = 0; i < 3; i++)
+        {
+            k->foot[i] = -k->shift[i] / k->shrink[i];
+        }
+    }
 }
 
 /* r of a vertex; from: where it is from the centre, lab. */
@@ -201,12 +211,24 @@ static void add_edge(const kernel *k, const double r1[3], const double r2[3],
 
 void ellipsoid_wall_add(view *s, const ellipsoid_facet *facet, wall *w)
 {
+    const double rounding = 1 + 1e-9;
+    const int seam = ellipsoid_has_seam(facet);
+    double lab[3], middle[3];
+
+    ellipsoid_difference(facet->middle, s->x, lab);
+    ellipsoid_product(s->axis, lab, middle);
     for (int m = 0; m < 2; m++)
     {
         const kernel *k = &w->seen[m];
-        double r[3][3], from[3][3];
+        const double width = facet->radius + (seam ? k->reach : 0);
+        double r[3][3], from[3][3], off[3];
         int left = 0;
 
+        ellipsoid_difference(middle, k->foot, off);
+        if (ellipsoid_dot(off, off) > width * width * rounding)
+        {
+            continue;
+        }
         for (int i = 0; i < 3; i++)
         {
             look(s, k, facet->vertex[i], from[i], r[i]);
@@ -305,7 +327,6 @@ int ellipsoid_wall_plane(view *s, const wall *w, int slopes,
 
     plane->gap = cut_off(h - p, s->model->options.lubrication_gap, &gap_slope);
     ellipsoid_copy(w->facet->normal, plane->wall);
-    ellipsoid_copy(w->seen[FAR].normal, plane->normal);
     for (int m = 0; m < 2; m++)
     {
         const double part = w->sum[m].inside + w->sum[m].value;
@@ -316,5 +337,11 @@ int ellipsoid_wall_plane(view *s, const wall *w, int slopes,
     {
         set_slopes(s, w, n, fade, gap_slope, plane);
     }
-    return plane->weight[FAR] != 0 || plane->weight[NEAR] != 0;
+    if (plane->weight[FAR] == 0 && plane->weight[NEAR] == 0)
+    {
+        return 0;
+    }
+    ellipsoid_plane_effect_set(&s->model->plane, w->seen[FAR].normal,
+                               plane->gap, slopes, &plane->effect);
+    return 1;
 }
