@@ -3,7 +3,8 @@
 
 /*
     ellipsoid.h - the public header of the core; statuses, options and model are
-    in ellipsoidModel.h, which comes with it.
+    in ellipsoidModel.h, walls in ellipsoidWalls.h, a world of cells in
+    ellipsoidWorld.h, which come with it.
 
     One rigid ellipsoid carried by a given flow and touching given walls:
     thirteen stiff equations (velocity, position, angular velocity,
@@ -33,6 +34,7 @@
 #define ELLIPSOID_H
 
 #include "ellipsoidModel.h"
+#include "ellipsoidWalls.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -93,78 +95,6 @@ typedef int (*ellipsoid_velocities_function)(void *context, double t,
 typedef int (*ellipsoid_field_function)(void *context, double t,
                                         const double x[3], double field[3],
                                         double (*jacobian)[3]);
-
-/* --------------------------------------------------------------- walls */
-
-/* How the wall turns at an edge, seen from the fluid. */
-typedef enum ellipsoid_edge
-{
-    ELLIPSOID_EDGE_FLAT,   /* the neighbour lies in the same plane */
-    ELLIPSOID_EDGE_CONVEX, /* the solid protrudes; also a free rim, which is
-                              touched from behind the facet, too */
-    ELLIPSOID_EDGE_CONCAVE
-} ellipsoid_edge;
-
-/* A triangle of the wall. Edge k runs from vertex k to vertex (k+1)%3. */
-typedef struct ellipsoid_facet
-{
-    double middle[3], radius; /* [m] lab, of a ball that holds it */
-    double normal[3];         /* unit, into the fluid */
-    double vertex[3][3]; /* [m] lab, counter-clockwise seen from the fluid */
-    ellipsoid_edge edge[3];
-    double edge_inward[3][3]; /* unit, perpendicular to edge k, in the plane of
-                                 the facet ACROSS edge k, pointing into it */
-    double neighbour_normal[3][3]; /* unit normal of the facet across edge k */
-    const double (*star[3])[3];    /* star[k]: unit directions of all wall edges
-                                   that leave vertex k */
-    int star_count[3];
-    int surface; /* label of the wall patch, for reports */
-    int mirror;  /* 1: no wall but a plane of symmetry, where a cell meets its
-                    own mirror image: the elastic force is a wall's (half the
-                    radius, half the modulus, twice the overlap), damping is of
-                    twice the speed, and there is neither friction nor adhesion,
-                    nor a wall's resistance. docs/theory/contact.md */
-} ellipsoid_facet;
-
-/*
-    Sets the vertices, and the normal and ball that follow from them; edges lead
-    to free rims until they are set, and it is a wall. Returns 0 if the triangle
-    has no area.
-*/
-int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3]);
-
-/*
-    Makes `other` the facet across edge k if it has that edge the other way
-    round and none that was joined there before is met sooner on turning about
-    the edge through the fluid. So baffles may be joined with all that meets at
-    an edge, in any order. Vertices are one if they are equal to the last bit.
-    Returns 1 if it is the one across now.
-*/
-int ellipsoid_facet_join(ellipsoid_facet *facet, int k,
-                         const ellipsoid_facet *other);
-
-/* Facets are named by their index in one array that outlives the cells. */
-typedef struct ellipsoid_facet_list
-{
-    const ellipsoid_facet *facets; /* the whole array */
-    const int *index;              /* the candidates, ascending */
-    int count;
-    double reach; /* [m] >= the reach asked for: no facet outside the list is
-                     nearer to the centre than this */
-} ellipsoid_facet_list;
-
-/*
-    Lists all facets nearer than `reach` [m] to `centre` [m, lab]. The list's
-    memory is the callee's and stays valid until its next call. Walls stand
-    still: a cache keeps facets from one time t [s] to others, and is to be
-    cleared when the facets change. Whether this is called depends on what the
-    cache holds, and steps must not: it may refuse by the centre alone, and where
-    it does the flow must refuse, too.
-    Returns 0; > 0: shorten the step; < 0: give up.
-*/
-typedef int (*ellipsoid_walls_function)(void *context, double t,
-                                        const double centre[3], double reach,
-                                        ellipsoid_facet_list *list);
 
 /* -------------------------------------------------------- other forces */
 
@@ -537,5 +467,7 @@ double ellipsoid_cell_gap(const ellipsoid_model *a, const double x_a[3],
 #ifdef __cplusplus
 }
 #endif
+
+#include "ellipsoidWorld.h"
 
 #endif

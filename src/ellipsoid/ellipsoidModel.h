@@ -47,7 +47,9 @@ const char *ellipsoid_version(void);
     X(STEP_UNDERFLOW, "the step fell below the smallest step")                 \
     X(TOO_MANY_STEPS, "the number of steps is exhausted")                      \
     X(TOO_MANY_FACETS, "too many wall facets near one cell")                   \
-    X(TOO_MANY_CELLS, "too many cells overlap in one group")
+    X(TOO_MANY_CELLS, "too many cells overlap in one group")                   \
+    X(BAD_TRIANGLE, "a wall triangle has no area, or a corner that is no "     \
+                    "point")
 
 #define ELLIPSOID_STATUS_ENUM(name, text) ELLIPSOID_##name,
 typedef enum ellipsoid_status

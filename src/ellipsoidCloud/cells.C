@@ -16,7 +16,6 @@ Description
 #include "base/csvFields.C"
 
 #include "walls/narrowestGaps.C"
-#include "walls/wallImages.C"
 
 #include "cells/cellPopulation.C"
 #include "cells/cellState.C"

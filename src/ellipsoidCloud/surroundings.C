@@ -14,7 +14,5 @@ Description
 #include "motion/groupAdvance.C"
 #include "motion/groupScheduler.C"
 #include "motion/groupSharing.C"
-#include "motion/overlapGroups.C"
 
-#include "walls/flatMerging.C"
 #include "walls/wallFacets.C"

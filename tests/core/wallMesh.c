@@ -278,7 +278,8 @@ static void set_stars(wall_mesh *mesh, const half_edge *edges, int edge_count,
     {
         ellipsoid_facet *f = &mesh->facets[c / 3];
 
-        f->star[c % 3] = (const double(*)[3])(mesh->stars + start[vertex[c]]);
+        f->star[c % 3] =
+            (const char *)(mesh->stars + start[vertex[c]]) - (const char *)f;
         f->star_count[c % 3] = filled[vertex[c]];
     }
     free(start);

@@ -12,6 +12,7 @@
 #include "ellipsoid.h"
 #include "body/vectors.h"
 
+#include <stdint.h>
 #include <string.h>
 
 #define ELLIPSOID_BOLTZMANN 1.380649e-23 /* [J/K], SI 2019 */
@@ -120,5 +121,18 @@ static inline ellipsoid_status ellipsoid_answer_status(int answer)
 {
     return answer > 0 ? ELLIPSOID_STEP_UNDERFLOW : ELLIPSOID_FLOW_FAILED;
 }
+
+/* A number to sort by, and what it belongs to (sort.c). */
+typedef struct ellipsoid_sort_key
+{
+    uint64_t key;
+    int index;
+} ellipsoid_sort_key;
+
+/* In the order of the numbers that it is made of. */
+uint64_t ellipsoid_sort_key_of(double number);
+
+/* Ascending, those of one key by index. */
+void ellipsoid_sort(ellipsoid_sort_key *keys, int count);
 
 #endif

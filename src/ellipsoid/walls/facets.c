@@ -43,9 +43,11 @@ int ellipsoid_facet_ends_at_vertex(const ellipsoid_facet *facet, int k)
 int ellipsoid_facet_is_apex(const ellipsoid_facet *facet, int k,
                             const double r[3], double tolerance)
 {
+    const double *star = (const void *)((const char *)facet + facet->star[k]);
+
     for (int i = 0; i < facet->star_count[k]; i++)
     {
-        if (ellipsoid_dot(r, facet->star[k][i]) > tolerance)
+        if (ellipsoid_dot(r, star + 3 * i) > tolerance)
         {
             return 0;
         }

@@ -62,20 +62,9 @@ struct Foam::groupAdvance::member
             state.deepest = max(state.deepest, contact.deepest);
             state.deepestCell = max(state.deepestCell, contact.cell_deepest);
 
-            // A path bends between the ends of a long step
-            const label nParts = m.sweeping ? 4 : 0;
-            for (label i = 1; i <= nParts; ++i)
+            if (m.sweeping)
             {
-                ellipsoid_state body(step->after);
-                if (i < nParts)
-                {
-                    const scalar dt = step->end - step->start;
-                    ellipsoid_step_state
-                    (
-                        step, step->start + i*dt/nParts, &body
-                    );
-                }
-                m.cell.sweep(body, m.model);
+                ellipsoid_sweep_add_step(&m.cell.sweep, &m.model, step);
             }
 
             if (m.location != meshFlow::pInside)
@@ -106,7 +95,10 @@ struct Foam::groupAdvance::member
             cell.state.pass(image, model.options.semi_axes);
             if (image.translates())
             {
-                cell.passed -= image.b;
+                for (direction i = 0; i < 3; ++i)
+                {
+                    cell.sweep.passed[i] -= image.b[i];
+                }
             }
             for (double* force : {contact.force, contact.cell_force})
             {

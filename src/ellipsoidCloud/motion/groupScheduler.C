@@ -3,420 +3,275 @@
 
 #include "groupScheduler.H"
 #include "cellDomain.H"
-#include "HashSet.H"
 #include "groupSharing.H"
-#include "overlapGroups.H"
+#include "HashSet.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
-    //- How often an interval is halved at most
-    static const label maxDepth = 8;
-
-    //- In bead radii: the gap below which cells are one unit; what is not
-    //  known of a path between the poses looked at; the travel below which it
-    //  does not pay to halve the time
-    static const scalar unitGap = 0.5;
-    static const scalar unseenGap = 0.1;
-    static const scalar shortTravel = 2;
-
     static inline bool waits(const cellSweep& cell)
     {
         return cell.state.fate == cellState::waiting;
     }
 
-    //- Positions of the cells that wait and find no room
-    static labelHashSet blocked
-    (
-        const UIndirectList<cellSweep>& cells,
-        const UList<groupScheduler::nearPair>& pairs
-    )
+    static labelList indicesOf(const ellipsoid_world* world, const int group)
     {
-        labelHashSet found;
+        List<int> index(ellipsoid_world_group(world, group, nullptr));
+        ellipsoid_world_group(world, group, index.data());
 
-        // By cells that are there, then by cells that enter and have a lower id
-        for (const groupScheduler::nearPair& near : pairs)
-        {
-            const label a = near.positions.first();
-            const label b = near.positions.second();
-
-            if (near.gap < 0 && waits(cells[a]) != waits(cells[b]))
-            {
-                found.insert(waits(cells[a]) ? a : b);
-            }
-        }
-        for (const groupScheduler::nearPair& near : pairs)
-        {
-            const label a = near.positions.first();
-
-            if (near.gap < 0 && waits(cells[a]) && !found.found(a))
-            {
-                found.insert(near.positions.second());
-            }
-        }
-
-        return found;
+        labelList indices(index.size());
+        std::copy(index.cbegin(), index.cend(), indices.begin());
+        return indices;
     }
 }
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::DynamicList<Foam::groupScheduler::nearPair>
-Foam::groupScheduler::nearPairs
+void Foam::groupScheduler::look
 (
-    const List<cellSweep>& cells,
-    const labelUList& indices,
-    const labelUList& unitOf,
-    const scalar margin
-) const
-{
-    DynamicList<nearPair> found;
-    List<boundBox> boxes(interacting_ ? indices.size() : 0);
-
-    forAll(boxes, k)
-    {
-        const cellSweep& cell = cells[indices[k]];
-        const scalar reach = population_.model(cell.state.id).reach;
-        boxes[k] = widened(cell.swept, reach + 0.5*margin);
-    }
-
-    const List<vector>& periods = groups_.periods();
-    for (const auto& met : overlapGroups::overlapping(boxes, periods))
-    {
-        const cellSweep& a = cells[indices[met.items.first()]];
-        const cellSweep& b = cells[indices[met.items.second()]];
-
-        if
-        (
-            unitOf[met.items.first()] != unitOf[met.items.second()]
-         && !(groups_.isFixed(a.state.id) && groups_.isFixed(b.state.id))
-        )
-        {
-            // Each point of a cell stays within its travel of where it began
-            const scalar horizon = a.travel + b.travel + margin;
-            const scalar gap = ellipsoid_cell_gap
-            (
-                &population_.model(a.state.id), a.start.x, a.start.q,
-                &population_.model(b.state.id),
-                (pointOf(b.start.x) + met.moved).v_, b.start.q, horizon
-            );
-
-            if (gap < horizon)
-            {
-                found.append(nearPair{met.items, gap});
-            }
-        }
-    }
-
-    return found;
-}
-
-
-Foam::List<Foam::groupScheduler::unit> Foam::groupScheduler::unitsOf
-(
-    const List<cellSweep>& cells,
-    const labelUList& indices,
-    const span& time
-) const
-{
-    // Cells there at the start and those that may enter then; cells that enter
-    // later in the span
-    DynamicList<label> here;
-    DynamicList<label> later;
-
-    for (const label i : indices)
-    {
-        const scalar t = cells[i].state.time;
-
-        if (waits(cells[i]) ? t == time.start : !cells[i].gone())
-        {
-            here.append(i);
-        }
-        else if (waits(cells[i]) && t > time.start && t < time.end)
-        {
-            later.append(i);
-        }
-    }
-
-    const DynamicList<nearPair> pairs
-    (
-        nearPairs(cells, here, identity(here.size()), unitGap*beadRadius_)
-    );
-    const labelHashSet stay
-    (
-        blocked(UIndirectList<cellSweep>(cells, here), pairs)
-    );
-
-    DynamicList<labelPair> bonds;
-    for (const nearPair& near : pairs)
-    {
-        const labelPair& pair = near.positions;
-
-        if (!stay.found(pair.first()) && !stay.found(pair.second()))
-        {
-            bonds.append(pair);
-        }
-    }
-
-    here.append(later);
-    const labelList lowest(overlapGroups::connected(here.size(), bonds));
-    labelList unitOf(here.size(), -1);
-    List<unit> units(here.size());
-    label nUnits = 0;
-
-    forAll(here, k)
-    {
-        if (!stay.found(k))
-        {
-            label& to = unitOf[lowest[k]];
-            to = to < 0 ? nUnits++ : to;
-            units[to].cells.append(here[k]);
-        }
-    }
-
-    units.setSize(nUnits);
-    return units;
-}
-
-
-Foam::labelList Foam::groupScheduler::join
-(
-    const List<cellSweep>& cells,
-    List<unit>& units,
-    const scalar longTravel
-) const
-{
-    DynamicList<label> indices;
-    DynamicList<label> unitOf;
-
-    forAll(units, unitI)
-    {
-        for (const label i : units[unitI].cells)
-        {
-            if (!waits(cells[i]))
-            {
-                indices.append(i);
-                unitOf.append(unitI);
-            }
-        }
-    }
-
-    // Of each unit the longest travel of its cells that may have come into
-    // contact with another's
-    DynamicList<labelPair> bonds;
-    scalarList travel(units.size(), scalar(-1));
-
-    for
-    (
-        const nearPair& near
-      : nearPairs(cells, indices, unitOf, unseenGap*beadRadius_)
-    )
-    {
-        const label a = near.positions.first();
-        const label b = near.positions.second();
-        scalar& longest = travel[unitOf[a]];
-
-        longest = max(longest, cells[indices[a]].travel);
-        longest = max(longest, cells[indices[b]].travel);
-        bonds.append(labelPair(unitOf[a], unitOf[b]));
-    }
-
-    const labelList lowest(overlapGroups::connected(units.size(), bonds));
-    DynamicList<label> again;
-
-    // Each goes into the lowest that it hangs together with, and is left empty
-    forAll(units, unitI)
-    {
-        const label first = lowest[unitI];
-
-        if (first != unitI)
-        {
-            units[first].cells.append(units[unitI].cells);
-            units[unitI] = unit();
-            travel[first] = max(travel[first], travel[unitI]);
-            travel[unitI] = -1;
-        }
-    }
-    forAll(units, unitI)
-    {
-        if (travel[unitI] >= 0)
-        {
-            sort(units[unitI].cells);
-            units[unitI].inParts = travel[unitI] > longTravel;
-            units[unitI].rows.clear();
-            again.append(unitI);
-        }
-    }
-
-    return labelList(std::move(again));
-}
-
-
-void Foam::groupScheduler::advance
-(
-    List<cellSweep>& cells,
-    unit& u,
-    const span& time
+    void* context,
+    const void* cell,
+    ellipsoid_cell_view* view
 )
 {
-    const auto begin =
-        [&]()
-        {
-            for (const label i : u.cells)
-            {
-                cells[i] = time.before[i];
-            }
-            u.path.clear();
-        };
-    begin();
+    const groupScheduler& s = *static_cast<const groupScheduler*>(context);
+    const cellSweep& c = *static_cast<const cellSweep*>(cell);
 
-    // A cell of a unit in parts that enters later does so at the end of a part
-    scalar middle = time.end;
-    for (const label i : u.cells)
+    view->model = &s.population_.model(c.state.id);
+    view->state = &c.state.body;
+    view->phase =
+        waits(c) ? ELLIPSOID_WAITING
+      : c.gone() ? ELLIPSOID_GONE : ELLIPSOID_PRESENT;
+    view->time = c.state.time;
+    view->fixed = s.groups_.isFixed(c.state.id);
+}
+
+
+int Foam::groupScheduler::advance
+(
+    void* context,
+    int n,
+    const int* index,
+    double end,
+    int mayFail
+)
+{
+    groupScheduler& s = *static_cast<groupScheduler*>(context);
+    labelList group(n);
+    std::copy_n(index, n, group.begin());
+
+    return s.groups_.advance(s.cells_, group, end, mayFail, *s.path_);
+}
+
+
+void Foam::groupScheduler::putBack
+(
+    void* context,
+    int n,
+    const int* index,
+    double time
+)
+{
+    groupScheduler& s = *static_cast<groupScheduler*>(context);
+
+    if (s.path_->empty())
     {
-        if (waits(cells[i]) && cells[i].state.time > time.start)
+        return;
+    }
+
+    labelHashSet group(2*n);
+    for (int i = 0; i < n; ++i)
+    {
+        group.insert(index[i]);
+    }
+
+    label nKept = 0;
+    for (const groupAdvance::segment& taken : *s.path_)
+    {
+        if (taken.step.start < time || !group.found(taken.cell))
         {
-            middle = min(middle, cells[i].state.time);
+            (*s.path_)[nKept++] = taken;
         }
     }
-    const bool enters = middle < time.end && u.cells.size() > 1;
+    s.path_->setSize(nKept);
+}
 
-    if (!u.inParts && !enters)
+
+ellipsoid_world_cells Foam::groupScheduler::worldCells()
+{
+    const List<vector>& periods = groups_.periods();
+    ellipsoid_world_cells cells = ellipsoid_world_cells();
+
+    cells.count = cells_.size();
+    cells.cell = cells_.data();
+    cells.size = sizeof(cellSweep);
+    cells.context = this;
+    cells.look = &look;
+    cells.advance = &advance;
+    cells.put_back = &putBack;
+    cells.pushing = population_.properties().pushing();
+    cells.length = population_.properties().options().bead_radius;
+    cells.repeat = reinterpret_cast<const scalar(*)[3]>(periods.cdata());
+    cells.repeat_count = periods.size();
+
+    return cells;
+}
+
+
+template<class Act>
+void Foam::groupScheduler::withMemory
+(
+    ellipsoid_world* world,
+    const Act& act
+)
+{
+    while (act() == ELLIPSOID_TOO_MANY_CELLS)
     {
-        const bool mayFail = time.depth < maxDepth;
+        const label more = 2*max(more_.size(), memory_.size());
+        more_.clear();
+        more_.setSize(more);
+        ellipsoid_world_extend
+        (
+            world, more_.data(), more_.size()*sizeof(scalar)
+        );
+    }
+}
 
-        if (groups_.advance(cells, u.cells, time.end, mayFail, u.path))
-        {
-            return;
-        }
-        begin();
+
+ellipsoid_world* Foam::groupScheduler::begun
+(
+    const ellipsoid_world_cells& cells,
+    const scalar start,
+    const scalar end
+)
+{
+    ellipsoid_world* world = nullptr;
+    const std::size_t size =
+        ellipsoid_world_size(cells.count, cells.size, cells.repeat_count);
+    const label needed = size/sizeof(scalar) + 1;
+
+    if (memory_.size() < needed)
+    {
+        memory_.clear();
+        memory_.setSize(needed + needed/2);
     }
 
-    label depth = time.depth;
-    if (!enters)
+    while
+    (
+        ellipsoid_world_begin
+        (
+            memory_.data(), memory_.size()*sizeof(scalar), &cells, start, end,
+            &world
+        )
+     == ELLIPSOID_TOO_MANY_CELLS
+    )
     {
-        middle = 0.5*(time.start + time.end);
-        ++depth;
+        const label more = 2*memory_.size();
+        memory_.clear();
+        memory_.setSize(more);
     }
 
-    const auto advancePart =
-        [&](const scalar start, const scalar end)
-        {
-            const List<unit> parts
-            (
-                advance(cells, u.cells, span{start, end, depth, false, {}})
-            );
-            for (const unit& part : parts)
-            {
-                u.path.append(part.path);
-            }
-        };
-
-    advancePart(time.start, middle);
-    const List<cellSweep> first(UIndirectList<cellSweep>(cells, u.cells));
-    advancePart(middle, time.end);
-
-    forAll(first, k)
-    {
-        cells[u.cells[k]].prepend(first[k]);
-    }
+    return world;
 }
 
 
 void Foam::groupScheduler::sample
 (
-    List<cellSweep>& cells,
-    unit& u,
-    const span& time
-) const
+    const UList<cellSweep>& before,
+    const labelUList& group,
+    journey& seen
+)
 {
     // Until its end the cells have the fate that they had at the start, or
     // that they entered with
-    List<cellSweep> after(UIndirectList<cellSweep>(cells, u.cells));
-    u.rows.clear();
+    List<cellSweep> after(UIndirectList<cellSweep>(cells_, group));
+    seen.rows.clear();
 
     forAll(after, k)
     {
-        cellState& cell = cells[u.cells[k]].state;
-        cell = time.before[u.cells[k]].state;
+        cellState& cell = cells_[group[k]].state;
+        cell = before[group[k]].state;
 
         if (cell.fate == cellState::waiting && !waits(after[k]))
         {
             cell.fate = cellState::inFlight;
-            tracks_->start(cell, u.rows);
+            tracks_->start(cell, seen.rows);
         }
     }
-    for (const groupAdvance::segment& taken : u.path)
+    for (const groupAdvance::segment& taken : seen.path)
     {
-        cellState& cell = cells[taken.cell].state;
-        tracks_->add(cell, taken.step, domain_.flow, taken.tet, u.rows);
+        cellState& cell = cells_[taken.cell].state;
+        tracks_->add(cell, taken.step, domain_.flow, taken.tet, seen.rows);
     }
     forAll(after, k)
     {
-        cellState& cell = cells[u.cells[k]].state;
+        cellState& cell = cells_[group[k]].state;
         after[k].state.nextRow = cell.nextRow;
         std::copy_n(cell.lastRow, 8, after[k].state.lastRow);
         cell = after[k].state;
 
         if (after[k].gone())
         {
-            tracks_->finish(cell, u.rows);
+            tracks_->finish(cell, seen.rows);
         }
     }
-    u.path.clear();
+    seen.path.clear();
 }
 
 
-Foam::List<Foam::groupScheduler::unit> Foam::groupScheduler::advance
+bool Foam::groupScheduler::advanceGroups
 (
-    List<cellSweep>& cells,
-    const labelUList& indices,
-    span&& time
+    ellipsoid_world* world,
+    const scalar time,
+    List<journey>& seen
 )
 {
-    for (const label i : indices)
+    const int* todo;
+    List<labelList> members(ellipsoid_world_todo(world, &todo));
+    forAll(members, k)
     {
-        cells[i].begin();
-        time.before.insert(i, cells[i]);
+        members[k] = indicesOf(world, todo[k]);
     }
 
-    List<unit> units(unitsOf(cells, indices, time));
-    labelList todo(identity(units.size()));
-
-    while (todo.size())
-    {
-        const labelList ranks(groupSharing::distributed(units, todo, time));
-
-        for (const label k : groupSharing::inMeshOrder(cells, units, todo))
-        {
-            unit& u = units[todo[k]];
-
-            if (!time.shared || ranks[k] == Pstream::myProcNo())
-            {
-                advance(cells, u, time);
-                if (time.shared && tracks_)
-                {
-                    sample(cells, u, time);
-                }
-            }
-        }
-
-        if (time.shared && Pstream::parRun())
-        {
-            groupSharing::exchange(cells, units, todo, ranks);
-        }
-
-        todo = join
+    // The world keeps them as one array
+    const UList<cellSweep> before
+    (
+        static_cast<cellSweep*>
         (
-            cells,
-            units,
-            time.depth < maxDepth ? shortTravel*beadRadius_ : GREAT
-        );
+            const_cast<void*>(ellipsoid_world_before(world, 0))
+        ),
+        cells_.size()
+    );
+    const labelList ranks(groupSharing::distributed(before, members, time));
+
+    for (const label k : groupSharing::inMeshOrder(cells_, members))
+    {
+        journey& of = seen[todo[k]];
+
+        if (ranks[k] == Pstream::myProcNo())
+        {
+            path_ = &of.path;
+            withMemory
+            (
+                world,
+                [&]() { return ellipsoid_world_advance_group(world, todo[k]); }
+            );
+            if (tracks_)
+            {
+                sample(before, members[k], of);
+            }
+            of.path.clear();
+        }
     }
 
-    return units;
+    if (members.size() && Pstream::parRun())
+    {
+        groupSharing::exchange(cells_, members, ranks);
+    }
+
+    return members.size();
 }
 
 
@@ -433,8 +288,6 @@ Foam::groupScheduler::groupScheduler
 :
     population_(population),
     domain_(domain),
-    interacting_(population.properties().pushing()),
-    beadRadius_(population.properties().options().bead_radius),
     groups_(population, domain, held, observer),
     tracks_(tracks)
 {}
@@ -449,7 +302,7 @@ Foam::List<Foam::cellSweep> Foam::groupScheduler::advanceInterval
     const scalar end
 )
 {
-    List<cellSweep> moves(cells.size());
+    cells_.setSize(cells.size());
     forAll(cells, i)
     {
         // A cell that had no room tries again
@@ -457,21 +310,41 @@ Foam::List<Foam::cellSweep> Foam::groupScheduler::advanceInterval
         {
             cells[i].time = max(cells[i].time, start);
         }
-        moves[i] = cellSweep();
-        moves[i].state = cells[i];
+        cells_[i] = cellSweep();
+        cells_[i].state = cells[i];
     }
 
-    for
-    (
-        const unit& u
-      : advance(moves, identity(cells.size()), span{start, end, 0, true, {}})
-    )
+    const ellipsoid_world_cells moved(worldCells());
+    ellipsoid_world* world = begun(moved, start, end);
+    List<journey> seen(ellipsoid_world_group_count(world));
+
+    while (advanceGroups(world, end - start, seen))
     {
-        if (tracks_)
+        withMemory(world, [&]() { return ellipsoid_world_join(world); });
+
+        // What was seen of groups that are joined does not stand
+        const int* todo;
+        const int nTodo = ellipsoid_world_todo(world, &todo);
+        for (int k = 0; k < nTodo; ++k)
         {
-            tracks_->take(u.rows);
+            seen[todo[k]].rows.clear();
+        }
+        forAll(seen, groupi)
+        {
+            if (!ellipsoid_world_group(world, groupi, nullptr))
+            {
+                seen[groupi].rows.clear();
+            }
         }
     }
 
-    return moves;
+    for (const journey& of : seen)
+    {
+        if (tracks_)
+        {
+            tracks_->take(of.rows);
+        }
+    }
+
+    return std::move(cells_);
 }

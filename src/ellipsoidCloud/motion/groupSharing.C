@@ -2,6 +2,7 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "groupSharing.H"
+#include "DynamicList.H"
 #include "ListOps.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -17,33 +18,29 @@ namespace Foam
 
 Foam::labelList Foam::groupSharing::distributed
 (
-    const List<groupScheduler::unit>& units,
-    const labelUList& listed,
-    const groupScheduler::span& time
+    const UList<cellSweep>& before,
+    const UList<labelList>& groups,
+    const scalar time
 )
 {
-    labelList ranks(listed.size(), 0);
+    labelList ranks(groups.size(), 0);
 
-    if (!time.shared || !Pstream::parRun())
+    if (!Pstream::parRun())
     {
         return ranks;
     }
 
     // By the steps to be expected; all of a group go with the shortest
-    scalarList work(listed.size());
-    forAll(listed, k)
+    scalarList work(groups.size());
+    forAll(groups, k)
     {
-        const labelList& members = units[listed[k]].cells;
         scalar steps = 1;
-        for (const label i : members)
+        for (const label i : groups[k])
         {
-            const scalar step = time.before[i].state.controller.step;
-            steps = max
-            (
-                steps, step > 0 ? (time.end - time.start)/step : newSteps
-            );
+            const scalar step = before[i].state.controller.step;
+            steps = max(steps, step > 0 ? time/step : newSteps);
         }
-        work[k] = steps*members.size();
+        work[k] = steps*groups[k].size();
     }
 
     // The most expensive first
@@ -64,14 +61,13 @@ Foam::labelList Foam::groupSharing::distributed
 Foam::labelList Foam::groupSharing::inMeshOrder
 (
     const UList<cellSweep>& cells,
-    const List<groupScheduler::unit>& units,
-    const labelUList& listed
+    const UList<labelList>& groups
 )
 {
-    labelList tets(listed.size());
-    forAll(listed, k)
+    labelList tets(groups.size());
+    forAll(groups, k)
     {
-        tets[k] = cells[units[listed[k]].cells[0]].state.tet;
+        tets[k] = cells[groups[k][0]].state.tet;
     }
 
     labelList order;
@@ -83,8 +79,7 @@ Foam::labelList Foam::groupSharing::inMeshOrder
 void Foam::groupSharing::exchange
 (
     List<cellSweep>& cells,
-    const List<groupScheduler::unit>& units,
-    const labelUList& listed,
+    const UList<labelList>& groups,
     const labelUList& ranks
 )
 {
@@ -92,13 +87,12 @@ void Foam::groupSharing::exchange
     labelList counts(Pstream::nProcs(), Zero);
     DynamicList<label> mine;
 
-    forAll(listed, k)
+    forAll(groups, k)
     {
-        const labelList& members = units[listed[k]].cells;
-        counts[ranks[k]] += members.size();
+        counts[ranks[k]] += groups[k].size();
         if (ranks[k] == me)
         {
-            mine.append(members);
+            mine.append(groups[k]);
         }
     }
 
@@ -115,11 +109,11 @@ void Foam::groupSharing::exchange
     Pstream::exchange<List<cellSweep>, cellSweep>(sent, counts, all);
 
     labelList next(counts.size(), Zero);
-    forAll(listed, k)
+    forAll(groups, k)
     {
         const label rank = ranks[k];
 
-        for (const label i : units[listed[k]].cells)
+        for (const label i : groups[k])
         {
             if (rank != me)
             {

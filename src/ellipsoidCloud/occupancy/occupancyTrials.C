@@ -26,7 +26,8 @@ namespace Foam
     static scalar way(const cellSweep& cell)
     {
         return
-            mag(cell.state.centre() + cell.passed - pointOf(cell.start.x));
+            mag(cell.state.centre() + pointOf(cell.sweep.passed)
+              - pointOf(cell.sweep.start.x));
     }
 }
 

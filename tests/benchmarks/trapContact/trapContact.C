@@ -143,7 +143,7 @@ struct journey
     //- Is there a facet that could act on a bead, were the cell turned?
     bool nearWalls(const scalar x[3]) const
     {
-        DynamicList<label> listed;
+        DynamicList<int> listed;
         ellipsoid_facet_list list;
 
         return
