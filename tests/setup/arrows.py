@@ -18,7 +18,7 @@ from pathlib import Path
 # Folder to its rooms, each of which knows those before it only; "." are the files of the folder itself,
 # and a file may be a room
 ROOMS = {
-    "src/ellipsoid": [".", "body", "walls", "drag", "contact", "motion"],
+    "src/ellipsoid": [".", "body", "walls", "drag", "contact", "motion", "world"],
     "src/meshFlow": ["base", "mesh", "values", ".", "interpolation"],
     "src/coupledStokes": ["coupledStokes.H", "linear", "flow", "."],
     "src/ellipsoidCloud": [
