@@ -4,7 +4,8 @@
 /*
     ellipsoid.h - the public header of the core; statuses, options and model are
     in ellipsoidModel.h, walls in ellipsoidWalls.h, a world of cells in
-    ellipsoidWorld.h, which come with it.
+    ellipsoidWorld.h, which come with it. How to build a program
+    with it: docs/fromC.md.
 
     One rigid ellipsoid carried by a given flow and touching given walls:
     thirteen stiff equations (velocity, position, angular velocity,
@@ -47,7 +48,7 @@ extern "C" {
 
 /*
     The undisturbed flow at a point and time, lab frame. G_ij = du_i/dx_j.
-    A callback sets velocity and gradient; the rest is zero when it is called.
+    All that a callback may set is zero when it is called.
     velocity_jacobian is the derivative of `velocity` as interpolated, and
     gradient_jacobian[i][j][k] = dG_ij/dx_k; both are read only where
     derivatives were asked for, and only serve the Jacobian.

@@ -61,6 +61,9 @@ typedef enum ellipsoid_status
 /* The text of a status; never NULL. */
 const char *ellipsoid_status_text(ellipsoid_status status);
 
+/* Its name without the prefix, as "OUTSIDE"; never NULL. */
+const char *ellipsoid_status_name(ellipsoid_status status);
+
 /* ------------------------------------------------------------- options */
 
 /*
@@ -192,6 +195,9 @@ typedef struct ellipsoid_model
     int bead_count;
     double bead[ELLIPSOID_MAX_BEADS][3]; /* [m] body frame, bead centres */
 } ellipsoid_model;
+
+/* Bytes of a model, for languages that do not read this header. */
+size_t ellipsoid_model_size(void);
 
 /* Checks the options and derives the model; *model is untouched on failure. */
 ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,

@@ -347,6 +347,9 @@ static void test_every_status_has_a_text(void **unused)
         assert_string_not_equal(ellipsoid_status_text((ellipsoid_status)s),
                                 "unknown status");
     }
+    assert_string_equal(ellipsoid_status_name(ELLIPSOID_OUTSIDE), "OUTSIDE");
+    assert_string_equal(ellipsoid_status_name(ELLIPSOID_STATUS_COUNT),
+                        "UNKNOWN");
     assert_string_equal(ellipsoid_status_text(ELLIPSOID_STATUS_COUNT),
                         "unknown status");
     assert_non_null(ellipsoid_status_text((ellipsoid_status)999));

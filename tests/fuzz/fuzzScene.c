@@ -8,6 +8,7 @@
 
 #include <limits.h>
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 static double dot(const double a[3], const double b[3])
@@ -19,6 +20,14 @@ static void require_finite(const fuzz_scene *scene, const double x[3])
 {
     require(!scene->strict
             || (isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2])));
+}
+
+static void require_zero(const double *number, size_t bytes)
+{
+    for (size_t n = 0; n < bytes / sizeof *number; n++)
+    {
+        require(number[n] == 0);
+    }
 }
 
 /* --------------------------------------------------------------- faults */
@@ -173,6 +182,9 @@ static int flow(void *context, double t, const double x[3], int derivatives,
     (void)t;
     require_finite(s, x);
     require(!s->flow_gave_up);
+    require_zero(sample->velocity, derivatives ? sizeof *sample
+                                               : offsetof(ellipsoid_flow_sample,
+                                                          velocity_jacobian));
     memcpy(s->sampled, x, sizeof s->sampled);
     sample_flow(s, x, sample);
     /* who reads what was not asked for gets NaN */
@@ -203,6 +215,9 @@ static int velocities(void *context, double t, const double centre[3],
     fuzz_scene *s = context;
 
     (void)t;
+    require_zero(velocity[0], (size_t)count * sizeof *velocity);
+    require_zero(jacobian ? jacobian[0][0] : NULL,
+                 jacobian ? (size_t)count * sizeof *jacobian : 0);
     require_finite(s, centre);
     require(count > 0 && count <= ELLIPSOID_MAX_FLOW_POINTS);
     require(memcmp(centre, s->sampled, sizeof s->sampled) == 0);

@@ -39,6 +39,8 @@ static double contact_reach(const ellipsoid_model *model)
     return sqrt(farthest) + model->options.bead_radius;
 }
 
+size_t ellipsoid_model_size(void) { return sizeof(ellipsoid_model); }
+
 ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
                                       const ellipsoid_options *options)
 {

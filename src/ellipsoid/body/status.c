@@ -23,3 +23,19 @@ const char *ellipsoid_status_text(ellipsoid_status status)
 #undef ELLIPSOID_STATUS_TEXT
     return "unknown status";
 }
+
+const char *ellipsoid_status_name(ellipsoid_status status)
+{
+#define ELLIPSOID_STATUS_NAME(name, text)                                      \
+    case ELLIPSOID_##name:                                                     \
+        return #name;
+
+    switch (status)
+    {
+        ELLIPSOID_STATUS_LIST(ELLIPSOID_STATUS_NAME)
+    case ELLIPSOID_STATUS_COUNT:
+        break;
+    }
+#undef ELLIPSOID_STATUS_NAME
+    return "UNKNOWN";
+}

@@ -9,7 +9,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static const double shear_rate = 1000; /* [1/s] */
 
@@ -19,11 +18,12 @@ static int simple_shear(void *context, double t, const double x[3],
 {
     (void)t;
     (void)context;
-    (void)derivatives;
-    memset(sample, 0, sizeof(*sample));
     sample->velocity[0] = shear_rate * x[1];
     sample->gradient[0][1] = shear_rate;
-    sample->velocity_jacobian[0][1] = shear_rate;
+    if (derivatives)
+    {
+        sample->velocity_jacobian[0][1] = shear_rate;
+    }
     return 0;
 }
 
