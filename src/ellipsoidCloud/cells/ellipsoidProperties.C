@@ -87,13 +87,20 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     const label nPatches =
         returnReduce(mesh.boundaryMesh().size(), sumOp<label>());
 
+    {
+        const masterGate once;
+
+        if (Pstream::master())
+        {
+            refuseRepeated(time().globalPath()/time().constant()/name());
+        }
+        readOptions();
+    }
+    forces_.read(section("forces"));
+
     // No reading of files, for which ranks would have to meet, from here on
     const masterGate once;
 
-    if (Pstream::master())
-    {
-        refuseRepeated(time().globalPath()/time().constant()/name());
-    }
     if (!nCells || !nPatches)
     {
         FatalErrorInFunction
@@ -108,7 +115,6 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
             << "constant/g is not read: gravity is that of forces/gravity in "
             << name() << nl << endl;
     }
-    readOptions();
     checkOptions();
     scheme_ = meshFlow::schemeNames.getOrDefault
     (
