@@ -25,6 +25,7 @@ Description
 #include "cells/ellipsoidProperties.C"
 #include "cells/externalForce.C"
 #include "cells/codedForce.C"
+#include "cells/listedCells.C"
 #include "cells/readViscosity.C"
 
 #include "injection/boxInjection.C"
