@@ -24,6 +24,7 @@ Description
 #include "cells/ellipsoidProperties.C"
 #include "cells/externalForce.C"
 #include "cells/codedForce.C"
+#include "cells/listedCells.C"
 #include "cells/readViscosity.C"
 
 #include "injection/boxInjection.C"

@@ -3,6 +3,7 @@
 
 #include "ellipsoidProperties.H"
 #include "emptyPolyPatch.H"
+#include "listedCells.H"
 #include "masterGate.H"
 #include "polyBoundaryMesh.H"
 #include "processorPolyPatch.H"
@@ -95,6 +96,10 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
             refuseRepeated(time().globalPath()/time().constant()/name());
         }
         readOptions();
+        if (found("injection") && isDict("injection"))
+        {
+            listedCells::read(subDict("injection"), time().globalPath());
+        }
     }
     forces_.read(section("forces"));
 
