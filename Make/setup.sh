@@ -73,17 +73,28 @@ setup_openfoam_api()    # DIR
         "$1/wmake/rules/General/general" 2> /dev/null
 }
 
+# The version of an OpenFOAM of the Foundation, 10 or dev; nothing for other flavours
+setup_foundation_version()  # DIR
+{
+    if [ -n "$(setup_openfoam_api "$1")" ] || ! grep -qs '^ *export WM_PROJECT=OpenFOAM' "$1/etc/bashrc"; then return; fi
+    sed -n 's/^ *export WM_PROJECT_VERSION=\([0-9][0-9.]*\|dev\) *\(#.*\)\{0,1\}$/\1/p' "$1/etc/bashrc"
+}
+
 # Says why DIR cannot be used; silent and true if it can
 setup_check_openfoam()  # DIR
 {
-    local api version="${WM_PROJECT:-OpenFOAM} ${WM_PROJECT_VERSION:-of unknown version}"
+    local api foundation version="${WM_PROJECT:-OpenFOAM} ${WM_PROJECT_VERSION:-of unknown version}"
     api=$(setup_openfoam_api "$1")
+    foundation=$(setup_foundation_version "$1")
     if [ ! -f "$1/etc/bashrc" ]; then
         setup_fail "WM_PROJECT_DIR is $1, which holds no etc/bashrc" \
             "Needed: $setup_needed. Or unset WM_PROJECT_DIR, to have one found or installed."
+    elif [ -n "$foundation" ]; then
+        setup_fail "$1 is OpenFOAM $foundation of the Foundation (openfoam.org), which is another program" \
+            "Needed: $setup_needed." "Use a shell without that environment, or source another one."
     elif [ -z "$api" ]; then
         setup_fail "$1 ($version) is not an ESI OpenFOAM" \
-            "Needed: $setup_needed; OpenFOAM Foundation versions and foam-extend differ too much." \
+            "Needed: $setup_needed; foam-extend differs too much." \
             "Use a shell without that environment, or source another one."
     elif [ "$api" -lt 1912 ]; then
         setup_fail "$1 is OpenFOAM v$api, which is too old" \
@@ -110,6 +121,18 @@ setup_search_openfoam()
         fi
     done
     echo "$found"
+}
+
+# Says which of them are of the Foundation, so that nobody wonders why they are not taken
+setup_name_foundation()
+{
+    local dir version
+    for dir in /opt/openfoam*/ /opt/OpenFOAM/OpenFOAM-*/ "$HOME"/OpenFOAM/OpenFOAM-*/; do
+        version=$(setup_foundation_version "${dir%/}")
+        if [ -n "$version" ]; then
+            setup_say "${dir%/} is OpenFOAM $version of the Foundation (openfoam.org), which is another program: not taken"
+        fi
+    done
 }
 
 # -----------------------------------------------------------------------------
@@ -450,6 +473,7 @@ setup_environment()     # build|run|test|full
         setup_check_openfoam "$dir" || return
     else
         dir=$(setup_search_openfoam)
+        if [ -z "$dir" ]; then setup_name_foundation; fi
     fi
     if [ -z "$dir" ] && ! setup_has_apt; then
         setup_fail "no OpenFOAM found, and this $(setup_system_name) has no apt to install Debian's" \
@@ -477,6 +501,11 @@ setup_environment()     # build|run|test|full
 
     # An environment that is complete may hold settings of the user's: keep it
     if [ -z "$WM_PROJECT_DIR" ] || [ -z "$WM_OPTIONS" ]; then setup_source_bashrc "$dir"; fi
+    if [ "${WM_PRECISION_OPTION:-DP}" != DP ]; then
+        setup_fail "$dir computes in single precision (WM_PRECISION_OPTION is $WM_PRECISION_OPTION)" \
+            "Needed: double precision, DP, as packages have it."
+        return
+    fi
     export WM_NCOMPPROCS=${WM_NCOMPPROCS:-$(nproc)}
     # As many ranks as a case asks for
     export OMPI_MCA_rmaps_base_oversubscribe=${OMPI_MCA_rmaps_base_oversubscribe:-1}

@@ -318,7 +318,7 @@ void Foam::captureMap::checkLattice(const dictionary& dict) const
 {
     const masterGate once;
 
-    if (scalar(nNodes(0))*nNodes(1) > labelMax)
+    if (scalar(nNodes(0))*nNodes(1) > scalar(labelMax))
     {
         FatalIOErrorInFunction(dict)
             << "squares and levels make a lattice of " << nNodes(0)

@@ -417,7 +417,7 @@ void Foam::stokesEquations::set
 
 Foam::scalarField Foam::stokesEquations::distance() const
 {
-    return ofFaces(mesh_.nonOrthDeltaCoeffs())*units_.length;
+    return scalarField(ofFaces(mesh_.nonOrthDeltaCoeffs())*units_.length);
 }
 
 

@@ -4,6 +4,7 @@
 #include "aggregationMultigrid.H"
 #include "LUscalarMatrix.H"
 #include "PstreamReduceOps.H"
+#include "sumOfFields.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -129,7 +130,7 @@ void Foam::aggregationMultigrid<Type>::solveCoarsest() const
         mine.end(),
         all.begin() + nValues*coarsestRows_.toGlobal(0)
     );
-    reduce(all, sumOp<Field<float>>());
+    reduce(all, sumOfFields<float>());
     const Type* const source = reinterpret_cast<const Type*>(all.begin());
 
     forAll(inverse_, i)

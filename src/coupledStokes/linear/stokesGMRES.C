@@ -3,6 +3,7 @@
 
 #include "stokesGMRES.H"
 #include "PstreamReduceOps.H"
+#include "sumOfFields.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -65,7 +66,7 @@ static scalarField products
         }
     }
 
-    reduce(sums, sumOp<scalarField>());
+    reduce(sums, sumOfFields<scalar>());
 
     return sums;
 }
