@@ -10,7 +10,7 @@
 # Usage (bash):  . Make/setup.sh && setup_environment build|run|test|full
 #   build   compilers, OpenFOAM and the Random123 headers
 #   run     also Python with matplotlib, VTK and numpy: pictures and tables
-#   test    also cmocka, h5py and pkg-config
+#   test    also cmocka, h5py, pkg-config and what reads drawings
 #   full    also what Alltest --full needs: clang with its sanitizers and
 #           libFuzzer, valgrind, cppcheck, shellcheck and SUNDIALS
 # Exports OpenFOAM's environment; for run, test and full ELLIPSOID_PYTHON, too, and a PATH with
@@ -185,7 +185,10 @@ setup_missing_packages()    # LEVEL OPENFOAM_DIR ('' for Debian's)
         test | full)
             setup_has_header cmocka.h || echo libcmocka-dev
             command -v pkg-config > /dev/null || echo pkgconf
-            /usr/bin/python3 -c 'import h5py' 2> /dev/null || echo python3-h5py ;;
+            local module
+            for module in h5py shapely ezdxf gdspy; do
+                /usr/bin/python3 -c "import $module" 2> /dev/null || echo "python3-$module"
+            done ;;
     esac
     if [ "$1" != full ]; then return; fi
     command -v clang > /dev/null || echo clang
@@ -476,7 +479,7 @@ setup_environment()     # build|run|test|full
         setup_fail "no OpenFOAM found, and this $(setup_system_name) has no apt to install Debian's" \
             "Needed: $setup_needed;" \
             "also gcc, g++, make, an MPI and Random123;" \
-            "for pictures Python 3 with numpy, matplotlib and vtk; for tests cmocka, h5py and pkg-config;" \
+            "for pictures Python 3 with numpy, matplotlib and vtk; for tests cmocka, h5py, pkg-config, shapely, ezdxf and gdspy;" \
             "for all tests (--full) clang with compiler-rt, clang-format, valgrind, cppcheck, shellcheck, chromium, SUNDIALS."
         return
     fi

@@ -60,7 +60,9 @@ typedef enum ellipsoid_phase
     ELLIPSOID_GONE
 } ellipsoid_phase;
 
-/* What the world looks at of a cell; all zero when it is asked for. */
+/* What the world looks at of a cell; all zero when it is asked for. A cell that
+   waits enters from the start of an interval on: one that found no room is to be
+   given another time. */
 typedef struct ellipsoid_cell_view
 {
     const ellipsoid_model *model;

@@ -22,6 +22,9 @@ Description
 #include "cells/electricField.C"
 #include "cells/ellipsoidOptions.C"
 #include "cells/ellipsoidProperties.C"
+#include "cells/externalForce.C"
+#include "cells/codedForce.C"
+#include "cells/listedCells.C"
 #include "cells/readViscosity.C"
 
 #include "injection/boxInjection.C"

@@ -35,6 +35,21 @@ static scene place_body(double ratio, double tilt)
     return s;
 }
 
+/* Jeffery (1922): half the curl and B e x (E e) of the flow z gamma, gamma
+   along x or y. */
+static void free_spin(const scene *s, const double gamma[3], double spin[3])
+{
+    const double *e = s->axis[s->own.axis], b = s->own.ratio;
+    const double shape = (b * b - 1) / (b * b + 1);
+    const double strained[3] = {0.5 * gamma[0] * e[2], 0.5 * gamma[1] * e[2],
+                                0.5 * (gamma[0] * e[0] + gamma[1] * e[1])};
+    double turn[3];
+
+    ellipsoid_cross(e, strained, turn);
+    ellipsoid_set(spin, shape * turn[0] - 0.5 * gamma[1],
+                  shape * turn[1] + 0.5 * gamma[0], shape * turn[2]);
+}
+
 /* Resistance over mu in the lab, and the wrench on the body that moves as a free
    one in the flows (z - z of the centre) e_x and e_y. */
 static void evaluate_plane(scene *s, double gap, double resistance[6][6],
@@ -48,12 +63,19 @@ static void evaluate_plane(scene *s, double gap, double resistance[6][6],
         const double u[3] = {m == 0, m == 1, m == 2};
         const double w[3] = {m == 3, m == 4, m == 5};
         const double gamma[3] = {m == 6, m == 7, 0};
-        double rates[6], shear[3], action[2][6], lab[6];
+        double rates[6], velocity[6] = {0}, shear[3], action[2][6], lab[6];
+        double spin[3];
 
         ellipsoid_product(s->axis, u, rates);
         ellipsoid_product(s->axis, w, rates + 3);
         ellipsoid_product(s->axis, gamma, shear);
-        ellipsoid_plane_action(&effect, rates, shear, action, NULL);
+        free_spin(s, gamma, spin);
+        ellipsoid_product(s->axis, spin, velocity + 3);
+        for (int i = 0; i < 6; i++)
+        {
+            velocity[i] -= rates[i];
+        }
+        ellipsoid_plane_action(&effect, rates, velocity, shear, action, NULL);
         for (int i = 0; i < 6; i++)
         {
             const double *free = &s->own.free[i < 3 ? 0 : 2];
@@ -247,6 +269,7 @@ static void test_change(void **unused)
     for (int n = 0; n < 60; n++)
     {
         double axes[3] = {1e-6, 1e-6, 1e-6}, rates[6], shear[3], normal[3];
+        double velocity[6];
         const double gap = 1e-6 * pow(10, -3.5 + 5 * test_uniform(&seed));
         double action[2][6], change[4][2][6];
         ellipsoid_plane_table own;
@@ -258,6 +281,8 @@ static void test_change(void **unused)
         {
             rates[i] = 1e-6 * test_signed(&seed);
             rates[i + 3] = test_signed(&seed);
+            velocity[i] = 1e-6 * test_signed(&seed);
+            velocity[i + 3] = test_signed(&seed);
             shear[i] = test_signed(&seed);
             normal[i] = test_signed(&seed);
         }
@@ -269,7 +294,7 @@ static void test_change(void **unused)
                           normal[2] / length);
         }
         ellipsoid_plane_effect_set(&own, normal, gap, 1, &effect);
-        ellipsoid_plane_action(&effect, rates, shear, action, change);
+        ellipsoid_plane_action(&effect, rates, velocity, shear, action, change);
         for (int by = 0; by < 4; by++)
         {
             const double step = by < 3 ? 1e-4 : 1e-4 * gap;
@@ -286,7 +311,8 @@ static void test_change(void **unused)
                 }
                 ellipsoid_plane_effect_set(
                     &own, moved, by == 3 ? gap + k * step : gap, 0, &effect);
-                ellipsoid_plane_action(&effect, rates, shear, there, NULL);
+                ellipsoid_plane_action(&effect, rates, velocity, shear, there,
+                                       NULL);
                 for (int m = 0; m < 12; m++)
                 {
                     slope[m / 6][m % 6] +=

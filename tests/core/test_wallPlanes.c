@@ -143,14 +143,16 @@ static int compare_jacobian(const ellipsoid_model *m,
 
 static void test_jacobian(void **unused)
 {
-    const ellipsoid_options o = near_walls();
-    ellipsoid_model model = test_model(&o);
+    ellipsoid_options o = near_walls();
+    ellipsoid_model model;
     test_quadratic flow = test_shear(1000);
     wall_mesh mesh;
     uint64_t seed = 21;
     int bad = 0, several = 0;
 
     (void)unused;
+    o.wall_range = 10e-6; /* all of the landscape */
+    model = test_model(&o);
     flow.h[0][2][2] = 1e8;
     flow.u[1] = 1e-3;
     wall_mesh_init(&mesh);
@@ -241,6 +243,94 @@ static void test_cuts(void **unused)
     }
     wall_mesh_free(&whole);
     wall_mesh_free(&cut);
+}
+
+/*
+    A sphere whose nearest point is beside the rim of a half-plane, inside it by
+    so many widths sqrt(2 g R) of squeezing: how much of it is left, beside what
+    Reynolds' equation gives, solved by differences in 121 x 121 points.
+*/
+static void test_wall_that_ends(void **unused)
+{
+    static const double known[][2] = {{-1, 0.055},  {-0.5, 0.127}, {0, 0.289},
+                                      {0.5, 0.529}, {1, 0.725},    {2.5, 0.94}};
+    const double radius = 0.5e-6, gap = 0.05e-6;
+    const double corner[3] = {0, -5e-5, 0}, along[3] = {5e-5, 0, 0},
+                 across[3] = {0, 1e-4, 0};
+    ellipsoid_options o = near_walls();
+    ellipsoid_model model;
+    wall_mesh mesh;
+
+    (void)unused;
+    ellipsoid_set(o.semi_axes, radius, radius, radius);
+    model = test_model(&o);
+    wall_mesh_init(&mesh);
+    wall_mesh_plane(&mesh, corner, along, across, 1, 1, 0, 0);
+    wall_mesh_finish(&mesh);
+    ellipsoid_facet_cache_clear(&cache);
+    for (size_t n = 0; n < sizeof(known) / sizeof(*known); n++)
+    {
+        test_quadratic rest = {.answer = 0};
+        const ellipsoid_surroundings s = around(&mesh, &rest);
+        const ellipsoid_state state = {
+            .x = {known[n][0] * sqrt(2 * gap * radius), 0, radius + gap},
+            .q = {0, 0, 0, 1}};
+        ellipsoid_frame frame = {.axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+        ellipsoid_planes planes;
+
+        assert_ok(
+            ellipsoid_find_planes(&model, &s, &state, &frame, &cache, &planes));
+        assert_int_equal(planes.count, 1);
+        assert_near(planes.at[0].weight[ELLIPSOID_PLANE_NEAR], known[n][1],
+                    0.07);
+    }
+    wall_mesh_free(&mesh);
+}
+
+/*
+    A sphere held in the flow of a stagnation point, (x z, y z, -z^2): the force
+    over 6 pi mu a h^2 is known (Goren & O'Neill, Chem. Eng. Sci. 26, 325 (1971):
+    3.23 at contact; here by tests/benchmarks/resolvedCell) and stays finite,
+    while that on a sphere that moves grows as the inverse of the gap.
+*/
+static void test_held_at_a_stagnation_point(void **unused)
+{
+    static const double known[][2] = {{0.1, 2.94}, {0.2, 2.73}, {0.6, 2.17}};
+    const double radius = 0.5e-6;
+    ellipsoid_options o = near_walls();
+    wall_mesh mesh;
+
+    (void)unused;
+    ellipsoid_set(o.semi_axes, radius, radius, radius);
+    wall_mesh_init(&mesh);
+    add_floor(&mesh, 0, 1, 1);
+    wall_mesh_finish(&mesh);
+    for (int n = 0; n < 6; n++)
+    {
+        test_quadratic flow = {.answer = 0};
+        const ellipsoid_surroundings s = around(&mesh, &flow);
+        const double gap = known[n / 2][0] * radius, height = radius + gap;
+        const ellipsoid_state state = {.x = {0, 0, height}, .q = {0, 0, 0, 1}};
+        ellipsoid_state derivative;
+        ellipsoid_model model;
+        double force;
+
+        flow.h[0][0][2] = flow.h[0][2][0] = 1e9;
+        flow.h[1][1][2] = flow.h[1][2][1] = 1e9;
+        flow.h[2][2][2] = -2e9;
+        o.flow_at = n % 2 ? ELLIPSOID_FLOW_BODY : ELLIPSOID_FLOW_CENTRE;
+        model = test_model(&o);
+        ellipsoid_facet_cache_clear(&cache);
+        assert_ok(ellipsoid_rhs(&model, &s, &state, &cache, &derivative));
+        force =
+            -model.mass * derivative.u[2]
+            / (6 * acos(-1) * model.viscosity * radius * 1e9 * height * height);
+        print_message("gap %g radii: %.2f, known %.2f\n", known[n / 2][0],
+                      force, known[n / 2][1]);
+        assert_true(force > 0.9 * known[n / 2][1]);
+        assert_true(force < 1.8 * known[n / 2][1]);
+    }
+    wall_mesh_free(&mesh);
 }
 
 /* On a way of so many steps, the largest change from one to the next. */
@@ -808,6 +898,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_jacobian),
         cmocka_unit_test(test_cuts),
+        cmocka_unit_test(test_wall_that_ends),
+        cmocka_unit_test(test_held_at_a_stagnation_point),
         cmocka_unit_test(test_continuous),
         cmocka_unit_test(test_continuous_over_edges),
         cmocka_unit_test(test_cuts_at_a_seam),

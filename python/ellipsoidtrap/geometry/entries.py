@@ -71,13 +71,19 @@ class Entries:
 
     def __init__(self, entries, name, file, variables):
         self.entries, self.name, self.file, self.variables = entries, name, file, variables
+        self.sketch = None      # draws what a message is about, with places marked; returns where that is
 
     def __contains__(self, key):
         return key in self.entries
 
-    def fail(self, message):
-        """End the script with what is wrong in this file."""
-        fail(self.file, message)
+    def fail(self, message, places=()):
+        """End the script with what is wrong in this file, and where in the plan."""
+        fail(self.file, message + (self.sketch(list(places)) if self.sketch else ""))
+
+    def _within(self, value, key):
+        entries = Entries(value, f"{self.name}{key}.", self.file, self.variables)
+        entries.sketch = self.sketch
+        return entries
 
     def get(self, key):
         """The value of an entry that must be there."""
@@ -91,11 +97,11 @@ class Entries:
         if not isinstance(value, dict):
             have = [k for k, v in self.entries.items() if isinstance(v, dict)]
             self.fail(f"'{self.name}{key}' is no dictionary (there are: {' '.join(have)})")
-        return Entries(value, f"{self.name}{key}.", self.file, self.variables)
+        return self._within(value, key)
 
     def sub_if(self, key):
         """A sub-dictionary that may be left out."""
-        return self.sub(key) if key in self else Entries({}, f"{self.name}{key}.", self.file, self.variables)
+        return self.sub(key) if key in self else self._within({}, key)
 
     def choose(self, key):
         """The sub-dictionary that an option names."""

@@ -6,7 +6,7 @@
 # under the terms of the GNU General Public License as published by the Free
 # Software Foundation, either version 3 of the License, or (at your option) any
 # later version. It comes with ABSOLUTELY NO WARRANTY; see the file COPYING.
-"""A device given as its plan, a mask: named closed polygons, or the walls of an STL, drawn out
+"""A device given as its plan, a mask: named closed polygons, the walls of an STL, or a drawing, drawn out
 to a depth. Checks constant/chip and writes what the mesh tools need of it."""
 
 import itertools
@@ -14,6 +14,7 @@ import math
 import re
 
 from . import rings, stl
+from .drawing import check_obstacles, drawing_plan
 from .entries import read
 from .rings import TOUCH, Ring
 from .surfaces import Output, aperture_entry, curtain, slab, through
@@ -148,10 +149,17 @@ def stl_plan(top):
 
 def plan_of(top):
     """The outline and the obstacles."""
-    if "stl" in top:
-        for given, key in ((top.sub_if("outline"), "points"), (top, "obstacles")):
-            if key in given:
-                top.fail(f"give either 'stl' or '{given.name}{key}', not both")
+    source = next((key for key in ("drawing", "stl") if key in top), None)
+    if source:
+        for given, key in ((top.sub_if("outline"), "points"), (top, "obstacles"), (top, "stl")):
+            if key in given and key != source:
+                top.fail(f"give either '{source}' or '{given.name}{key}', not both")
+    if source == "drawing":
+        plan = drawing_plan(top)
+        name_edges(top.sub_if("outline"), plan, "the drawing's fluid")
+        for name in {name for ring in plan for name in ring.patches}:
+            patch_name(top, name)
+    elif source == "stl":
         plan = stl_plan(top)
     else:
         plan = [outline_of(top.sub("outline"))] + obstacles_of(top.sub_if("obstacles"))
@@ -175,12 +183,12 @@ def check_rings(top, plan):
         line = rings.edges(ring)
         for edge in line:
             if math.dist(edge.start, edge.end) < TOUCH:
-                top.fail(f"polygon '{ring.what}' has the point {at(edge.start)} twice")
+                top.fail(f"polygon '{ring.what}' has the point {at(edge.start)} twice", [edge.start])
         for edge, after in zip(line, line[1:] + line[:1]):
             back = math.dist(after.end, rings.foot(after.end, edge.start, edge.end))
             ahead = math.dist(edge.start, rings.foot(edge.start, after.start, after.end))
             if min(back, ahead) < TOUCH:
-                top.fail(f"polygon '{ring.what}' turns back on itself at {at(edge.end)}")
+                top.fail(f"polygon '{ring.what}' turns back on itself at {at(edge.end)}", [edge.end])
     outline = plan[0]
     for edge, other in rings.neighbours(plan, TOUCH):
         distance, place, _ = rings.nearest(edge.start, edge.end, other.start, other.end)
@@ -189,12 +197,12 @@ def check_rings(top, plan):
         one, two = edge.ring, other.ring
         if one is two:
             top.fail(f"polygon '{one.what}' crosses itself at {at(place)}: its edges "
-                     f"{at(edge.start)} to {at(edge.end)} and {at(other.start)} to {at(other.end)}")
+                     f"{at(edge.start)} to {at(edge.end)} and {at(other.start)} to {at(other.end)}", [place])
         if outline in (one, two):
             top.fail(f"obstacle '{(two if one is outline else one).what}' meets the outline at "
-                     f"{at(place)}: keep it inside, or draw it as a part of the outline")
+                     f"{at(place)}: keep it inside, or draw it as a part of the outline", [place])
         top.fail(f"obstacles '{one.what}' and '{two.what}' overlap at {at(place)}: "
-                 "join them to one polygon")
+                 "join them to one polygon", [place])
     for ring in plan[1:]:
         x, y = ring.points[0]
         if not rings.contains(outline.points, x, y):
@@ -269,16 +277,16 @@ def check_gaps(top, plan, mesh):
     reach = mesh.gap_cells*max(mesh.size(level) for level in mesh.levels.values())
     openings = [name for name in mesh.levels if OPENING.fullmatch(name)]
     found = rings.gaps(plan, reach, openings)
-    for gap in found:
-        size = mesh.size(mesh.level_in(gap))
-        # Corners of a circle's polygon stand out
-        if 1.01*gap.width < mesh.gap_cells*size:
-            top.fail(
-                f"the gap between '{gap.first.ring.what}' and '{gap.second.ring.what}' at "
-                f"{at(gap.place)} is {gap.width:.4g} wide, {gap.width/size:.2g} mesh cells of "
-                f"{size:g}: gapCells asks for {mesh.gap_cells}, a size of "
-                f"{gap.width/mesh.gap_cells:.3g} or less there, of a patch or a box"
-            )
+    # Corners of a circle's polygon stand out
+    narrow = [gap for gap in found if 1.01*gap.width < mesh.gap_cells*mesh.size(mesh.level_in(gap))]
+    if narrow:
+        gap, size = narrow[0], mesh.size(mesh.level_in(narrow[0]))
+        top.fail(
+            f"the gap between '{gap.first.ring.what}' and '{gap.second.ring.what}' at "
+            f"{at(gap.place)} is {gap.width:.4g} wide, {gap.width/size:.2g} mesh cells of "
+            f"{size:g}: gapCells asks for {mesh.gap_cells}, a size of "
+            f"{gap.width/mesh.gap_cells:.3g} or less there, of a patch or a box", [one.place for one in narrow]
+        )
     return found[0] if found else None
 
 
@@ -343,12 +351,14 @@ def sections_of(top, plan, depth, base):
 def make_mask(resolution):
     """Everything, in the case folder; what there is, in one line."""
     top = read(PARAMETERS)
-    top.only("resolution", "depth", "inletPressure", "outline", "obstacles", "stl", "stlScale",
+    top.only("resolution", "depth", "inletPressure", "outline", "obstacles", "stl", "stlScale", "drawing",
              "boxes", "sections", "resolutions")
     resolution = resolution or top.get("resolution")
     plan = plan_of(top)
     check_rings(top, plan)
     mesh = Mesh(top, plan, top.sub("resolutions").choose(resolution))
+    if "drawing" in top:
+        check_obstacles(top, plan, mesh)
     narrowest = check_gaps(top, plan, mesh)
     inside = inside_point(top, plan, mesh)
     depth, pressure = top.number("depth"), top.number("inletPressure")
@@ -384,4 +394,5 @@ def make_mask(resolution):
     if narrowest:
         facts["narrowestGap"] = narrowest.width
     out.entries("plan", facts)
-    return ", ".join(f"{key} {value:.6g}" for key, value in facts.items())
+    drawn = top.sketch([]) if top.sketch else ""
+    return ", ".join(f"{key} {value:.6g}" for key, value in facts.items()) + drawn

@@ -45,9 +45,9 @@ PASSES, STAYS = (style.ORANGE, style.YELLOW), (style.BLUE, style.SKY)
 OPTIONS = {
     "sieve": {"help": "to look at [the one that holds most cells]"},
     "device": {"action": "store_true", "help": "all of it, from the first cell to the end"},
-    "begin": {"type": float, "default": 0.0, "metavar": "T", "help": "of the film of the device [0 s]"},
+    "begin": {"type": float, "metavar": "T", "help": "of the film of the device [0 s]"},
     "end": {"type": float, "metavar": "T", "help": "of the film of the device [that of the run]"},
-    "frames": {"type": int, "default": WHOLE, "metavar": "N", "help": f"of the film of the device [{WHOLE}]"},
+    "frames": {"type": int, "metavar": "N", "help": f"of the film of the device [{WHOLE}]"},
 }
 
 # Frames from the standard input; even sides, as the format asks for
@@ -232,7 +232,9 @@ def crossing(case):
 
 def draw_device(case, begin, end, frames):
     """The film of all cells from one time to another."""
+    begin = 0.0 if begin is None else begin
     end = case.end_time if end is None else end
+    frames = WHOLE if frames is None else frames
     if not 0 <= begin < end <= case.end_time:
         raise CaseError(f"--begin {begin:g} and --end {end:g}: allowed: 0 to {case.end_time:g}, in order")
     if frames < 2:
@@ -251,8 +253,13 @@ def draw_device(case, begin, end, frames):
     return film_of(case, None, window, times, actors, " ".join(caption.split()))
 
 
-def draw(case, sieve=None, device=False, begin=0.0, end=None, frames=WHOLE):
+def draw(case, sieve=None, device=False, begin=None, end=None, frames=None):
     """The film; the times and frames are those of the device's."""
+    of_device = [f"--{name}" for name, value in (("begin", begin), ("end", end), ("frames", frames)) if value is not None]
+    if of_device and not device:
+        raise CaseError(f"{' '.join(of_device)}: only of the film of the device: give --device, too")
+    if device and sieve is not None:
+        raise CaseError("--sieve and --device: the film is of one or of the other")
     if not case.sieves:
         raise NotApplicable("the case has no sieves")
     if sieve is not None and sieve not in case.sieves:

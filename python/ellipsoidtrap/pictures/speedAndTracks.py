@@ -13,6 +13,7 @@ SHOWN = 100   # tracks of escaped cells at most: more would hide the flow
 FEW = 20      # tracks of each other fate that are shown in any case
 FAINT = 0.45  # how much of those that escaped is seen
 PARTS = 6     # of a way between two rows
+MICRO_PER_MILLI = 1000
 
 
 def thinned(cells, most):
@@ -32,6 +33,24 @@ def shown(cells):
     }
 
 
+def jumps(track):
+    """Between which rows a cell left at one side and came in at another, as at a cyclic patch: much
+    farther apart than it moved."""
+    apart = np.linalg.norm(np.diff(track.x[:, :2], axis=0), axis=1)
+    speed = np.linalg.norm(track.u, axis=1)
+    return apart > 1 + 5 * MICRO_PER_MILLI * np.maximum(speed[:-1], speed[1:]) * np.diff(track.t)
+
+
+def pieces(track):
+    """The path in as many parts as it has without its jumps."""
+    ends = PARTS * np.flatnonzero(jumps(track))
+    path, begin = track.finer(PARTS).x[:, :2], 0
+    for end in ends:
+        yield path[begin:end + 1]
+        begin = end + PARTS
+    yield path[begin:]
+
+
 def beyond_walls(plane, tracks):
     """How many tracks lead between two of their rows through what is not fluid at half depth,
     though both rows are in fluid."""
@@ -39,7 +58,7 @@ def beyond_walls(plane, tracks):
     for track in tracks:
         rows = plane.has_fluid(track.x[:, :2])
         between = plane.has_fluid(track.finer(PARTS).x[:-1, :2]).reshape(-1, PARTS)
-        many += bool((rows[:-1] & rows[1:] & ~between.all(axis=1)).any())
+        many += bool((rows[:-1] & rows[1:] & ~jumps(track) & ~between.all(axis=1)).any())
     return many
 
 
@@ -80,7 +99,7 @@ def draw(case):
             key.set_label(f"{fate} ({len(of_fate[fate])}; {len(cells)} shown)")
         keys.append(key)
         drawn += [(cell, fate, case.tracks[cell]) for cell in cells]
-        tracks = [case.tracks[cell].finer(PARTS).x[:, :2] for cell in cells]
+        tracks = [piece for cell in cells for piece in pieces(case.tracks[cell])]
         effects = [] if fate == "escaped" else style.framed("white", line["linewidth"] + 0.6)
         ax.add_collection(LineCollection(
             tracks, colors=line["color"], linewidths=line["linewidth"],
@@ -88,7 +107,7 @@ def draw(case):
             alpha=FAINT if fate == "escaped" else 1,
         ))
         if fate != "escaped":
-            ends = np.array([track[-1] for track in tracks])
+            ends = np.array([case.tracks[cell].x[-1, :2] for cell in cells])
             ax.plot(
                 *ends.T, linestyle="none", markerfacecolor=line["color"], **style.LAST_POINT
             )

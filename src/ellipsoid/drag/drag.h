@@ -86,11 +86,29 @@ enum
     ELLIPSOID_PLANE_NEAR
 };
 
+/* The functions of tilt and gap, and their derivatives by nu and the gap;
+   lengths in equatorial radii. */
+typedef struct ellipsoid_plane_values
+{
+    double f[ELLIPSOID_PLANE_FUNCTIONS], by_nu[ELLIPSOID_PLANE_FUNCTIONS];
+    double by_gap[ELLIPSOID_PLANE_FUNCTIONS];
+    /* with its derivatives: q; c x n over e x n */
+    double squeeze[3], arm[3];
+} ellipsoid_plane_values;
+
+/* One plane and one body. */
+typedef struct ellipsoid_plane_effect
+{
+    const ellipsoid_plane_table *own;
+    double normal[3]; /* body frame */
+    ellipsoid_plane_values values;
+} ellipsoid_plane_effect;
+
 /* A wall as the body sees it; slopes, by the pose, only where asked for. */
 typedef struct ellipsoid_plane
 {
-    double wall[3];   /* unit normal, lab, into the fluid */
-    double normal[3]; /* the same in the body frame */
+    double wall[3]; /* unit normal, lab, into the fluid */
+    ellipsoid_plane_effect effect;
     double gap;       /* [m] to the body, cut off at the lubrication_gap */
     double weight[2]; /* [-] of each action: 1 on a wall without end */
     double normal_slope[ELLIPSOID_POSE_SIZE][3];
@@ -110,39 +128,22 @@ ellipsoid_status ellipsoid_find_planes(
     const ellipsoid_state *state, const ellipsoid_frame *frame,
     ellipsoid_facet_cache *cache, ellipsoid_planes *planes);
 
-/* The functions of tilt and gap, and their derivatives by nu and the gap;
-   lengths in equatorial radii. */
-typedef struct ellipsoid_plane_values
-{
-    double f[ELLIPSOID_PLANE_FUNCTIONS], by_nu[ELLIPSOID_PLANE_FUNCTIONS];
-    double by_gap[ELLIPSOID_PLANE_FUNCTIONS];
-    /* with its derivatives: q; c x n over e x n; the velocity along n at c in
-       the shear, over gamma.e */
-    double squeeze[3], arm[3], rate[3];
-} ellipsoid_plane_values;
-
-/* One plane and one body. */
-typedef struct ellipsoid_plane_effect
-{
-    const ellipsoid_plane_table *own;
-    double normal[3]; /* body frame */
-    ellipsoid_plane_values values;
-} ellipsoid_plane_effect;
-
 /* slopes: are derivatives to be asked for? */
 void ellipsoid_plane_effect_set(const ellipsoid_plane_table *own,
                                 const double normal[3], double gap, int slopes,
                                 ellipsoid_plane_effect *effect);
 
 /*
-    What the plane adds to force [m2/s] and torque [m3/s] over mu on a body that
-    a free one outruns by `rates`, in a flow of which (z - z of the centre)
-    shear [1/s] is a part; all in the body frame, FAR and NEAR apart. change, if
-    not NULL: its derivatives by the components of the normal and the gap.
+    What the plane adds to force [m2/s] and torque [m3/s] over mu on a body of
+    this velocity, u and omega, that a free one outruns by `rates`, in a flow of
+    which (z - z of the centre) shear [1/s] is a part; all in the body frame, FAR
+    and NEAR apart. change, if not NULL: its derivatives by the components of the
+    normal and the gap.
 */
 void ellipsoid_plane_action(const ellipsoid_plane_effect *effect,
-                            const double rates[6], const double shear[3],
-                            double action[2][6], double change[4][2][6]);
+                            const double rates[6], const double velocity[6],
+                            const double shear[3], double action[2][6],
+                            double change[4][2][6]);
 
 /* What the drag near walls depends on besides the pose. */
 typedef struct ellipsoid_near_walls

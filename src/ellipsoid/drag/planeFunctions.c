@@ -11,14 +11,14 @@
         C: the same with f4 to f7, force by turning:
         B: f8 e (e x t) + nu f9 [e x] + nu f10 t (e x t) + f11 (e x t) e
     and q o o, o = (n, c x n) with the nearest point c: squeezing, q = 12 pi
-    S^3/(tau g) (p/h)^3, p = sqrt(a^2 + (b^2 - a^2) nu^2), h = p + g. On a body
-    that moves as a free one far from walls would in the flow (z - z of the
-    centre) gamma, gamma.n = 0, acts
+    S^3/(tau g) (p/h)^3, p = sqrt(a^2 + (b^2 - a^2) nu^2), h = p + g. It resists
+    motion relative to the wall, whatever the flow would do with a free body: in
+    the gap the flow along n is of the second order in g. On a body that moves as
+    a free one far from walls would in the flow (z - z of the centre) gamma,
+    gamma.n = 0, acts besides
         F: f12 gamma + (gamma.e) (f13 e + nu f14 t),
         T: f15 (n x gamma) + (f16 - f15) e e.(n x gamma)
-           + f17 (gamma.e) e x n
-    less q o times its velocity along n at c, (b^2 - a^2) nu/(2 p)
-    (1 - B (1 - 2 nu^2)) gamma.e, B = (b^2 - a^2)/(b^2 + a^2).
+           + f17 (gamma.e) e x n.
 
     The f are even in nu and were computed by boundary elements
     (tools/planeTable). Over p/h and their sizes (body/planeTable.c) they are
@@ -103,8 +103,6 @@ static void set_values(const ellipsoid_plane_table *own, double nu, double gap,
     }
 
     /* 12 pi S^3/tau = 12 pi b^3/(p^3 (b^2 + p^2)) */
-    const double bend = more / (b * b + 1);
-
     v->squeeze[0] = ellipsoid_squeeze(b, p) * close * close * close / gap;
     v->squeeze[1] =
         v->squeeze[0]
@@ -112,10 +110,7 @@ static void set_values(const ellipsoid_plane_table *own, double nu, double gap,
     v->squeeze[2] = v->squeeze[0] * (3 * close_gap / close - 1 / gap);
     v->arm[0] = -more * nu / p;
     v->arm[1] = -more / (pp * p);
-    v->arm[2] = v->rate[2] = 0;
-    v->rate[0] = -0.5 * v->arm[0] * (1 - bend * (1 - 2 * nu * nu));
-    v->rate[1] = -0.5 * v->arm[1] * (1 - bend * (1 - 2 * nu * nu))
-               - 2 * v->arm[0] * bend * nu;
+    v->arm[2] = 0;
 }
 
 /* Force and torque of the tabulated part, of functions f; k: the axis, of which
@@ -171,21 +166,22 @@ static void add_scaled(const double part[6], double factor, double radius,
 }
 
 void ellipsoid_plane_action(const ellipsoid_plane_effect *e,
-                            const double rates[6], const double shear[3],
-                            double action[2][6], double change[4][2][6])
+                            const double rates[6], const double velocity[6],
+                            const double shear[3], double action[2][6],
+                            double change[4][2][6])
 {
     const ellipsoid_plane_values *v = &e->values;
     const double a = e->own->radius, *n = e->normal;
     const int k = e->own->axis, i = (k + 1) % 3, j = (k + 2) % 3;
-    const double nu = n[k], y = a * shear[k];
+    const double nu = n[k], *u = velocity;
     const double scaled[6] = {rates[0],     rates[1],     rates[2],
                               a * rates[3], a * rates[4], a * rates[5]};
     const double sheared[3] = {a * shear[0], a * shear[1], a * shear[2]};
-    const double out[6] = {n[0], n[1], n[2]}, *w = scaled + 3;
-    /* (c x n).w over the arm */
+    const double w[3] = {a * u[3], a * u[4], a * u[5]};
+    const double out[6] = {n[0], n[1], n[2]};
+    /* (c x n).w over the arm; of the nearest point, towards the wall */
     const double spin = n[i] * w[j] - n[j] * w[i];
-    const double slip =
-        ellipsoid_dot(n, scaled) + v->arm[0] * spin - v->rate[0] * y;
+    const double approach = -ellipsoid_dot(n, u) - v->arm[0] * spin;
     double part[6], crossed[6] = {0};
 
     memset(action, 0, 2 * sizeof(*action));
@@ -195,7 +191,7 @@ void ellipsoid_plane_action(const ellipsoid_plane_effect *e,
     crossed[3 + j] = n[i];
     for (int m = 0; m < 6; m++)
     {
-        part[m] = v->squeeze[0] * slip * (out[m] + v->arm[0] * crossed[m]);
+        part[m] = v->squeeze[0] * approach * (out[m] + v->arm[0] * crossed[m]);
     }
     add_scaled(part, a, a, action[1]);
     if (!change)
@@ -207,8 +203,8 @@ void ellipsoid_plane_action(const ellipsoid_plane_effect *e,
     {
         const int to = by == k ? 1 : by == 3 ? 2 : 0; /* nu, gap or t */
         const double per = by == 3 ? 1 : a;
-        double of_slip = (to ? v->arm[to] * spin - v->rate[to] * y : 0)
-                       + (by < 3 ? scaled[by] : 0);
+        double of_approach =
+            (to ? -v->arm[to] * spin : 0) - (by < 3 ? u[by] : 0);
         double turned[6] = {0};
 
         if (to)
@@ -235,12 +231,12 @@ void ellipsoid_plane_action(const ellipsoid_plane_effect *e,
         }
         if (by == i)
         {
-            of_slip += v->arm[0] * w[j];
+            of_approach -= v->arm[0] * w[j];
             turned[3 + j] = 1;
         }
         if (by == j)
         {
-            of_slip -= v->arm[0] * w[i];
+            of_approach += v->arm[0] * w[i];
             turned[3 + i] = -1;
         }
         for (int m = 0; m < 6; m++)
@@ -249,8 +245,8 @@ void ellipsoid_plane_action(const ellipsoid_plane_effect *e,
             const double of_row = (by < 3 && by == m) + v->arm[0] * turned[m]
                                 + (to ? v->arm[to] * crossed[m] : 0);
 
-            part[m] = v->squeeze[0] * (of_slip * row + slip * of_row)
-                    + (to ? v->squeeze[to] * slip * row : 0);
+            part[m] = v->squeeze[0] * (of_approach * row + approach * of_row)
+                    + (to ? v->squeeze[to] * approach * row : 0);
         }
         add_scaled(part, per, a, change[by][1]);
     }

@@ -6,10 +6,12 @@
 
         (F^, T^) = mu (diag(K^, C) + sum_planes A(n^, g))
                    (R^T (u_free - u), omega_free - w^)
+                 - mu sum_planes Q(n^, g) (R^T u, w^)
                  + mu sum_planes D(n^, g) gamma^,
     with the free motion as it is far from walls and gamma = (I - n n) G n of the
     flow at the centre (planeFunctions.c, wallPlanes.c): a plane resists motion,
-    and holds back a body that the shear along it carries.
+    squeezing (Q) that relative to the wall, and holds back a body that the shear
+    along it carries.
 */
 #include "drag/drag.h"
 
@@ -56,69 +58,92 @@ static void add_weighted(const double weight[2], double factor,
     }
 }
 
-void ellipsoid_wall_matrix(const ellipsoid_model *model,
-                           const ellipsoid_planes *planes, double matrix[6][6])
+/* Adds an action of a plane to a column. */
+static void add_part(double weight, const double action[6], double sum[6])
+{
+    for (int i = 0; i < 6; i++)
+    {
+        sum[i] += weight * action[i];
+    }
+}
+
+/* mu (diag(K, C) + sum A) and mu sum Q. */
+static void set_matrices(const ellipsoid_model *model,
+                         const ellipsoid_planes *planes, double slip[6][6],
+                         double squeeze[6][6])
 {
     const double mu = model->viscosity;
 
-    memset(matrix, 0, 6 * sizeof(*matrix));
+    memset(slip, 0, 6 * sizeof(*slip));
+    memset(squeeze, 0, 6 * sizeof(*squeeze));
     for (int p = 0; p < planes->count; p++)
     {
         const ellipsoid_plane *plane = &planes->at[p];
-        ellipsoid_plane_effect effect;
 
-        ellipsoid_plane_effect_set(&model->plane, plane->normal, plane->gap, 0,
-                                   &effect);
         for (int m = 0; m < 6; m++)
         {
-            double rates[6] = {0}, action[2][6];
+            double rates[6] = {0}, velocity[6] = {0}, action[2][6];
 
             rates[m] = 1;
-            ellipsoid_plane_action(&effect, rates, none, action, NULL);
-            add_weighted(plane->weight, mu, action, matrix[m]);
+            velocity[m] = -1;
+            ellipsoid_plane_action(&plane->effect, rates, velocity, none,
+                                   action, NULL);
+            add_part(mu * plane->weight[ELLIPSOID_PLANE_FAR], action[0],
+                     slip[m]);
+            add_part(mu * plane->weight[ELLIPSOID_PLANE_NEAR], action[1],
+                     squeeze[m]);
         }
     }
     for (int i = 0; i < 3; i++)
     {
-        matrix[i][i] += mu * model->resistance[i];
-        matrix[i + 3][i + 3] += mu * model->rotation_resistance[i];
+        slip[i][i] += mu * model->resistance[i];
+        slip[i + 3][i + 3] += mu * model->rotation_resistance[i];
     }
 }
 
-/* Adds what the planes add on a body that a free one outruns by these rates. */
+void ellipsoid_wall_matrix(const ellipsoid_model *model,
+                           const ellipsoid_planes *planes, double matrix[6][6])
+{
+    double squeeze[6][6];
+
+    set_matrices(model, planes, matrix, squeeze);
+    for (int m = 0; m < 6; m++)
+    {
+        add_part(1, squeeze[m], matrix[m]);
+    }
+}
+
+/* Adds what the planes add on a body of this velocity that a free one outruns by
+   these rates. */
 static void add_planes(const ellipsoid_near_walls *near, const double rates[6],
-                       double action[6])
+                       const double velocity[6], double action[6])
 {
     const ellipsoid_model *m = near->model;
 
     for (int p = 0; p < near->planes->count; p++)
     {
         const ellipsoid_plane *plane = &near->planes->at[p];
-        ellipsoid_plane_effect effect;
         double lab[3], shear[3], parts[2][6];
 
-        ellipsoid_plane_effect_set(&m->plane, plane->normal, plane->gap, 0,
-                                   &effect);
         set_shear(near, plane, lab, shear);
-        ellipsoid_plane_action(&effect, rates, shear, parts, NULL);
+        ellipsoid_plane_action(&plane->effect, rates, velocity, shear, parts,
+                               NULL);
         add_weighted(plane->weight, m->viscosity, parts, action);
     }
 }
 
 /* The same changes with the pose, those of the planes and of gamma, but not of
-   the rates. */
+   rates and velocity. */
 static void add_pose_changes(const ellipsoid_near_walls *near,
                              const ellipsoid_plane *plane,
-                             const double rates[6], double change[POSE][6])
+                             const double rates[6], const double velocity[6],
+                             double change[POSE][6])
 {
     const double mu = near->model->viscosity, *n = plane->wall;
-    ellipsoid_plane_effect effect;
     double lab[3], shear[3], parts[2][6], by[4][2][6];
 
-    ellipsoid_plane_effect_set(&near->model->plane, plane->normal, plane->gap,
-                               1, &effect);
     set_shear(near, plane, lab, shear);
-    ellipsoid_plane_action(&effect, rates, shear, parts, by);
+    ellipsoid_plane_action(&plane->effect, rates, velocity, shear, parts, by);
     for (int l = 0; l < POSE; l++)
     {
         const double of_weight[2] = {plane->weight_slope[0][l],
@@ -149,7 +174,8 @@ static void add_pose_changes(const ellipsoid_near_walls *near,
         {
             ellipsoid_product(near->frame->by_q[l - 3], lab, of_shear);
         }
-        ellipsoid_plane_action(&effect, none, of_shear, driven, NULL);
+        ellipsoid_plane_action(&plane->effect, none, none, of_shear, driven,
+                               NULL);
         add_weighted(plane->weight, mu, driven, change[l]);
     }
 }
@@ -192,47 +218,49 @@ static void apply(double matrix[6][6], const double rates[6], double action[6])
     }
 }
 
-static void add_blocks(const ellipsoid_near_walls *near, const double slip[3],
-                       const double rates[6], const double action[6],
+/* What the drag is evaluated with: body frame, but slip and u. */
+typedef struct motion
+{
+    const double *u;    /* of the body, lab */
+    double slip[3];     /* u_free - u, lab */
+    double rates[6];    /* of the free body less those of the body */
+    double velocity[6]; /* of the body */
+    double action[6];   /* force and torque */
+} motion;
+
+static void add_blocks(const ellipsoid_near_walls *near, const motion *at,
                        ellipsoid_jacobian_blocks *b)
 {
     const ellipsoid_model *m = near->model;
     const ellipsoid_free_motion *free = near->free;
     ellipsoid_frame *frame = near->frame;
-    double(*axis)[3] = frame->axis, matrix[6][6], change[POSE][6] = {{0}};
+    double(*axis)[3] = frame->axis, change[POSE][6] = {{0}};
+    double slip[6][6], squeeze[6][6], column[6], moved[6];
 
-    ellipsoid_wall_matrix(m, near->planes, matrix);
+    set_matrices(m, near->planes, slip, squeeze);
     for (int p = 0; p < near->planes->count; p++)
     {
-        add_pose_changes(near, &near->planes->at[p], rates, change);
+        add_pose_changes(near, &near->planes->at[p], at->rates, at->velocity,
+                         change);
     }
     for (int l = 0; l < 3; l++)
     {
-        const double minus[3] = {-axis[0][l], -axis[1][l], -axis[2][l]};
         const double u_x[3] = {free->u_x[0][l], free->u_x[1][l],
                                free->u_x[2][l]};
         const double omega_x[3] = {free->omega_x[0][l], free->omega_x[1][l],
                                    free->omega_x[2][l]};
-        double moved[6] = {minus[0], minus[1], minus[2], 0, 0, 0};
-        double column[6];
 
-        apply(matrix, moved, column);
-        add_column(axis, column, &b->uu[0][l], &b->wu[0][l], 3);
-        for (int i = 0; i < 6; i++)
-        {
-            column[i] = -matrix[l + 3][i];
-        }
-        add_column(axis, column, &b->uw[0][l], &b->ww[0][l], 3);
         to_body(axis, u_x, omega_x, moved);
-        apply(matrix, moved, column);
+        apply(slip, moved, column);
         add_column(axis, column, &b->ux[0][l], &b->wx[0][l], 3);
         add_column(axis, change[l], &b->ux[0][l], &b->wx[0][l], 3);
     }
     for (int n = 0; n < 4; n++)
     {
-        double moved[6], column[6], turned[3];
+        double turned[6] = {0}, squeezed[6];
 
-        ellipsoid_product(frame->by_q[n], slip, moved);
+        ellipsoid_product(frame->by_q[n], at->slip, moved);
+        ellipsoid_product(frame->by_q[n], at->u, turned);
         for (int i = 0; i < 3; i++)
         {
             moved[i] += m->flow_points > 0 ? axis[i][0] * free->u_q[0][n]
@@ -241,15 +269,33 @@ static void add_blocks(const ellipsoid_near_walls *near, const double slip[3],
                                            : 0;
             moved[i + 3] = free->omega_q[i][n];
         }
-        apply(matrix, moved, column);
+        apply(slip, moved, column);
+        apply(squeeze, turned, squeezed);
+        add_part(-1, squeezed, column);
         add_column(axis, column, &b->uq[0][n], &b->wq[0][n], 4);
         add_column(axis, change[n + 3], &b->uq[0][n], &b->wq[0][n], 4);
-        ellipsoid_combination(frame->by_q[n], action[0], action[1], action[2],
-                              turned);
+        ellipsoid_combination(frame->by_q[n], at->action[0], at->action[1],
+                              at->action[2], turned);
         for (int i = 0; i < 3; i++)
         {
             b->uq[i][n] += turned[i];
         }
+    }
+    for (int i = 0; i < 6; i++)
+    {
+        add_part(1, squeeze[i], slip[i]);
+    }
+    for (int l = 0; l < 3; l++)
+    {
+        const double back[6] = {-axis[0][l], -axis[1][l], -axis[2][l]};
+
+        apply(slip, back, column);
+        add_column(axis, column, &b->uu[0][l], &b->wu[0][l], 3);
+        for (int i = 0; i < 6; i++)
+        {
+            column[i] = -slip[l + 3][i];
+        }
+        add_column(axis, column, &b->uw[0][l], &b->ww[0][l], 3);
     }
 }
 
@@ -259,22 +305,25 @@ void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
                              ellipsoid_jacobian_blocks *blocks)
 {
     const ellipsoid_model *m = near->model;
-    double slip[3], turn[3], rates[6], action[6];
+    motion at = {.u = state->u};
+    double turn[3];
 
-    ellipsoid_difference(near->free->u, state->u, slip);
+    ellipsoid_difference(near->free->u, state->u, at.slip);
     ellipsoid_difference(near->free->omega, state->omega, turn);
-    to_body(near->frame->axis, slip, turn, rates);
+    to_body(near->frame->axis, at.slip, turn, at.rates);
+    to_body(near->frame->axis, state->u, state->omega, at.velocity);
     for (int i = 0; i < 3; i++)
     {
-        action[i] = m->viscosity * m->resistance[i] * rates[i];
-        action[i + 3] = m->viscosity * m->rotation_resistance[i] * rates[i + 3];
+        at.action[i] = m->viscosity * m->resistance[i] * at.rates[i];
+        at.action[i + 3] =
+            m->viscosity * m->rotation_resistance[i] * at.rates[i + 3];
     }
-    add_planes(near, rates, action);
-    add_lab(near->frame->axis, action, wrench->force);
-    ellipsoid_add(wrench->torque, action + 3);
+    add_planes(near, at.rates, at.velocity, at.action);
+    add_lab(near->frame->axis, at.action, wrench->force);
+    ellipsoid_add(wrench->torque, at.action + 3);
     if (blocks)
     {
-        add_blocks(near, slip, rates, action, blocks);
+        add_blocks(near, &at, blocks);
     }
 }
 
@@ -313,10 +362,11 @@ ellipsoid_balance_wall_drag(const ellipsoid_near_walls *near,
                             const ellipsoid_body_wrench *wrench,
                             ellipsoid_state *state)
 {
-    double push[6];
+    double push[6], velocity[6];
 
     to_body(near->frame->axis, wrench->force, wrench->torque, push);
-    add_planes(near, none, push);
+    to_body(near->frame->axis, near->free->u, near->free->omega, velocity);
+    add_planes(near, none, velocity, push);
     ellipsoid_copy(near->free->u, state->u);
     ellipsoid_copy(near->free->omega, state->omega);
     return add_mobility(near->model, near->planes, near->frame->axis, push,

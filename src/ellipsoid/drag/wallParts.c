@@ -14,6 +14,10 @@
     Phi over the angle along its rim, over 2 pi, and so adds up over facets, is
     the same for any triangulation, and continuous. At r = c, beyond which no
     wall is looked for, Phi = (r^2/(1 + r^2) - k r^2)/N is flat and 1.
+    Where a wall ends the pressure of squeezing does, too, and so it counts by the
+    square of its part: over a half-plane Reynolds' equation gives 0.29, 0.53 and
+    0.84 of the force where the part is 0.5, 0.72 and 0.92, and its square 0.25,
+    0.52 and 0.84.
     Edges between facets of one plane are left out: the angle alone gives 1 if
     the foot is on the wall, else 0, and edges that are no seams the integral of
     Phi - 1.
@@ -103,6 +107,16 @@ void ellipsoid_wall_begin(view *s, const ellipsoid_facet *facet, double height,
     }
     set_cut(far, reach * far->scale);
     set_cut(near, reach * near->scale / longest);
+    for (int m = 0; m < 2; m++)
+    {
+        kernel *k = &w->seen[m];
+
+        k->reach = k->cut / k->scale * (m == NEAR ? longest : 1);
+        for (int i = 0; i < 3; i++)
+        {
+            k->foot[i] = -k->shift[i] / k->shrink[i];
+        }
+    }
 }
 
 /* r of a vertex; from: where it is from the centre, lab. */
@@ -197,12 +211,24 @@ static void add_edge(const kernel *k, const double r1[3], const double r2[3],
 
 void ellipsoid_wall_add(view *s, const ellipsoid_facet *facet, wall *w)
 {
+    const double rounding = 1 + 1e-9;
+    const int seam = ellipsoid_has_seam(facet);
+    double lab[3], middle[3];
+
+    ellipsoid_difference(facet->middle, s->x, lab);
+    ellipsoid_product(s->axis, lab, middle);
     for (int m = 0; m < 2; m++)
     {
         const kernel *k = &w->seen[m];
-        double r[3][3], from[3][3];
+        const double width = facet->radius + (seam ? k->reach : 0);
+        double r[3][3], from[3][3], off[3];
         int left = 0;
 
+        ellipsoid_difference(middle, k->foot, off);
+        if (ellipsoid_dot(off, off) > width * width * rounding)
+        {
+            continue;
+        }
         for (int i = 0; i < 3; i++)
         {
             look(s, k, facet->vertex[i], from[i], r[i]);
@@ -278,10 +304,12 @@ static void set_slopes(view *s, const wall *w, int n, const double fade[3],
     for (int m = 0; m < 2; m++)
     {
         const rim *sum = &w->sum[m];
+        const double part = sum->inside + sum->value;
+        const double by = sum_slope(s, &w->seen[m], sum, n, scale[m], shift[m]);
 
         plane->weight_slope[m][n] =
-            (fade[1] * h_n + fade[2] * p_n) * (sum->inside + sum->value)
-            + fade[0] * sum_slope(s, &w->seen[m], sum, n, scale[m], shift[m]);
+            (fade[1] * h_n + fade[2] * p_n) * (m == NEAR ? part * part : part)
+            + fade[0] * (m == NEAR ? 2 * part * by : by);
     }
 }
 
@@ -299,14 +327,21 @@ int ellipsoid_wall_plane(view *s, const wall *w, int slopes,
 
     plane->gap = cut_off(h - p, s->model->options.lubrication_gap, &gap_slope);
     ellipsoid_copy(w->facet->normal, plane->wall);
-    ellipsoid_copy(w->seen[FAR].normal, plane->normal);
     for (int m = 0; m < 2; m++)
     {
-        plane->weight[m] = fade[0] * (w->sum[m].inside + w->sum[m].value);
+        const double part = w->sum[m].inside + w->sum[m].value;
+
+        plane->weight[m] = fade[0] * (m == NEAR ? part * part : part);
     }
     for (int n = 0; slopes && n < POSE; n++)
     {
         set_slopes(s, w, n, fade, gap_slope, plane);
     }
-    return plane->weight[FAR] != 0 || plane->weight[NEAR] != 0;
+    if (plane->weight[FAR] == 0 && plane->weight[NEAR] == 0)
+    {
+        return 0;
+    }
+    ellipsoid_plane_effect_set(&s->model->plane, w->seen[FAR].normal,
+                               plane->gap, slopes, &plane->effect);
+    return 1;
 }

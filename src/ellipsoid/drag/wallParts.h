@@ -18,8 +18,9 @@
 typedef struct ellipsoid_wall_kernel
 {
     double scale, shrink[3], shift[3], normal[3];
-    double cut, k, n; /* c, k and N above */
-    double cut_slope; /* of ln c by ln scale */
+    double foot[3], reach; /* where r is 0; beyond which r is above c, [m] */
+    double cut, k, n;      /* c, k and N above */
+    double cut_slope;      /* of ln c by ln scale */
 } ellipsoid_wall_kernel;
 
 /* Sums along the rim: of Phi - 1 over the angle, of the weight times the
@@ -47,6 +48,14 @@ typedef struct ellipsoid_wall_view
     double axis[3][3];      /* unit */
     double turned[4][3][3]; /* their derivatives by q */
 } ellipsoid_wall_view;
+
+/* Does its wall end at an edge of it, or bend? */
+static inline int ellipsoid_has_seam(const ellipsoid_facet *facet)
+{
+    return facet->edge[0] != ELLIPSOID_EDGE_FLAT
+        || facet->edge[1] != ELLIPSOID_EDGE_FLAT
+        || facet->edge[2] != ELLIPSOID_EDGE_FLAT;
+}
 
 /* Begins a wall with its first facet; the centre is `height` above it. */
 void ellipsoid_wall_begin(ellipsoid_wall_view *view,

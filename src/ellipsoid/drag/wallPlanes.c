@@ -154,13 +154,6 @@ static int is_unseen(const wall *w)
         == 0;
 }
 
-static int has_seam(const ellipsoid_facet *facet)
-{
-    return facet->edge[0] != ELLIPSOID_EDGE_FLAT
-        || facet->edge[1] != ELLIPSOID_EDGE_FLAT
-        || facet->edge[2] != ELLIPSOID_EDGE_FLAT;
-}
-
 ellipsoid_status ellipsoid_find_planes(
     const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
     const ellipsoid_state *state, const ellipsoid_frame *frame,
@@ -197,8 +190,8 @@ ellipsoid_status ellipsoid_find_planes(
         }
         /* beyond what both kernels see; without seams it is to hold a foot */
         off = ellipsoid_dot(d, d) - height * height;
-        width = (has_seam(facet) ? ELLIPSOID_WALL_BESIDE * range : 0) + longest
-              + facet->radius;
+        width = (ellipsoid_has_seam(facet) ? ELLIPSOID_WALL_BESIDE * range : 0)
+              + longest + facet->radius;
         if (off > width * width * (1 + 1e-9))
         {
             continue;

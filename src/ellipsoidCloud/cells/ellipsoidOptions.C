@@ -154,17 +154,21 @@ void Foam::ellipsoidProperties::readOptions()
 {
     const wordList keywords(keywordsOf(word::null));
     wordList sections({"injection", "capture", "tracks", "occupancy"});
+    const wordList external(externalForces::names(section("forces")));
 
     for (const word& keyword : keywords)
     {
-        const wordList allowed(keywordsOf(keyword));
+        wordList allowed(keywordsOf(keyword));
 
         if (allowed.size())
         {
-            checkKeywords
-            (
-                section(keyword), allowed, {"sizes", "electricField"}
-            );
+            wordList dictionaries({"sizes", "electricField"});
+            if (keyword == "forces")
+            {
+                dictionaries.append(external);
+                allowed.append(external);
+            }
+            checkKeywords(section(keyword), allowed, dictionaries);
             sections.append(keyword);
         }
     }
@@ -199,7 +203,7 @@ void Foam::ellipsoidProperties::readOptions()
     if
     (
         electricField::isNamed(section("forces"))
-     && options_.charge == 0 && d[0] == 0 && d[1] == 0 && d[2] == 0
+     && external.empty() && options_.charge == 0 && d[0] == 0 && d[1] == 0 && d[2] == 0
     )
     {
         IOWarningInFunction(section("forces"))

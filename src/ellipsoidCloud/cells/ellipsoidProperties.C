@@ -3,6 +3,7 @@
 
 #include "ellipsoidProperties.H"
 #include "emptyPolyPatch.H"
+#include "listedCells.H"
 #include "masterGate.H"
 #include "polyBoundaryMesh.H"
 #include "processorPolyPatch.H"
@@ -87,13 +88,24 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     const label nPatches =
         returnReduce(mesh.boundaryMesh().size(), sumOp<label>());
 
+    {
+        const masterGate once;
+
+        if (Pstream::master())
+        {
+            refuseRepeated(time().globalPath()/time().constant()/name());
+        }
+        readOptions();
+        if (found("injection") && isDict("injection"))
+        {
+            listedCells::read(subDict("injection"), time().globalPath());
+        }
+    }
+    forces_.read(section("forces"));
+
     // No reading of files, for which ranks would have to meet, from here on
     const masterGate once;
 
-    if (Pstream::master())
-    {
-        refuseRepeated(time().globalPath()/time().constant()/name());
-    }
     if (!nCells || !nPatches)
     {
         FatalErrorInFunction
@@ -108,7 +120,6 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
             << "constant/g is not read: gravity is that of forces/gravity in "
             << name() << nl << endl;
     }
-    readOptions();
     checkOptions();
     scheme_ = meshFlow::schemeNames.getOrDefault
     (

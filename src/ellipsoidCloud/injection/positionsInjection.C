@@ -7,7 +7,7 @@ Class
 
 Description
     Cells at given positions and, if given, with given orientations, sizes and
-    densities.
+    densities; or all of them of a file, see listedCells.
 
 Usage
     \verbatim
@@ -142,7 +142,7 @@ defineTypeNameAndDebug(positionsInjection, 0);
 
 static const cellInjection::addType<positionsInjection> addPositionsInjection
 ({
-    "positions", "orientations", "sizes", "densities"
+    "positions", "orientations", "sizes", "densities", "file"
 });
 
 } // End namespace Foam

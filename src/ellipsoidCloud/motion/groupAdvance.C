@@ -265,6 +265,7 @@ void Foam::groupAdvance::enter
             }
         );
         own[i].here.fixed = isFixed(id, tried);
+        own[i].here.setForces(properties.forces(), own[i].model.options);
         if (isTried && tried->pull)
         {
             own[i].here.setStill(*tried->pull);

@@ -8,8 +8,10 @@ usage: poses.py PROGRAM CASE FOLDER [FINENESS]
     FOLDER      is made; what is run is there
     FINENESS    of the panels [2]
 
-Prints for every pose the speed of the flow at the centre, the resolved speed over that, and of each
-model how far its velocity is off, over the speed of the flow, and its spin, over the resolved one.
+Prints for every pose the speed of the flow at the centre, the resolved speed over that, the speed
+that the resolved spin gives the tip of the cell, likewise, and of each model how far both are off,
+over the speed of the flow. Then of the resistance, over that of the free body, what the models give of
+the resolved one on its diagonal, body frame.
 """
 
 import csv
@@ -31,6 +33,7 @@ POSTS = (
     [(-4, -4), (-2, -4), (-2, 0), (-0.4, 0), (-0.4, 1), (-4, 1)],
     [(4, -4), (4, 1), (0.4, 1), (0.4, 0), (2, 0), (2, -4)],
 )
+FORCE, TORQUE = 1e-13, 1e-19    # N, N m
 CHANNEL = (-12, 12, -30, 30)
 X, Y, Z = (1, 0, 0), (0, 1, 0), (0, 0, 1)
 MODELS = {
@@ -120,8 +123,29 @@ def motions(case, folder, poses, forces):
     return [found[n] for n in range(len(poses))]
 
 
+def resistances(case, folder, poses, forces):
+    """(6, 6) of every cell by the program, body frame [N s/m, N s, N m s], from what a force and a torque change."""
+    folder.mkdir()
+    pushes = [f"external{name} {tuple(size * (k == n) for k in range(3))};".replace(",", "")
+              for name, size in (("Force", FORCE), ("Torque", TORQUE)) for n in range(3)]
+    still, *moved = [motions(case, folder / str(n), poses, forces + push) for n, push in enumerate(["", *pushes])]
+    found = []
+    for n, (_, _, axis) in enumerate(poses):
+        turn = rotation(quaternion(axis))
+        columns = np.array([np.append(turn.T @ (one[n][0] - still[n][0]), one[n][1] - still[n][1]) for one in moved]).T
+        # Forces are in the lab
+        found.append(np.linalg.inv(np.hstack((columns[:, :3] @ turn / FORCE, columns[:, 3:] / TORQUE))))
+    return found
+
+
+def resolved_resistance(text, axis):
+    """The (6, 6) that the program prints, body frame."""
+    turn = np.kron(np.eye(2), rotation(quaternion(axis)).T)
+    return turn @ np.array([line.split()[:6] for line in text.splitlines() if line.startswith(" ")], float) @ turn.T
+
+
 def resolved(program, folder, poses, fineness):
-    """(velocity, spin, velocity of the flow at the centre) of every cell, resolved."""
+    """(velocity, spin, velocity of the flow at the centre, resistance over the free body's) of every cell, resolved."""
     write_walls(folder / "walls.stl")
     commands = [
         " ".join([program, "walls.stl", *map(str, (*AXES, *x, *quaternion(axis), fineness))])
@@ -138,37 +162,61 @@ def resolved(program, folder, poses, fineness):
     sampled = np.loadtxt(next(folder.glob("postProcessing/samples/0/*.xy")))
     assert np.abs(sampled[:, :3] - 1e-6 * points).max() < 1e-11, "not all panels are in the fluid"
     velocities = np.split(sampled[:, 3:], np.cumsum([len(one) for one in panels]))
+    free = np.diag(resolved_resistance(run(" ".join(
+        [program, "none", *map(str, (*AXES, 0, 0, 0, *quaternion(Y), fineness))]), folder), Y))
     found = []
     for n, (_, _, axis) in enumerate(poses):
         np.savetxt(folder / "flow", np.column_stack((panels[n], velocities[n])), fmt="%.9g")
-        motion = np.array(run(f"{commands[n]} flow", folder).split("free")[1].split(), float)
-        found.append((motion[:3], rotation(quaternion(axis)).T @ motion[3:] * 1e6, velocities[-1][n]))
+        text = run(f"{commands[n]} flow", folder)
+        motion = np.array(text.split("free")[1].split(), float)
+        found.append((motion[:3], rotation(quaternion(axis)).T @ motion[3:] * 1e6, velocities[-1][n],
+                      np.diag(resolved_resistance(text, axis)) / free))
     return found
 
 
-def main(program, case, folder, fineness="2"):
-    """The table."""
-    program, case, folder = str(Path(program).resolve()), Path(case), Path(folder)
-    folder.mkdir()
-    poses = make_poses()
-    models = {name: motions(case, folder / name, poses, forces) for name, forces in MODELS.items()}
-    truth = resolved(program, folder / "none", poses, fineness)
-    print("| pose, gap [um] | flow [mm/s] | speed | " + " | ".join(models) + " | spin [rad/s] | " + " | ".join(models) + " |")
+def print_motions(poses, models, truth):
+    """The first table."""
+    print("| pose, gap [um] | flow [mm/s] | speed | " + " | ".join(models) + " | tip | " + " | ".join(models) + " |")
     print("| --- " * (4 + 2 * len(models)) + "|")
     errors = []
     for n, (name, _, _) in enumerate(poses):
-        u, omega, flow = truth[n]
-        speed, spin = np.linalg.norm(flow), np.linalg.norm(omega)
+        u, omega, flow, _ = truth[n]
+        speed, tip = np.linalg.norm(flow), 1e-6 * max(AXES)
         off = [np.linalg.norm(one[n][0] - u) / speed for one in models.values()]
-        turned = [np.linalg.norm(one[n][1] - omega) / spin for one in models.values()]
+        turned = [tip * np.linalg.norm(one[n][1] - omega) / speed for one in models.values()]
         errors.append(off + turned)
         print(f"| {name} | {1e3 * speed:.2f} | {np.linalg.norm(u) / speed:.3f} | " + " | ".join(f"{e:.3f}" for e in off)
-              + f" | {spin:.3g} | " + " | ".join(f"{e:.3f}" for e in turned) + " |")
+              + f" | {tip * np.linalg.norm(omega) / speed:.3f} | " + " | ".join(f"{e:.3f}" for e in turned) + " |")
     for name, of in (("median", 0.5), ("nine of ten below", 0.9), ("worst", 1)):
         row = np.quantile(errors, of, axis=0)
         half = len(models)
         print(f"| **{name}** | | | " + " | ".join(f"{e:.3f}" for e in row[:half]) + " | | "
               + " | ".join(f"{e:.3f}" for e in row[half:]) + " |")
+
+
+def print_resistances(case, folder, poses, truth):
+    """The second one."""
+    free = np.diag(resistances(case, folder / "free", poses[-1:], "")[0])
+    walls = resistances(case, folder / "walls", poses, "wallResistance plane;")
+    print("\n| resistance along | resolved, largest | none / resolved: least, median | plane / resolved: least, median, largest |")
+    print("| --- " * 4 + "|")
+    for k, name in enumerate(("x1", "x2, the axis", "x3", "turning about x1", "about x2", "about x3")):
+        exact = np.array([one[3][k] for one in truth])
+        ratio = np.array([one[k, k] for one in walls]) / free[k] / exact
+        plain = 1 / exact
+        print(f"| {name} | {exact.max():.1f} | {plain.min():.2f}, {np.median(plain):.2f} | "
+              f"{ratio.min():.2f}, {np.median(ratio):.2f}, {ratio.max():.2f} |")
+
+
+def main(program, case, folder, fineness="2"):
+    """Both tables."""
+    program, case, folder = str(Path(program).resolve()), Path(case), Path(folder)
+    folder.mkdir()
+    poses = make_poses()
+    models = {name: motions(case, folder / name, poses, forces) for name, forces in MODELS.items()}
+    truth = resolved(program, folder / "none", poses, fineness)
+    print_motions(poses, models, truth)
+    print_resistances(case, folder, poses, truth)
 
 
 if __name__ == "__main__":
