@@ -145,6 +145,8 @@ def layout(file):
     top.add(gdspy.Rectangle((-2, -2), (2, 2), layer=1))       # within the fluid: no hole in GDS
     top.add(gdspy.CellArray(post, 3, 2, (5, 6), (-5, 6)))
     top.add(gdspy.FlexPath([(-5, -10), (5, -10)], 1, layer=2, datatype=3))
+    # Nothing, as some programs write it
+    top.add(gdspy.FlexPath([(5, 5)], 0.2, layer=1, gdsii_path=True))
     top.add(gdspy.Label("inlet", (0, -20), layer=9))
     top.add(gdspy.Label("outlet", (0, 20), layer=9))
     if "two" in file:

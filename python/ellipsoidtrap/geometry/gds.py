@@ -24,9 +24,12 @@ def read(file, unit, cell):
     with warnings.catch_warnings(), contextlib.redirect_stderr(io.StringIO()):
         warnings.simplefilter("ignore")
         library = gdspy.GdsLibrary(infile=file, units="import")
+    known = getattr(library, "cells", None) or library.cell_dict     # older versions call it so
+    for one in known.values():
+        # Of a single point, which some programs write, nothing is drawn
+        one.paths = [path for path in one.paths if len(path.points) > 1]
     cells = {one.name: one for one in library.top_level()}
     if cell is not None:
-        known = getattr(library, "cells", None) or library.cell_dict     # older versions call it so
         cells = {name: one for name, one in known.items() if name == cell} or known
     if len(cells) != 1:
         return list(cells)
