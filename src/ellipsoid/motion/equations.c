@@ -251,16 +251,17 @@ INLINED ellipsoid_status set_forces(evaluation *e,
    the narrow ones of the callback cost a tenth of an evaluation. */
 INLINED void clear_sample(int derivatives, ellipsoid_flow_sample *flow)
 {
+    volatile ellipsoid_flow_sample *narrow = flow;
     const size_t end = derivatives
                          ? sizeof *flow
                          : offsetof(ellipsoid_flow_sample, velocity_jacobian);
 
     for (int i = 0; i < 3; i++)
     {
-        ((volatile double *)flow->velocity)[i] = 0;
+        narrow->velocity[i] = 0;
         for (int j = 0; j < 3; j++)
         {
-            ((volatile double *)flow->gradient[i])[j] = 0;
+            narrow->gradient[i][j] = 0;
         }
     }
     memset(flow->pressure_gradient, 0,
