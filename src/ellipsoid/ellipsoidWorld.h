@@ -150,7 +150,8 @@ void ellipsoid_world_extend(ellipsoid_world *world, void *memory, size_t size);
    met, which are to be advanced then. */
 ellipsoid_status ellipsoid_world_join(ellipsoid_world *world);
 
-/* All of these for an interval [s]. */
+/* All of these for an interval [s]. Of a cell that cannot go on the view says
+   so; the others go on, and the status is OK. */
 ellipsoid_status ellipsoid_world_advance(void *memory, size_t size,
                                          const ellipsoid_world_cells *cells,
                                          double start, double end);

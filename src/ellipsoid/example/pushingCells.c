@@ -14,7 +14,9 @@
 #define CELLS 100
 
 /* Above the floor in rows, turned at random; each looks for walls by itself. */
+/* Each has surroundings of its own, whose id names it. */
 static void set_cells(ellipsoid_world_body body[CELLS],
+                      ellipsoid_surroundings own[CELLS],
                       const ellipsoid_model *model,
                       const ellipsoid_surroundings *around, char *caches)
 {
@@ -23,7 +25,9 @@ static void set_cells(ellipsoid_world_body body[CELLS],
         double uniform[3];
 
         body[n].model = model;
-        body[n].surroundings = around;
+        own[n] = *around;
+        own[n].id = n;
+        body[n].surroundings = &own[n];
         body[n].cache = (ellipsoid_facet_cache *)caches;
         ellipsoid_facet_cache_clear(body[n].cache);
         caches += ellipsoid_facet_cache_size(model);
@@ -33,6 +37,19 @@ static void set_cells(ellipsoid_world_body body[CELLS],
         body[n].state.x[1] = (3 + 3.3 * (n / 10)) * um;
         body[n].state.x[2] = (3 + 4 * (n % 2)) * um;
     }
+}
+
+/* Why the first cell that is gone is, if any. */
+static ellipsoid_status status_of(const ellipsoid_world_body body[CELLS])
+{
+    for (int n = 0; n < CELLS; n++)
+    {
+        if (body[n].phase == ELLIPSOID_GONE)
+        {
+            return body[n].status;
+        }
+    }
+    return ELLIPSOID_OK;
 }
 
 static void print_cells(double t, const ellipsoid_world_body body[CELLS])
@@ -56,6 +73,7 @@ static void print_cells(double t, const ellipsoid_world_body body[CELLS])
 int main(void)
 {
     static ellipsoid_world_body body[CELLS];
+    static ellipsoid_surroundings own[CELLS];
     static ellipsoid_member member[CELLS];
     ellipsoid_world_bodies bodies = {
         .count = CELLS, .body = body, .largest = CELLS, .member = member};
@@ -100,7 +118,7 @@ int main(void)
 
     if (status == ELLIPSOID_OK)
     {
-        set_cells(body, &model, &around, caches);
+        set_cells(body, own, &model, &around, caches);
         ellipsoid_world_cells_set(&cells, &bodies);
     }
     printf("# t[s]  mean height[um]  cells that touch others  deepest[um]  "
@@ -109,6 +127,10 @@ int main(void)
     {
         status = ellipsoid_world_advance(world, world_size, &cells, 0.1 * n,
                                          0.1 * (n + 1));
+        if (status == ELLIPSOID_OK)
+        {
+            status = status_of(body);
+        }
         if (n % 20 == 19)
         {
             print_cells(0.1 * (n + 1), body);
