@@ -9,6 +9,7 @@ of the device is the x-y plane, its depth lies along z.
 
 import os
 import re
+import sys
 from collections import namedtuple
 from functools import cached_property
 
@@ -459,6 +460,11 @@ class Case:
         polygons = section.GetPolys()
         U = vtk_to_numpy(section.GetCellData().GetArray("U"))
         potential = section.GetCellData().GetArray(self.potential_name or "")
+        if not U.any():
+            print(
+                f"{self.folder}: the fluid of time {self.flow_time[1]} is at rest. If that is the start of a flow solved in"
+                " parallel, run reconstructPar -withZero", file=sys.stderr
+            )
 
         outlines = {}
         walls = []
