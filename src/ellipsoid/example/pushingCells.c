@@ -16,10 +16,11 @@
 /* Above the floor in rows, turned at random; each looks for walls by itself. */
 /* Each has surroundings of its own, whose id names it. */
 static void set_cells(ellipsoid_world_body body[CELLS],
-                      ellipsoid_surroundings own[CELLS],
                       const ellipsoid_model *model,
                       const ellipsoid_surroundings *around, char *caches)
 {
+    static ellipsoid_surroundings own[CELLS];
+
     for (int n = 0; n < CELLS; n++)
     {
         double uniform[3];
@@ -73,7 +74,6 @@ static void print_cells(double t, const ellipsoid_world_body body[CELLS])
 int main(void)
 {
     static ellipsoid_world_body body[CELLS];
-    static ellipsoid_surroundings own[CELLS];
     static ellipsoid_member member[CELLS];
     ellipsoid_world_bodies bodies = {
         .count = CELLS, .body = body, .largest = CELLS, .member = member};
@@ -118,7 +118,7 @@ int main(void)
 
     if (status == ELLIPSOID_OK)
     {
-        set_cells(body, own, &model, &around, caches);
+        set_cells(body, &model, &around, caches);
         ellipsoid_world_cells_set(&cells, &bodies);
     }
     printf("# t[s]  mean height[um]  cells that touch others  deepest[um]  "
