@@ -121,13 +121,26 @@ static void test_is_position_independent(void **state)
     wall_mesh_free(&mesh);
 }
 
+/* Adds what is seen in a mirror at x = 0, in a box that holds all of it. */
+static void reflect(made_walls *m)
+{
+    static const ellipsoid_isometry image[2] = {{.b = {0}},
+                                                {.A = {{-2, 0, 0}}}};
+    static const ellipsoid_symmetry_plane plane = {{0, 0, 0}, {-1, 0, 0}};
+
+    m->options.image_count = 2;
+    m->options.image = image;
+    m->options.plane_count = 1;
+    m->options.plane = &plane;
+    ellipsoid_set(m->options.low, -10, -10, -10);
+    ellipsoid_set(m->options.high, 10, 10, 10);
+}
+
 /* A floor from x1 = 0 to 4, and what is mirrored in x1 = 0: it goes on flat
    there. The wall in that plane is no image of itself. */
 static void test_images_of_a_plane(void **state)
 {
     const double origin[3] = {0, 0, 0}, u[3] = {4, 0, 0}, v[3] = {0, 3, 0};
-    const ellipsoid_isometry image[2] = {{.b = {0}}, {.A = {{-2, 0, 0}}}};
-    const ellipsoid_symmetry_plane plane = {{0, 0, 0}, {-1, 0, 0}};
     wall_mesh mesh;
     made_walls m;
     int free_edges = 0, at_plane = 0;
@@ -136,12 +149,7 @@ static void test_images_of_a_plane(void **state)
     wall_mesh_init(&mesh);
     wall_mesh_plane(&mesh, origin, u, v, 4, 3, 0, 5);
     m = triangles_of(&mesh);
-    m.options.image_count = 2;
-    m.options.image = image;
-    m.options.plane_count = 1;
-    m.options.plane = &plane;
-    ellipsoid_set(m.options.low, -10, -10, -10);
-    ellipsoid_set(m.options.high, 10, 10, 10);
+    reflect(&m);
     assert_ok(create(&m));
     assert_int_equal(m.count, 48);
     for (int f = 0; f < m.count; f++)
@@ -179,8 +187,6 @@ static void test_images_of_a_plane(void **state)
 static void test_planes_of_symmetry(void **state)
 {
     const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
-    const ellipsoid_isometry image[2] = {{.b = {0}}, {.A = {{-2, 0, 0}}}};
-    const ellipsoid_symmetry_plane plane = {{0, 0, 0}, {-1, 0, 0}};
     double point[8][3];
     int corner[12][3], mirror[12] = {1, 1}, marked = 0;
     made_walls m = {.which = -1};
@@ -192,12 +198,7 @@ static void test_planes_of_symmetry(void **state)
                                         .count = 12,
                                         .corner = (const int(*)[3])corner,
                                         .mirror = mirror};
-    m.options.image_count = 2;
-    m.options.image = image;
-    m.options.plane_count = 1;
-    m.options.plane = &plane;
-    ellipsoid_set(m.options.low, -10, -10, -10);
-    ellipsoid_set(m.options.high, 10, 10, 10);
+    reflect(&m);
     assert_ok(create(&m));
     assert_int_equal(m.count, 22);
     for (int f = 0; f < m.count; f++)

@@ -122,6 +122,25 @@ static inline ellipsoid_status ellipsoid_answer_status(int answer)
     return answer > 0 ? ELLIPSOID_STEP_UNDERFLOW : ELLIPSOID_FLOW_FAILED;
 }
 
+/* Indices that hang together, each of which begins as its own lowest: the lowest
+   of those that hang together with one, and how two come to. */
+static inline int ellipsoid_lowest(int *lowest, int i)
+{
+    while (lowest[i] != i)
+    {
+        lowest[i] = lowest[lowest[i]];
+        i = lowest[i];
+    }
+    return i;
+}
+
+static inline void ellipsoid_unite(int *lowest, int a, int b)
+{
+    a = ellipsoid_lowest(lowest, a);
+    b = ellipsoid_lowest(lowest, b);
+    lowest[a > b ? a : b] = a > b ? b : a;
+}
+
 /* A number to sort by, and what it belongs to (sort.c). */
 typedef struct ellipsoid_sort_key
 {

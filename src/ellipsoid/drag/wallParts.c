@@ -251,6 +251,15 @@ void ellipsoid_wall_add(view *s, const ellipsoid_facet *facet, wall *w)
     }
 }
 
+/* What a wall counts by, of the part that it covers, and its derivative by that. */
+static double counted(const wall *w, int m, double *slope)
+{
+    const double part = w->sum[m].inside + w->sum[m].value;
+
+    *slope = m == NEAR ? 2 * part : 1;
+    return m == NEAR ? part * part : part;
+}
+
 /* How a weight's sum changes with component n of the pose: r = scale (shrink v +
    shift). */
 static double sum_slope(view *s, const kernel *k, const rim *sum, int n,
@@ -303,13 +312,15 @@ static void set_slopes(view *s, const wall *w, int n, const double fade[3],
     }
     for (int m = 0; m < 2; m++)
     {
-        const rim *sum = &w->sum[m];
-        const double part = sum->inside + sum->value;
-        const double by = sum_slope(s, &w->seen[m], sum, n, scale[m], shift[m]);
+        double slope;
+        const double count = counted(w, m, &slope);
 
         plane->weight_slope[m][n] =
-            (fade[1] * h_n + fade[2] * p_n) * (m == NEAR ? part * part : part)
-            + fade[0] * (m == NEAR ? 2 * part * by : by);
+            (fade[1] * h_n + fade[2] * p_n) * count
+            + fade[0]
+                  * (slope
+                     * sum_slope(s, &w->seen[m], &w->sum[m], n, scale[m],
+                                 shift[m]));
     }
 }
 
@@ -329,9 +340,9 @@ int ellipsoid_wall_plane(view *s, const wall *w, int slopes,
     ellipsoid_copy(w->facet->normal, plane->wall);
     for (int m = 0; m < 2; m++)
     {
-        const double part = w->sum[m].inside + w->sum[m].value;
+        double slope;
 
-        plane->weight[m] = fade[0] * (m == NEAR ? part * part : part);
+        plane->weight[m] = fade[0] * counted(w, m, &slope);
     }
     for (int n = 0; slopes && n < POSE; n++)
     {

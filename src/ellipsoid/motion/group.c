@@ -5,10 +5,10 @@
     group.c - one cell, or several that may touch, are made a group and
     advanced, from one noise interval to the next.
 */
+#include "body/arena.h"
 #include "motion/motion.h"
 
 #include <math.h>
-#include <stdalign.h>
 #include <string.h>
 
 /* Memory for as many neighbours of a cell, in the mean: touching, and near.
@@ -221,10 +221,9 @@ ellipsoid_status ellipsoid_advance(const ellipsoid_member *alone, double *t,
 static void *take(unsigned char *memory, size_t *used, size_t size,
                   size_t count)
 {
-    const size_t unit = alignof(max_align_t);
     unsigned char *at = memory ? memory + *used : NULL;
 
-    *used += (size * count + unit - 1) / unit * unit;
+    *used += ellipsoid_piece(count, size);
     return at;
 }
 

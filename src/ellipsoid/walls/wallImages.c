@@ -187,24 +187,14 @@ static void join_points(double tolerance, ellipsoid_arena scratch,
         }
         if (found >= 0)
         {
-            int root = same[found];
-
-            while (same[root] != root)
-            {
-                root = same[root];
-            }
-            same[i > root ? i : root] = i > root ? root : i;
-            same[i] = i > root ? root : i;
+            ellipsoid_unite(same, i, found);
         }
     }
     for (int t = 0; t < s->count; t++)
     {
         for (int k = 0; k < 3; k++)
         {
-            while (same[s->corner[t][k]] != s->corner[t][k])
-            {
-                s->corner[t][k] = same[s->corner[t][k]];
-            }
+            s->corner[t][k] = ellipsoid_lowest(same, s->corner[t][k]);
         }
     }
 }

@@ -16,24 +16,6 @@ static const double group_gap = 0.5;
 static const double unseen_gap = 0.1;
 static const double short_travel = 2;
 
-/* The lowest of those that hang together with one */
-static int root_of(int *lowest, int i)
-{
-    while (lowest[i] != i)
-    {
-        lowest[i] = lowest[lowest[i]];
-        i = lowest[i];
-    }
-    return i;
-}
-
-static void unite(int *lowest, int a, int b)
-{
-    a = root_of(lowest, a);
-    b = root_of(lowest, b);
-    lowest[a > b ? a : b] = a > b ? b : a;
-}
-
 /* The lists of cells, from the groups of each */
 static void set_lists(ellipsoid_span *s)
 {
@@ -97,7 +79,7 @@ static void find_bonds(void *context, int a, int b, double gap)
     (void)gap;
     if (!f->stays[a] && !f->stays[b])
     {
-        unite(f->lowest, a, b);
+        ellipsoid_unite(f->lowest, a, b);
     }
 }
 
@@ -190,7 +172,7 @@ int ellipsoid_groups_form(ellipsoid_world *world, ellipsoid_span *s)
     }
     for (int n = 0; n < query.count; n++)
     {
-        const int root = root_of(lowest, n);
+        const int root = ellipsoid_lowest(lowest, n);
 
         if (!stays[n])
         {
@@ -240,7 +222,7 @@ static void find_met(void *context, int a, int b, double gap)
     (void)gap;
     *travel = ellipsoid_greater(*travel, of_a->travel);
     *travel = ellipsoid_greater(*travel, of_b->travel);
-    unite(j->lowest, j->group[a], j->group[b]);
+    ellipsoid_unite(j->lowest, j->group[a], j->group[b]);
 }
 
 int ellipsoid_groups_join(ellipsoid_world *world, ellipsoid_span *s)
@@ -281,7 +263,7 @@ int ellipsoid_groups_join(ellipsoid_world *world, ellipsoid_span *s)
     s->todos = 0;
     for (int g = 0; g < s->groups; g++)
     {
-        const int root = root_of(lowest, g);
+        const int root = ellipsoid_lowest(lowest, g);
 
         if (root != g)
         {
@@ -291,7 +273,8 @@ int ellipsoid_groups_join(ellipsoid_world *world, ellipsoid_span *s)
     }
     for (int k = 0; k < s->count; k++)
     {
-        s->group[k] = s->group[k] < 0 ? -1 : root_of(lowest, s->group[k]);
+        s->group[k] =
+            s->group[k] < 0 ? -1 : ellipsoid_lowest(lowest, s->group[k]);
     }
     for (int g = 0; g < s->groups; g++)
     {

@@ -72,21 +72,33 @@ static int begin(ellipsoid_world *world, ellipsoid_span *s)
 
 /* --------------------------------------------------------------- advance */
 
+/* The indices of the cells of a group unless index is NULL; returns how many. */
+static int list_group(const ellipsoid_span *s, int group, int *index)
+{
+    int count = 0;
+
+    for (int k = s->first[group]; k >= 0; k = s->next[k])
+    {
+        if (index)
+        {
+            index[count] = s->index[k];
+        }
+        count++;
+    }
+    return count;
+}
+
 /* The cells of a group in memory of its own; NULL if there is too little */
 static int *take_group(ellipsoid_world *world, const ellipsoid_span *s,
                        int group, int *count)
 {
     int *index;
 
-    *count = 0;
-    for (int k = s->first[group]; k >= 0; k = s->next[k])
-    {
-        ++*count;
-    }
+    *count = list_group(s, group, NULL);
     index = ellipsoid_take(&world->rest, *count, sizeof(int));
-    for (int k = s->first[group], n = 0; index && k >= 0; k = s->next[k])
+    if (index)
     {
-        index[n++] = s->index[k];
+        list_group(s, group, index);
     }
     return index;
 }
@@ -278,18 +290,7 @@ int ellipsoid_world_group_count(const ellipsoid_world *world)
 
 int ellipsoid_world_group(const ellipsoid_world *world, int group, int *index)
 {
-    const ellipsoid_span *s = &world->top;
-    int count = 0;
-
-    for (int k = s->first[group]; k >= 0; k = s->next[k])
-    {
-        if (index)
-        {
-            index[count] = s->index[k];
-        }
-        count++;
-    }
-    return count;
+    return list_group(&world->top, group, index);
 }
 
 int ellipsoid_world_todo(const ellipsoid_world *world, const int **group)
