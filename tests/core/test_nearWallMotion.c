@@ -8,13 +8,13 @@
 
 static ellipsoid_facet_cache cache;
 
-/* A cell that goes its way in a shear flow u2 = shear x3. */
+/* A cell that goes its way in a flow u2 = (shear + bend x2) x3. */
 typedef struct journey
 {
     wall_mesh *mesh;
     int no_walls; /* as if there were none */
     ellipsoid_options options;
-    double shear, end;           /* [1/s], [s] */
+    double shear, bend, end;     /* [1/s], [1/(m s)], [s] */
     ellipsoid_observer observer; /* one that stops is asked again */
     ellipsoid_state state;       /* at the start: x and q; then at the end */
     ellipsoid_statistics statistics;
@@ -30,6 +30,7 @@ static void go(journey *j)
     double t = 0;
 
     flow.g[1][2] = j->shear;
+    flow.h[1][1][2] = flow.h[1][2][1] = j->bend;
     s.walls = j->no_walls ? NULL : s.walls;
     ellipsoid_normalise(j->state.q);
     ellipsoid_facet_cache_clear(&cache);
@@ -122,6 +123,50 @@ static void test_stopped(void **unused)
     stopped.observer = stop;
     go(&stopped);
     assert_memory_equal(&whole.state, &stopped.state, sizeof(whole.state));
+    wall_mesh_free(&mesh);
+}
+
+/*
+    Stages take the drag near walls from the start of the step, to first order.
+    What that makes wrong is in the error of a step: it falls with the tolerance,
+    and asks for hardly more steps than the flow does without walls.
+*/
+static void test_expansion(void **unused)
+{
+    const double tolerance[3] = {1e-4, 1e-5, 1e-6};
+    wall_mesh mesh;
+    journey exact = past_block(&mesh), bare = exact;
+
+    (void)unused;
+    exact.options.tolerance = 1e-9;
+    exact.bend = bare.bend = 2e7;
+    go(&exact);
+    bare.no_walls = 1;
+    bare.options.tolerance = tolerance[1];
+    go(&bare);
+    for (int n = 0; n < 3; n++)
+    {
+        journey j = exact;
+        double off, turned, most; /* all errors of steps, of one sign */
+
+        j.state = (ellipsoid_state){.x = {0.3e-6, 0, 4e-6},
+                                    .q = {0.3, 0.1, 0.2, 0.9}};
+        j.statistics = (ellipsoid_statistics){0};
+        j.options.tolerance = tolerance[n];
+        go(&j);
+        off = test_distance(j.state.x, exact.state.x, 3);
+        turned = test_distance(j.state.q, exact.state.q, 4);
+        most = (double)j.statistics.accepted * tolerance[n];
+        print_message("# tolerance %.0e: %ld steps, %ld rejected (%ld without "
+                      "walls at 1e-5), off by %.2g nm and %.2g of q\n",
+                      tolerance[n], j.statistics.accepted,
+                      j.statistics.rejected, bare.statistics.accepted,
+                      1e9 * off, turned);
+        assert_true(off < 0.3 * most * 2e-6);
+        assert_true(turned < 0.05 * most);
+        assert_true(j.statistics.accepted < (n == 0 ? 36 : n == 1 ? 55 : 110));
+        assert_true(j.statistics.rejected < 5);
+    }
     wall_mesh_free(&mesh);
 }
 
@@ -225,9 +270,8 @@ static void test_two_cells(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_coming_down),
-        cmocka_unit_test(test_stopped),
-        cmocka_unit_test(test_without_flow),
+        cmocka_unit_test(test_coming_down), cmocka_unit_test(test_stopped),
+        cmocka_unit_test(test_expansion),   cmocka_unit_test(test_without_flow),
         cmocka_unit_test(test_two_cells),
     };
 

@@ -145,6 +145,16 @@ void ellipsoid_plane_action(const ellipsoid_plane_effect *effect,
                             const double shear[3], double action[2][6],
                             double change[4][2][6]);
 
+/* Adds to the matrices by which the two actions, times a factor each, depend on
+   rates and on velocity; that of squeezing is of the other sign. */
+void ellipsoid_plane_add_matrices(const ellipsoid_plane_effect *effect,
+                                  const double factor[2], double slip[6][6],
+                                  double squeeze[6][6]);
+
+/* What each component of the shear does, times a factor. */
+void ellipsoid_plane_shear_columns(const ellipsoid_plane_effect *effect,
+                                   double factor, double column[3][6]);
+
 /* What the drag near walls depends on besides the pose. */
 typedef struct ellipsoid_near_walls
 {
@@ -173,10 +183,41 @@ ellipsoid_balance_wall_drag(const ellipsoid_near_walls *near,
                             const ellipsoid_body_wrench *wrench,
                             ellipsoid_state *state);
 
-/* Adds the drag to the wrench and, if wanted, to the blocks. */
+/*
+    What the planes add to the drag in one state, and its derivatives: force [N]
+    and torque [N m] by pose, by the motion relative to a free body's (`slip`), by
+    the motion (`squeeze`, of the other sign) and by the flow's gradient, each with
+    the others kept. Body frame; the gradient and pose are the lab's.
+*/
+typedef struct ellipsoid_wall_expansion
+{
+    int planes; /* how many are near; 0: nothing else is set */
+    double x[3], q[4], rates[6], velocity[6], gradient[3][3];
+    double action[6];
+    /* only where derivatives were asked for */
+    double slip[6][6], squeeze[6][6];
+    double by_pose[ELLIPSOID_POSE_SIZE][6], by_gradient[6][9];
+} ellipsoid_wall_expansion;
+
+/* Adds the drag to the wrench and, if wanted, to the blocks; tells what of it is
+   the planes', with derivatives if there are blocks. */
 void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
                              const ellipsoid_state *state,
                              ellipsoid_body_wrench *wrench,
-                             ellipsoid_jacobian_blocks *blocks);
+                             ellipsoid_jacobian_blocks *blocks,
+                             ellipsoid_wall_expansion *expansion);
+
+/* The same wrench in a state near that of an expansion, to first order; of near,
+   planes are not read. */
+void ellipsoid_add_expanded_wall_drag(const ellipsoid_near_walls *near,
+                                      const ellipsoid_wall_expansion *about,
+                                      const ellipsoid_state *state,
+                                      ellipsoid_body_wrench *wrench);
+
+/* The velocities [m/s, rad/s, body frame] that an expansion is wrong by in the
+   state of another. NON_FINITE: its resistance is singular. */
+ellipsoid_status ellipsoid_wall_expansion_error(
+    const ellipsoid_model *model, const ellipsoid_wall_expansion *about,
+    const ellipsoid_wall_expansion *there, double error[6]);
 
 #endif

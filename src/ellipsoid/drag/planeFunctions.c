@@ -251,3 +251,77 @@ void ellipsoid_plane_action(const ellipsoid_plane_effect *e,
         add_scaled(part, per, a, change[by][1]);
     }
 }
+
+/* Adds a symmetric pair of elements. */
+static void add_pair(double matrix[6][6], int row, int column, double value)
+{
+    matrix[row][column] += value;
+    matrix[column][row] += value;
+}
+
+void ellipsoid_plane_add_matrices(const ellipsoid_plane_effect *e,
+                                  const double factor[2], double slip[6][6],
+                                  double squeeze[6][6])
+{
+    const double *f = e->values.f, *t = e->normal, a = e->own->radius;
+    const int k = e->own->axis, i = (k + 1) % 3, j = (k + 2) % 3;
+    const double nu = t[k], per[3] = {factor[ELLIPSOID_PLANE_FAR] * a,
+                                      factor[ELLIPSOID_PLANE_FAR] * a * a,
+                                      factor[ELLIPSOID_PLANE_FAR] * a * a * a};
+    const double arm = a * e->values.arm[0];
+    const double pressed =
+        factor[ELLIPSOID_PLANE_NEAR] * a * e->values.squeeze[0];
+    double row[6] = {t[0], t[1], t[2]};
+
+    for (int r = 0; r < 2; r++)
+    {
+        const double *part = f + 4 * r, size = per[2 * r];
+        double(*m)[6] = &slip[3 * r];
+        const int at = 3 * r;
+
+        m[i][at + i] += size * (part[0] + part[1] * t[i] * t[i]);
+        m[j][at + j] += size * (part[0] + part[1] * t[j] * t[j]);
+        m[k][at + k] += size * part[2];
+        add_pair(slip, at + i, at + j, size * part[1] * t[i] * t[j]);
+        add_pair(slip, at + i, at + k, size * nu * part[3] * t[i]);
+        add_pair(slip, at + j, at + k, size * nu * part[3] * t[j]);
+    }
+    add_pair(slip, i, 3 + i, -per[1] * nu * f[10] * t[i] * t[j]);
+    add_pair(slip, j, 3 + j, per[1] * nu * f[10] * t[i] * t[j]);
+    add_pair(slip, i, 3 + j, per[1] * nu * (f[10] * t[i] * t[i] - f[9]));
+    add_pair(slip, j, 3 + i, per[1] * nu * (f[9] - f[10] * t[j] * t[j]));
+    add_pair(slip, i, 3 + k, -per[1] * f[11] * t[j]);
+    add_pair(slip, j, 3 + k, per[1] * f[11] * t[i]);
+    add_pair(slip, k, 3 + i, -per[1] * f[8] * t[j]);
+    add_pair(slip, k, 3 + j, per[1] * f[8] * t[i]);
+
+    row[3 + i] = -arm * t[j];
+    row[3 + j] = arm * t[i];
+    for (int m = 0; m < 6; m++)
+    {
+        for (int n = 0; n < 6; n++)
+        {
+            squeeze[m][n] += pressed * row[m] * row[n];
+        }
+    }
+}
+
+void ellipsoid_plane_shear_columns(const ellipsoid_plane_effect *e,
+                                   double factor, double column[3][6])
+{
+    const double *f = e->values.f, *t = e->normal, a = e->own->radius;
+    const int k = e->own->axis, i = (k + 1) % 3, j = (k + 2) % 3;
+    const double nu = t[k], force = factor * a * a, torque = force * a;
+
+    memset(column, 0, 3 * sizeof(*column));
+    column[i][i] = column[j][j] = force * f[12];
+    column[k][i] = force * nu * f[14] * t[i];
+    column[k][j] = force * nu * f[14] * t[j];
+    column[k][k] = force * (f[12] + f[13]);
+    column[j][3 + i] = -torque * f[15] * nu;
+    column[i][3 + j] = torque * f[15] * nu;
+    column[k][3 + i] = torque * (f[15] - f[17]) * t[j];
+    column[k][3 + j] = torque * (f[17] - f[15]) * t[i];
+    column[j][3 + k] = torque * f[16] * t[i];
+    column[i][3 + k] = -torque * f[16] * t[j];
+}

@@ -67,7 +67,7 @@ static void add_part(double weight, const double action[6], double sum[6])
     }
 }
 
-/* mu (diag(K, C) + sum A) and mu sum Q. */
+/* mu sum A and mu sum Q. */
 static void set_matrices(const ellipsoid_model *model,
                          const ellipsoid_planes *planes, double slip[6][6],
                          double squeeze[6][6])
@@ -79,25 +79,29 @@ static void set_matrices(const ellipsoid_model *model,
     for (int p = 0; p < planes->count; p++)
     {
         const ellipsoid_plane *plane = &planes->at[p];
+        const double factor[2] = {mu * plane->weight[0], mu * plane->weight[1]};
 
-        for (int m = 0; m < 6; m++)
-        {
-            double rates[6] = {0}, velocity[6] = {0}, action[2][6];
-
-            rates[m] = 1;
-            velocity[m] = -1;
-            ellipsoid_plane_action(&plane->effect, rates, velocity, none,
-                                   action, NULL);
-            add_part(mu * plane->weight[ELLIPSOID_PLANE_FAR], action[0],
-                     slip[m]);
-            add_part(mu * plane->weight[ELLIPSOID_PLANE_NEAR], action[1],
-                     squeeze[m]);
-        }
+        ellipsoid_plane_add_matrices(&plane->effect, factor, slip, squeeze);
     }
+}
+
+/* Adds mu diag(K, C). */
+static void add_free_resistance(const ellipsoid_model *model,
+                                double matrix[6][6])
+{
     for (int i = 0; i < 3; i++)
     {
-        slip[i][i] += mu * model->resistance[i];
-        slip[i + 3][i + 3] += mu * model->rotation_resistance[i];
+        matrix[i][i] += model->viscosity * model->resistance[i];
+        matrix[i + 3][i + 3] +=
+            model->viscosity * model->rotation_resistance[i];
+    }
+}
+
+static void add_matrix(double other[6][6], double matrix[6][6])
+{
+    for (int m = 0; m < 6; m++)
+    {
+        add_part(1, other[m], matrix[m]);
     }
 }
 
@@ -107,10 +111,8 @@ void ellipsoid_wall_matrix(const ellipsoid_model *model,
     double squeeze[6][6];
 
     set_matrices(model, planes, matrix, squeeze);
-    for (int m = 0; m < 6; m++)
-    {
-        add_part(1, squeeze[m], matrix[m]);
-    }
+    add_matrix(squeeze, matrix);
+    add_free_resistance(model, matrix);
 }
 
 /* Adds what the planes add on a body of this velocity that a free one outruns by
@@ -132,51 +134,53 @@ static void add_planes(const ellipsoid_near_walls *near, const double rates[6],
     }
 }
 
-/* The same changes with the pose, those of the planes and of gamma, but not of
-   rates and velocity. */
-static void add_pose_changes(const ellipsoid_near_walls *near,
-                             const ellipsoid_plane *plane,
-                             const double rates[6], const double velocity[6],
-                             double change[POSE][6])
+/* Adds how the same changes with the pose and with the flow's gradient, but not
+   of rates and velocity. */
+static void add_plane_derivatives(const ellipsoid_near_walls *near,
+                                  const ellipsoid_plane *plane,
+                                  ellipsoid_wall_expansion *e)
 {
     const double mu = near->model->viscosity, *n = plane->wall;
-    double lab[3], shear[3], parts[2][6], by[4][2][6];
+    double lab[3], shear[3], parts[2][6], by[4][2][6], driven[3][6];
 
     set_shear(near, plane, lab, shear);
-    ellipsoid_plane_action(&plane->effect, rates, velocity, shear, parts, by);
+    ellipsoid_plane_action(&plane->effect, e->rates, e->velocity, shear, parts,
+                           by);
+    ellipsoid_plane_shear_columns(
+        &plane->effect, mu * plane->weight[ELLIPSOID_PLANE_FAR], driven);
     for (int l = 0; l < POSE; l++)
     {
         const double of_weight[2] = {plane->weight_slope[0][l],
                                      plane->weight_slope[1][l]};
-        double of_shear[3], driven[2][6];
 
-        add_weighted(of_weight, mu, parts, change[l]);
+        add_weighted(of_weight, mu, parts, e->by_pose[l]);
         for (int c = 0; c < 3; c++)
         {
             add_weighted(plane->weight, mu * plane->normal_slope[l][c], by[c],
-                         change[l]);
+                         e->by_pose[l]);
         }
-        add_weighted(plane->weight, mu * plane->gap_slope[l], by[3], change[l]);
-        if (l < 3)
+        add_weighted(plane->weight, mu * plane->gap_slope[l], by[3],
+                     e->by_pose[l]);
+        for (int c = 0; l >= 3 && c < 3; c++)
         {
-            double moved[3];
+            add_part(ellipsoid_dot(near->frame->by_q[l - 3][c], lab), driven[c],
+                     e->by_pose[l]);
+        }
+    }
+    for (int m = 0; m < 6; m++)
+    {
+        double by_shear[3];
 
-            for (int i = 0; i < 3; i++)
+        ellipsoid_combination(near->frame->axis, driven[0][m], driven[1][m],
+                              driven[2][m], by_shear);
+        project(n, by_shear);
+        for (int i = 0; i < 3; i++)
+        {
+            for (int j = 0; j < 3; j++)
             {
-                const double(*g)[3] = near->flow->gradient_jacobian[i];
-
-                moved[i] = g[0][l] * n[0] + g[1][l] * n[1] + g[2][l] * n[2];
+                e->by_gradient[m][3 * i + j] += by_shear[i] * n[j];
             }
-            project(n, moved);
-            ellipsoid_product(near->frame->axis, moved, of_shear);
         }
-        else
-        {
-            ellipsoid_product(near->frame->by_q[l - 3], lab, of_shear);
-        }
-        ellipsoid_plane_action(&plane->effect, none, none, of_shear, driven,
-                               NULL);
-        add_weighted(plane->weight, mu, driven, change[l]);
     }
 }
 
@@ -218,31 +222,27 @@ static void apply(double matrix[6][6], const double rates[6], double action[6])
     }
 }
 
-/* What the drag is evaluated with: body frame, but slip and u. */
-typedef struct motion
+static void set_derivatives(const ellipsoid_near_walls *near,
+                            ellipsoid_wall_expansion *e)
 {
-    const double *u;    /* of the body, lab */
-    double slip[3];     /* u_free - u, lab */
-    double rates[6];    /* of the free body less those of the body */
-    double velocity[6]; /* of the body */
-    double action[6];   /* force and torque */
-} motion;
-
-static void add_blocks(const ellipsoid_near_walls *near, const motion *at,
-                       ellipsoid_jacobian_blocks *b)
-{
-    const ellipsoid_model *m = near->model;
-    const ellipsoid_free_motion *free = near->free;
-    ellipsoid_frame *frame = near->frame;
-    double(*axis)[3] = frame->axis, change[POSE][6] = {{0}};
-    double slip[6][6], squeeze[6][6], column[6], moved[6];
-
-    set_matrices(m, near->planes, slip, squeeze);
+    set_matrices(near->model, near->planes, e->slip, e->squeeze);
+    memset(e->by_pose, 0, sizeof(e->by_pose));
+    memset(e->by_gradient, 0, sizeof(e->by_gradient));
     for (int p = 0; p < near->planes->count; p++)
     {
-        add_pose_changes(near, &near->planes->at[p], at->rates, at->velocity,
-                         change);
+        add_plane_derivatives(near, &near->planes->at[p], e);
     }
+}
+
+/* How the wrench changes with the place: u_free, omega_free and the gradient do.
+   slip: of all the drag. */
+static void add_place_blocks(const ellipsoid_near_walls *near,
+                             const ellipsoid_wall_expansion *e,
+                             double slip[6][6], ellipsoid_jacobian_blocks *b)
+{
+    const ellipsoid_free_motion *free = near->free;
+    double(*axis)[3] = near->frame->axis, column[6], moved[6];
+
     for (int l = 0; l < 3; l++)
     {
         const double u_x[3] = {free->u_x[0][l], free->u_x[1][l],
@@ -252,15 +252,44 @@ static void add_blocks(const ellipsoid_near_walls *near, const motion *at,
 
         to_body(axis, u_x, omega_x, moved);
         apply(slip, moved, column);
+        add_part(1, e->by_pose[l], column);
+        for (int m = 0; m < 6; m++)
+        {
+            for (int i = 0; i < 3; i++)
+            {
+                const double(*g)[3] = near->flow->gradient_jacobian[i];
+                const double *by = &e->by_gradient[m][3 * i];
+
+                column[m] +=
+                    by[0] * g[0][l] + by[1] * g[1][l] + by[2] * g[2][l];
+            }
+        }
         add_column(axis, column, &b->ux[0][l], &b->wx[0][l], 3);
-        add_column(axis, change[l], &b->ux[0][l], &b->wx[0][l], 3);
     }
+}
+
+/* action: of all the drag, body frame; outrun: u_free - u, lab. */
+static void add_blocks(const ellipsoid_near_walls *near,
+                       const ellipsoid_wall_expansion *e, const double u[3],
+                       const double outrun[3], const double action[6],
+                       ellipsoid_jacobian_blocks *b)
+{
+    const ellipsoid_model *m = near->model;
+    const ellipsoid_free_motion *free = near->free;
+    ellipsoid_frame *frame = near->frame;
+    double(*axis)[3] = frame->axis, matrix[6][6], squeeze[6][6];
+    double column[6], moved[6];
+
+    memcpy(matrix, e->slip, sizeof(matrix));
+    memcpy(squeeze, e->squeeze, sizeof(squeeze));
+    add_free_resistance(m, matrix);
+    add_place_blocks(near, e, matrix, b);
     for (int n = 0; n < 4; n++)
     {
         double turned[6] = {0}, squeezed[6];
 
-        ellipsoid_product(frame->by_q[n], at->slip, moved);
-        ellipsoid_product(frame->by_q[n], at->u, turned);
+        ellipsoid_product(frame->by_q[n], outrun, moved);
+        ellipsoid_product(frame->by_q[n], u, turned);
         for (int i = 0; i < 3; i++)
         {
             moved[i] += m->flow_points > 0 ? axis[i][0] * free->u_q[0][n]
@@ -269,62 +298,168 @@ static void add_blocks(const ellipsoid_near_walls *near, const motion *at,
                                            : 0;
             moved[i + 3] = free->omega_q[i][n];
         }
-        apply(slip, moved, column);
+        apply(matrix, moved, column);
         apply(squeeze, turned, squeezed);
         add_part(-1, squeezed, column);
+        add_part(1, e->by_pose[n + 3], column);
         add_column(axis, column, &b->uq[0][n], &b->wq[0][n], 4);
-        add_column(axis, change[n + 3], &b->uq[0][n], &b->wq[0][n], 4);
-        ellipsoid_combination(frame->by_q[n], at->action[0], at->action[1],
-                              at->action[2], turned);
+        ellipsoid_combination(frame->by_q[n], action[0], action[1], action[2],
+                              turned);
         for (int i = 0; i < 3; i++)
         {
             b->uq[i][n] += turned[i];
         }
     }
-    for (int i = 0; i < 6; i++)
-    {
-        add_part(1, squeeze[i], slip[i]);
-    }
+    add_matrix(squeeze, matrix);
     for (int l = 0; l < 3; l++)
     {
         const double back[6] = {-axis[0][l], -axis[1][l], -axis[2][l]};
 
-        apply(slip, back, column);
+        apply(matrix, back, column);
         add_column(axis, column, &b->uu[0][l], &b->wu[0][l], 3);
         for (int i = 0; i < 6; i++)
         {
-            column[i] = -slip[l + 3][i];
+            column[i] = -matrix[l + 3][i];
         }
         add_column(axis, column, &b->uw[0][l], &b->ww[0][l], 3);
     }
 }
 
+/* The drag of a free body and what the planes add, body frame, to the wrench. */
+static void add_wrench(const ellipsoid_near_walls *near, const double rates[6],
+                       const double planes[6], double action[6],
+                       ellipsoid_body_wrench *wrench)
+{
+    const ellipsoid_model *m = near->model;
+
+    for (int i = 0; i < 3; i++)
+    {
+        action[i] = m->viscosity * m->resistance[i] * rates[i] + planes[i];
+        action[i + 3] = m->viscosity * m->rotation_resistance[i] * rates[i + 3]
+                      + planes[i + 3];
+    }
+    add_lab(near->frame->axis, action, wrench->force);
+    ellipsoid_add(wrench->torque, action + 3);
+}
+
+/* The motions that the drag depends on; returns u_free - u. */
+static void set_motions(const ellipsoid_near_walls *near,
+                        const ellipsoid_state *state, double outrun[3],
+                        double rates[6], double velocity[6])
+{
+    double turn[3];
+
+    ellipsoid_difference(near->free->u, state->u, outrun);
+    ellipsoid_difference(near->free->omega, state->omega, turn);
+    to_body(near->frame->axis, outrun, turn, rates);
+    to_body(near->frame->axis, state->u, state->omega, velocity);
+}
+
 void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
                              const ellipsoid_state *state,
                              ellipsoid_body_wrench *wrench,
-                             ellipsoid_jacobian_blocks *blocks)
+                             ellipsoid_jacobian_blocks *blocks,
+                             ellipsoid_wall_expansion *e)
 {
-    const ellipsoid_model *m = near->model;
-    motion at = {.u = state->u};
-    double turn[3];
+    double outrun[3], action[6];
 
-    ellipsoid_difference(near->free->u, state->u, at.slip);
-    ellipsoid_difference(near->free->omega, state->omega, turn);
-    to_body(near->frame->axis, at.slip, turn, at.rates);
-    to_body(near->frame->axis, state->u, state->omega, at.velocity);
-    for (int i = 0; i < 3; i++)
-    {
-        at.action[i] = m->viscosity * m->resistance[i] * at.rates[i];
-        at.action[i + 3] =
-            m->viscosity * m->rotation_resistance[i] * at.rates[i + 3];
-    }
-    add_planes(near, at.rates, at.velocity, at.action);
-    add_lab(near->frame->axis, at.action, wrench->force);
-    ellipsoid_add(wrench->torque, at.action + 3);
+    e->planes = near->planes->count;
+    ellipsoid_copy(state->x, e->x);
+    memcpy(e->q, state->q, sizeof(e->q));
+    memcpy(e->gradient, near->flow->gradient, sizeof(e->gradient));
+    set_motions(near, state, outrun, e->rates, e->velocity);
+    memset(e->action, 0, sizeof(e->action));
+    add_planes(near, e->rates, e->velocity, e->action);
+    add_wrench(near, e->rates, e->action, action, wrench);
     if (blocks)
     {
-        add_blocks(near, &at, blocks);
+        set_derivatives(near, e);
+        add_blocks(near, e, state->u, outrun, action, blocks);
     }
+}
+
+/* What the planes add where all this is known, to first order. */
+static void expand(const ellipsoid_wall_expansion *e, const double x[3],
+                   const double q[4], const double rates[6],
+                   const double velocity[6], const double (*gradient)[3],
+                   double action[6])
+{
+    double pose[POSE], slip[6], moved[6], steeper[9];
+
+    ellipsoid_difference(x, e->x, pose);
+    for (int i = 0; i < 9; i++)
+    {
+        steeper[i] = gradient[i / 3][i % 3] - e->gradient[i / 3][i % 3];
+    }
+    for (int n = 0; n < 4; n++)
+    {
+        pose[n + 3] = q[n] - e->q[n];
+    }
+    for (int m = 0; m < 6; m++)
+    {
+        slip[m] = rates[m] - e->rates[m];
+        moved[m] = velocity[m] - e->velocity[m];
+    }
+    for (int m = 0; m < 6; m++)
+    {
+        double sum = e->action[m];
+
+        for (int l = 0; l < POSE; l++)
+        {
+            sum += e->by_pose[l][m] * pose[l];
+        }
+        for (int l = 0; l < 6; l++)
+        {
+            sum += e->slip[m][l] * slip[l] - e->squeeze[m][l] * moved[l];
+        }
+        for (int i = 0; i < 9; i++)
+        {
+            sum += e->by_gradient[m][i] * steeper[i];
+        }
+        action[m] = sum;
+    }
+}
+
+void ellipsoid_add_expanded_wall_drag(const ellipsoid_near_walls *near,
+                                      const ellipsoid_wall_expansion *about,
+                                      const ellipsoid_state *state,
+                                      ellipsoid_body_wrench *wrench)
+{
+    double outrun[3], rates[6], velocity[6], planes[6], action[6];
+
+    set_motions(near, state, outrun, rates, velocity);
+    expand(about, state->x, state->q, rates, velocity, near->flow->gradient,
+           planes);
+    add_wrench(near, rates, planes, action, wrench);
+}
+
+ellipsoid_status ellipsoid_wall_expansion_error(
+    const ellipsoid_model *model, const ellipsoid_wall_expansion *about,
+    const ellipsoid_wall_expansion *there, double error[6])
+{
+    double action[6] = {0}, matrix[6][6] = {{0}}, wrong[6];
+
+    if (about->planes > 0)
+    {
+        memcpy(matrix, about->slip, sizeof(matrix));
+        for (int m = 0; m < 6; m++)
+        {
+            add_part(1, about->squeeze[m], matrix[m]);
+        }
+        expand(about, there->x, there->q, there->rates, there->velocity,
+               there->gradient, action);
+    }
+    add_free_resistance(model, matrix);
+    if (!ellipsoid_invert6(matrix))
+    {
+        return ELLIPSOID_NON_FINITE;
+    }
+    for (int m = 0; m < 6; m++)
+    {
+        wrong[m] = there->action[m] - action[m];
+    }
+    apply(matrix, wrong, error);
+    return ELLIPSOID_OK;
 }
 
 /* Adds to u and omega what a push does, body frame. */

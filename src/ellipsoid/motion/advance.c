@@ -137,6 +137,10 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
     {
         status = evaluate_end(g, planned);
     }
+    if (status == ELLIPSOID_OK && *error <= 1)
+    {
+        status = ellipsoid_judge_expansions(g, planned->h, error);
+    }
     if (status != ELLIPSOID_OK || *error > 1)
     {
         return status;

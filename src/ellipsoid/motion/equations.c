@@ -16,8 +16,9 @@
 
 /*
     Drag where walls are near, or the u and omega that balance it; where none is,
-    *acted is 0 and nothing done. The copies are for those who want an address:
-    so the compiler need not give the originals one.
+    *acted is 0 and nothing done. In a stage of a step it is expanded about the
+    start. The copies are for those who want an address: so the compiler need not
+    give the originals one.
 */
 static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
                                       ellipsoid_evaluation *at, int balanced,
@@ -31,12 +32,17 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
     const ellipsoid_near_walls near = {e->model, &planes, &frame, &free,
                                        e->flow};
     ellipsoid_body_wrench wrench;
-    ellipsoid_status status;
+    ellipsoid_status status = ELLIPSOID_OK;
 
     memcpy(frame.axis, e->axis, sizeof(frame.axis));
-    status = ellipsoid_find_planes(e->model, &cell->surroundings, e->state,
-                                   &frame, cell->cache, &planes);
-    *acted = status == ELLIPSOID_OK && planes.count > 0;
+    if (!cell->about)
+    {
+        status = ellipsoid_find_planes(e->model, &cell->surroundings, e->state,
+                                       &frame, cell->cache, &planes);
+        at->walls.planes = 0;
+    }
+    *acted = status == ELLIPSOID_OK
+          && (cell->about ? cell->about->planes : planes.count) > 0;
     if (!*acted)
     {
         return status;
@@ -47,9 +53,14 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
     {
         status = ellipsoid_balance_wall_drag(&near, &wrench, &at->state);
     }
-    if (status == ELLIPSOID_OK && (blocks || !balanced))
+    if (cell->about)
     {
-        ellipsoid_add_wall_drag(&near, &at->state, &wrench, blocks);
+        ellipsoid_add_expanded_wall_drag(&near, cell->about, &at->state,
+                                         &wrench);
+    }
+    else if (status == ELLIPSOID_OK)
+    {
+        ellipsoid_add_wall_drag(&near, &at->state, &wrench, blocks, &at->walls);
     }
     ellipsoid_copy(wrench.force, e->force);
     ellipsoid_copy(wrench.torque, e->torque);

@@ -82,6 +82,8 @@ typedef struct ellipsoid_cell
     double rate;                  /* [1/s] 1/tau of u, 0 in vacuum */
     double rotation_rate;         /* [1/s] 1/tau of omega, 0 in vacuum */
     const ellipsoid_noise *noise; /* NULL: none */
+    /* about which the drag near walls is expanded; NULL: it is not */
+    const ellipsoid_wall_expansion *about;
     int inertial;
     int fixed;
     int walls;
@@ -102,7 +104,8 @@ typedef struct ellipsoid_evaluation
         double slope[UNKNOWNS];
     };
     ellipsoid_jacobian_blocks blocks;
-    ellipsoid_contact contact; /* left as it is where there are no walls */
+    ellipsoid_contact contact;      /* left as it is where there are no walls */
+    ellipsoid_wall_expansion walls; /* likewise; not of a stage */
 } ellipsoid_evaluation;
 
 /*
@@ -444,6 +447,11 @@ ellipsoid_status ellipsoid_first_step(ellipsoid_group *group, double t,
    if it is not finite. */
 ellipsoid_status ellipsoid_judge_step(const ellipsoid_group *group, double h,
                                       double *error);
+
+/* Raises *error to what the drag near walls, expanded about the start in the
+   stages, has made wrong, now that the end is known. */
+ellipsoid_status ellipsoid_judge_expansions(const ellipsoid_group *group,
+                                            double h, double *error);
 
 /* The factor by which the next step differs from one that made that error. */
 double ellipsoid_step_factor(int order, double error, double previous_error);

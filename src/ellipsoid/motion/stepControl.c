@@ -326,3 +326,36 @@ ellipsoid_status ellipsoid_judge_step(const ellipsoid_group *g, double h,
     }
     return ELLIPSOID_OK;
 }
+
+ellipsoid_status ellipsoid_judge_expansions(const ellipsoid_group *g, double h,
+                                            double *error)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_cell *p = &g->cell[cell];
+        double wrong[6], made;
+
+        if (p->fixed || !ellipsoid_has_near_walls(p->model, &p->surroundings)
+            || g->next[cell].walls.planes == 0)
+        {
+            continue;
+        }
+
+        const ellipsoid_status status = ellipsoid_wall_expansion_error(
+            p->model, &g->start[cell].walls, &g->next[cell].walls, wrong);
+
+        if (status != ELLIPSOID_OK)
+        {
+            return status;
+        }
+        /* it grows as the square of time: a third of it over the step; a turn
+           changes q by half of it */
+        made = h / 3
+             * fmax(ellipsoid_length(wrong) / p->length,
+                    0.5 * ellipsoid_length(wrong + 3))
+             / p->model->options.tolerance;
+        /* places are wrong by the cube of the step */
+        *error = fmax(*error, pow(made, g->stages[cell].order / 3.0));
+    }
+    return ELLIPSOID_OK;
+}
