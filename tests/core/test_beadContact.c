@@ -368,6 +368,58 @@ static void test_energy_is_kept(void **unused)
     wall_mesh_free(&wall);
 }
 
+/* In a tube of 24 sides, each of which it overlaps: the deepest 16 count, and in
+   the order of the facets nothing but rounding. */
+static void test_more_contacts_than_count(void **unused)
+{
+    enum
+    {
+        SIDES = 24
+    };
+    const double x[3] = {0.006, 0, 0.0043}, out = 0.98 / cos(test_pi / SIDES);
+    double corner[2][SIDES][3], first[3], force[3];
+    int order[2 * SIDES];
+    wall_mesh wall;
+    ellipsoid_facet_list list;
+
+    (void)unused;
+    for (int k = 0; k < SIDES; k++)
+    {
+        const double angle = 2 * test_pi * k / SIDES;
+
+        for (int end = 0; end < 2; end++)
+        {
+            ellipsoid_set(corner[end][k], out * cos(angle), 4 * end - 2,
+                          out * sin(angle));
+        }
+    }
+    wall_mesh_init(&wall);
+    for (int k = 0; k < SIDES; k++)
+    {
+        const int next = (k + 1) % SIDES;
+
+        wall_mesh_quad(&wall, corner[0][k], corner[0][next], corner[1][next],
+                       corner[1][k], 0, 0);
+    }
+    wall_mesh_finish(&wall);
+    assert_int_equal(touch(&wall, x, first), 16);
+    list = wall_mesh_all(&wall);
+    list.index = order;
+    for (int start = 0; start < 2 * SIDES; start++)
+    {
+        for (int k = 0; k < 2 * SIDES; k++)
+        {
+            const int at = start % 2 ? 2 * SIDES - k : k;
+
+            order[k] = (start + at) % (2 * SIDES);
+        }
+        assert_int_equal(ellipsoid_bead_force(x, r, 1, &list, force, NULL), 16);
+        assert_near(distance(force, first), 0, 1e-12);
+    }
+    assert_true(ellipsoid_length(first) > 1e-4);
+    wall_mesh_free(&wall);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -379,6 +431,7 @@ int main(void)
         cmocka_unit_test(test_slit),
         cmocka_unit_test(test_thin_plate),
         cmocka_unit_test(test_baffle),
+        cmocka_unit_test(test_more_contacts_than_count),
         cmocka_unit_test(test_derivative_is_exact),
         cmocka_unit_test(test_energy_is_kept),
     };

@@ -126,6 +126,48 @@ static void test_against_search(void **unused)
     assert_true(apart > 50 && overlapping > 5);
 }
 
+/* Long and flat bodies, where whole steps of Newton's method go too far: at the
+   minimum the points on both surfaces are the depth apart along n. */
+static void test_long_and_flat(void **unused)
+{
+    uint64_t seed = 14;
+    int apart = 0;
+
+    (void)unused;
+    for (int n = 0; n < 20000; n++)
+    {
+        ellipsoid_surface body[2];
+        ellipsoid_surface_pair pair;
+
+        for (int k = 0; k < 2; k++)
+        {
+            const double axes[3] = {pow(10, -2 * test_uniform(&seed)),
+                                    pow(10, -2 * test_uniform(&seed)), 1};
+            double x[3], q[4];
+
+            for (int i = 0; i < 3; i++)
+            {
+                x[i] = test_signed(&seed);
+            }
+            test_orientation(&seed, q);
+            ellipsoid_surface_set(axes, x, q, &body[k]);
+        }
+        ellipsoid_surface_pair_set(&body[0], &body[1], 0, &pair);
+        if (pair.depth > 0)
+        {
+            continue;
+        }
+        apart++;
+        for (int i = 0; i < 3; i++)
+        {
+            assert_near(body[0].centre[i] + pair.point_a[i]
+                            + pair.depth * pair.normal[i],
+                        body[1].centre[i] + pair.point_b[i], 1e-11);
+        }
+    }
+    assert_true(apart > 10000);
+}
+
 /* Turns a body about the lab's axis k, or moves it along. */
 static ellipsoid_surface changed(const ellipsoid_surface *body, int k,
                                  double by)
@@ -209,6 +251,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_spheres),
         cmocka_unit_test(test_against_search),
+        cmocka_unit_test(test_long_and_flat),
         cmocka_unit_test(test_derivatives),
     };
 

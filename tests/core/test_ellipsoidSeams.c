@@ -228,12 +228,53 @@ static void test_both_edges_of_a_slit(void **unused)
     wall_mesh_free(&slit);
 }
 
+/* With its end through a corner, beyond the faces, a cell meets the face that it
+   is least deep behind, whichever comes first in the list. */
+static void test_deep_in_a_corner(void **unused)
+{
+    const ellipsoid_model model = cell_of(0);
+    const double axis[3] = {1, 0, 1}, none[3] = {0, 0, 0};
+    const double to[3][3] = {{4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
+    const double reach = sqrt((2 * 2 + 0.5 * 0.5) / 2);
+    double q[4];
+
+    (void)unused;
+    ellipsoid_quaternion_from_axis(axis, 0, q);
+    for (int n = 0; n < 4; n++)
+    {
+        const int swapped = n % 2, least = n / 2;
+        const double deep[2] = {least ? 0.5 : 0.45, least ? 0.45 : 0.5};
+        const double x[3] = {reach - deep[0], 2, reach - deep[1]};
+        ellipsoid_contact contact;
+        wall_mesh wall;
+
+        wall_mesh_init(&wall);
+        for (int k = 0; k < 2; k++)
+        {
+            const int floor = k == swapped;
+
+            wall_mesh_plane(&wall, none, floor ? to[0] : to[1],
+                            floor ? to[1] : to[2], 1, 1, 0, floor);
+        }
+        wall_mesh_finish(&wall);
+        ellipsoid_facet_cache_clear(&cache);
+        evaluate(&model, &wall, x, q, &contact);
+        assert_near(contact.gap, -0.45, 1e-12);
+        assert_int_equal(contact.surface_count, 1);
+        assert_int_equal(contact.surface[0], least);
+        assert_near(contact.force[least ? 2 : 0], pow(0.45, 1.5), 1e-12);
+        assert_near(contact.force[least ? 0 : 2], 0, 1e-12);
+        wall_mesh_free(&wall);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_flat_wall_however_cut),
         cmocka_unit_test(test_nothing_jumps),
         cmocka_unit_test(test_both_edges_of_a_slit),
+        cmocka_unit_test(test_deep_in_a_corner),
     };
 
     return cmocka_run_group_tests_name("exactSeams", tests, NULL, NULL);

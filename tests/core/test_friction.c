@@ -294,6 +294,58 @@ static void test_rolling_does_not_chatter(void **unused)
     wall_mesh_free(&r.mesh);
 }
 
+/* Of two balls of different size one spins: the contact point divides the line
+   of centres as the radii do, and so do the torques. */
+static void test_unequal_balls(void **unused)
+{
+    const double radius[2] = {1, 0.4}, distance = 1.4 - 1e-3;
+    ellipsoid_model model[2];
+    ellipsoid_state state[2];
+    double bead[2][ELLIPSOID_MAX_BEADS][3], centre[3];
+    ellipsoid_body body[2] = {{.bead = bead[0]}, {.bead = bead[1]}};
+    ellipsoid_pair_wrench wrench[2];
+    ellipsoid_near_pair near;
+
+    (void)unused;
+    memset(state, 0, sizeof(state));
+    for (int n = 0; n < 2; n++)
+    {
+        ellipsoid_options o = contact_ball(radius[n], 1);
+
+        o.friction = 0.3;
+        o.slip_speed = 1e-6;
+        model[n] = test_model(&o);
+        state[n].q[3] = 1;
+        state[n].x[0] = n * distance;
+        ellipsoid_place_body(&body[n], &model[n], state[n].x, state[n].q);
+    }
+    state[1].omega[2] = 1;
+
+    ellipsoid_pair_contact m = {
+        .a = &body[0],
+        .b = &body[1],
+        .state_a = &state[0],
+        .state_b = &state[1],
+        .normal_law = ellipsoid_pair_law(&model[0].options, &model[1].options),
+        .law = ellipsoid_friction_law_between(&model[0], &model[1]),
+        .dissipative = 1,
+        .gap = 1e-2,
+        .of_a = &wrench[0],
+        .of_b = &wrench[1]};
+
+    ellipsoid_list_beads(&body[0], &body[1], 1e-2, &near);
+    ellipsoid_pair_contact_evaluate(&m, &near);
+    assert_int_equal(m.contacts, 1);
+    for (int n = 0; n < 2; n++)
+    {
+        const double *f = wrench[n].force, arm = radius[n] * distance / 1.4;
+
+        assert_relative(fabs(f[1]), 0.3 * fabs(f[0]), 1e-9);
+        ellipsoid_set(centre, n ? -arm : arm, 0, 0);
+        assert_relative(wrench[n].torque[2], centre[0] * f[1], 1e-9);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -303,6 +355,7 @@ int main(void)
         cmocka_unit_test(test_held_cell_creeps_little),
         cmocka_unit_test(test_rest_costs_nothing),
         cmocka_unit_test(test_rolling_does_not_chatter),
+        cmocka_unit_test(test_unequal_balls),
     };
 
     return cmocka_run_group_tests_name("friction", tests, NULL, NULL);

@@ -141,6 +141,10 @@ static void compare(int shape)
         /* A wall has friction and adhesion, and half the damping. */
         ellipsoid_difference(at_wall.force, at_plane.force, apart);
         assert_true(ellipsoid_length(apart) > 1e-3 * largest);
+        /* Nor does the plane pull within the range of adhesion. */
+        put_in(&r.model, -1e-9, &r.state);
+        at_plane = contact_now(&r);
+        assert_int_equal(at_plane.bead_contacts, 0);
     }
     wall_mesh_free(&r.mesh);
 }

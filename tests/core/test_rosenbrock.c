@@ -523,48 +523,9 @@ static void test_elimination_in_contact(void **unused)
     wall_mesh_free(&wall);
 }
 
-/*
-    One direction v held by what is s times stiffer than the drag, as by a
-    damped contact: (I + s v v^T)^-1 = I - s v v^T/(1 + s v.v) (Sherman &
-    Morrison 1950). Up to an s of 300 cofactors leave 1e-16 s^2, of which a
-    hundred times are seen; elimination 1e-16 s. Cofactors alone would leave all
-    of it at 1e6.
-*/
-static void test_stiff_direction(void **unused)
-{
-    uint64_t seed = 23;
-
-    (void)unused;
-    for (int n = 0; n < 2700; n++)
-    {
-        const double stiff = pow(10, 1 + n % 9);
-        double v[6], m[6][6], square = 0;
-
-        for (int i = 0; i < 6; i++)
-        {
-            v[i] = test_signed(&seed);
-            square += v[i] * v[i];
-        }
-        for (int i = 0; i < 36; i++)
-        {
-            m[i / 6][i % 6] = (i / 6 == i % 6) + stiff * v[i / 6] * v[i % 6];
-        }
-        assert_true(ellipsoid_invert6(m));
-        for (int i = 0; i < 36; i++)
-        {
-            const double held =
-                stiff * v[i / 6] * v[i % 6] / (1 + stiff * square);
-
-            assert_near(m[i / 6][i % 6], (i / 6 == i % 6) - held,
-                        5e-9 + 1e-15 * stiff);
-        }
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stiff_direction),
         cmocka_unit_test(test_order_conditions),
         cmocka_unit_test(test_third_order_conditions),
         cmocka_unit_test(test_stiffly_accurate),

@@ -404,6 +404,29 @@ static void test_what_is_told(void **state)
     scene_free(&s);
 }
 
+/* The length of a world is its largest bead, whichever cell has it. */
+static void test_length(void **state)
+{
+    ellipsoid_options o = test_free_cell();
+    ellipsoid_model model[2];
+    ellipsoid_world_body body[2] = {{.model = &model[0]}, {.model = &model[1]}};
+    ellipsoid_world_bodies bodies = {.count = 2, .body = body};
+    ellipsoid_world_cells cells;
+
+    (void)state;
+    o.contact = 1;
+    model[0] = test_model(&o);
+    o.bead_radius *= 0.5;
+    model[1] = test_model(&o);
+    for (int n = 0; n < 2; n++)
+    {
+        ellipsoid_world_cells_set(&cells, &bodies);
+        assert_true(cells.pushing && cells.length == 2 * o.bead_radius);
+        body[0].model = &model[1];
+        body[1].model = &model[0];
+    }
+}
+
 static void test_refuses(void **state)
 {
     scene s;
@@ -431,6 +454,7 @@ int main(void)
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_cells_that_enter),
         cmocka_unit_test(test_what_is_told),
+        cmocka_unit_test(test_length),
         cmocka_unit_test(test_refuses),
     };
 

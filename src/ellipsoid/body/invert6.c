@@ -86,7 +86,7 @@ static int is_stiff(double m[3][3])
         (M^-1, -M^-1 b S^-1; -S^-1 c M^-1, S^-1 + S^-1 c M^-1 b S^-1).
     Where a stiff contact holds one direction this loses the square of how much
     stiffer that is than drag, to cofactors and to the difference, elimination
-    only once (test_rosenbrock.c). 0 if the matrix is singular.
+    only once (test_invert6.c). 0 if the matrix is singular.
 */
 int ellipsoid_invert6(double m[6][6])
 {
