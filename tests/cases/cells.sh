@@ -228,10 +228,14 @@ mesh_case()     # CASE STORED [SED_SCRIPT FILE]...
 # The flux that leaves [m3/s]
 flux()          { awk '$2 == "outlet:" { print $3 }' log; }
 
-# Are two numbers as near as that, relative to the second?
-near()          # A B TOLERANCE
+# Are two numbers as near as that, relative to the second? With the first words of a tap_row, it is one
+near()          # A B TOLERANCE [GROUP QUANTITY CONDITIONS SOURCE KIND WHY]
 {
     echo "$1 against $2, relative tolerance $3"
+    if [ $# -gt 3 ]; then
+        tap_row "${@:4}" "$(awk -v a="$1" -v b="$2" 'BEGIN { printf "%.15g", a/b }')" 1 "$3"
+        return
+    fi
     awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { e = a/b - 1; exit !(-t < e && e < t) }'
 }
 
