@@ -78,9 +78,9 @@ def read_table():
 def differences(rows, table, tests, full):
     """Of the rows of these tests, line by line."""
     def said(those):
-        return {tuple(row[c] for c in SAID) for row in those.values()
-                if row["test"] in tests and (full or row["often"] == "everyday")}
-    now, then = said(rows), said(table)
+        return {tuple(row[c] for c in SAID) for row in those}
+    now = said(rows.values())
+    then = said(row for row in table.values() if row["test"] in tests and (full or row["often"] == "everyday"))
     return [f"- {' | '.join(row)}" for row in sorted(then - now)] + [f"+ {' | '.join(row)}" for row in sorted(now - then)]
 
 
