@@ -117,8 +117,8 @@ def page(rows):
         for row in those:
             over = f"{error(row):.2g}"
             text.append("| " + " | ".join((
-                row["quantity"], row["conditions"], row["source"], row["kind"], row["value"], row["reference"], row["bound"],
-                row["why"], f"**{over}: disagrees**" if error(row) > 1 else over,
+                *(row[c].replace("|", "\\|") for c in ("quantity", "conditions", "source", "kind", "value", "reference", "bound", "why")),
+                f"**{over}: disagrees**" if error(row) > 1 else over,
                 f"[{Path(row['test']).name}](../{row['test']})" + (", `--full`" if row["often"] == "full" else ""))) + " |")
     return "\n".join(text) + "\n"
 
@@ -138,27 +138,24 @@ def draw(rows, group):
     from ellipsoidtrap.pictures import style
     those = [row for row in rows if row["group"] == group][::-1]
     most = max(1.0, *(error(row) for row in those))
-    figure, axes = style.plt.subplots(figsize=(6.5, 0.7 + 0.3*len(those)))
+    figure, axes = style.plt.subplots(figsize=(4.5, 0.7 + 0.4*len(those)))
     axes.axvspan(-1, 1, color="0.9", zorder=0)
     for bound in (-1, 1):
         axes.axvline(bound, color="black", linewidth=0.8)
     axes.axvline(0, color="0.6", linewidth=0.5)
     for y, row in enumerate(those):
         axes.plot(float(row["errorOverBound"]), y, "o", color=style.VERMILLION if error(row) > 1 else style.BLUE, markersize=5)
-        axes.text(1.02, y, f"{float(row['value']):.4g} for {float(row['reference']):.4g}", va="center", fontsize=7,
-                  transform=axes.get_yaxis_transform())
-    axes.set_yticks(range(len(those)), [short(f"{row['quantity']}, {row['conditions']}") for row in those], fontsize=7)
+        axes.text(1.02, y, f"{float(row['value']):.4g}, expected\n{float(row['reference']):.4g} ± {float(row['bound']):.2g}", va="center",
+                  fontsize=7, transform=axes.get_yaxis_transform())
+    axes.set_yticks(range(len(those)), [f"{row['quantity']}\n{row['conditions']}" for row in those], fontsize=7)
     axes.set_ylim(-0.6, len(those) - 0.4)
     axes.set_xlim(-1.1*most, 1.1*most)
     axes.set_xlabel("(value − reference)/bound")
+    axes.locator_params(axis="x", nbins=6)
     axes.set_title(group, fontsize=9)
     (TOP/"docs"/PICTURES).mkdir(exist_ok=True)
     figure.savefig(TOP/"docs"/picture(group), dpi=100, metadata={"Software": None})
     style.plt.close(figure)
-
-
-def short(text):
-    return text if len(text) < 72 else text[:69] + "..."
 
 
 def write(rows, table):

@@ -97,8 +97,8 @@ for cell, j in ((0, 12), (1, 39)):
     where = f"oscillating channel, {'heavy sphere' if cell == 0 else 'E. coli'}, {velocity}"
     if every > 1:
         where += f", every {every}th step"
-    source, why = "classical Runge-Kutta steps in Python", "the run's tolerance, 1e-9 a step, and digits written"
-    check_row(("tracking on meshes", "error of the place over the way", where, source, "S", why), apart[0]/way, 0, 1e-5)
+    source = "classical Runge-Kutta steps in Python"
+    check_row(("tracking on meshes", "error of the place over the way", where, source, "S", "tolerance and written digits"), apart[0]/way, 0, 1e-5)
     if cell == 1:
-        check_row(("tracking on meshes", "error of the axis [rad]", where, source, "S", why), apart[1], 0, 1e-5)
+        check_row(("tracking on meshes", "error of the axis [rad]", where, source, "S", "inertia of turning, which it leaves out"), apart[1], 0, 1e-5)
 finish()
