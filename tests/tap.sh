@@ -3,6 +3,9 @@
 #
 #   tap_check NAME COMMAND...   ok if the command succeeds; what it wrote is shown if not
 #   tap_ok NAME, tap_not_ok NAME [WHY], tap_skip NAME WHY
+#   tap_row GROUP QUANTITY CONDITIONS SOURCE KIND WHY VALUE REFERENCE BOUND [DISAGREES]
+#                               does VALUE lie within BOUND? A row of the validation table
+#                               (CONTRIBUTING.md, Tests); where --full alone runs, tap_often=full
 #   tap_end                     the last line of a test file: plan and exit status
 #   tap_make_comma, "${tap_comma[@]}" COMMAND...    a locale with a decimal comma; the command in it
 # Sets tap_folder, an empty folder that is removed at the end.
@@ -29,6 +32,16 @@ tap_check()
     local name=$1 output
     shift
     if output=$("$@" 2>&1); then tap_ok "$name"; else tap_not_ok "$name" "$output"; fi
+}
+
+tap_row()
+{
+    if [ -n "$ELLIPSOID_TEST_ROWS" ]; then
+        { printf '%s\t' "${@:1:9}" "${tap_often:-everyday}"; echo "${10:-0}"; } >> "$ELLIPSOID_TEST_ROWS"
+    fi
+    echo "$2: $7, reference $8, bound $9"
+    awk -v v="$7" -v r="$8" -v b="$9" -v d="${10:-0}" 'BEGIN {
+        e = (v - r)/b; e = e < 0 ? -e : e; exit !(d > 1 ? e > 1 && e <= d : e <= 1) }'
 }
 
 # Of the portable characters alone, so that it takes no files of the system's

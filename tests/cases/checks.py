@@ -5,6 +5,7 @@
 
 import csv
 import math
+import os
 import re  # noqa: F401  (for what follows it)
 import sys
 
@@ -35,6 +36,20 @@ def expect(holds, what):
     print(("  " if holds else "WRONG ") + what)
     if not holds:
         failures.append(what)
+
+
+def row(what, value, reference, bound, disagrees=0):
+    """Expect a value within a bound: a row of the validation table (CONTRIBUTING.md, Tests).
+
+    what: group, quantity, conditions, source, kind and why, as tap_row of tap.sh takes them.
+    """
+    if os.environ.get("ELLIPSOID_TEST_ROWS"):
+        often = os.environ.get("tap_often", "everyday")
+        with open(os.environ["ELLIPSOID_TEST_ROWS"], "a", encoding="utf-8") as file:
+            print(*what, f"{value:.17g}", f"{reference:.17g}", f"{bound:.17g}", often, disagrees, sep="\t", file=file)
+    error = abs(value - reference)/bound
+    expect(1 < error <= disagrees if disagrees > 1 else error <= 1,
+           f"{what[1]}, {what[2]}: {value:.6g}, reference {reference:.6g}, bound {bound:.3g}")
 
 
 def kolmogorov(sample, cdf):

@@ -12,6 +12,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,6 +58,43 @@ static inline long test_count(long few, long everyday, long full)
         return few;
     }
     return is_full && !strcmp(is_full, "1") ? full : everyday;
+}
+
+/* What a row of the validation table is of: see CONTRIBUTING.md, Tests. */
+typedef struct test_row
+{
+    const char *group, *quantity, *conditions, *source, *kind, *why;
+    double disagrees; /* 0, or the error over bound allowed, above 1 */
+} test_row;
+
+#define assert_row(row, value, reference, bound)                               \
+    test_row_near(row, value, reference, bound, __FILE__, __LINE__)
+
+/* Asserts it, and adds it to the file ELLIPSOID_TEST_ROWS; of rows that are one
+   but for their values the table shows the worst. A disagreement that has gone
+   fails, too. */
+static inline void test_row_near(const test_row *row, double value,
+                                 double reference, double bound,
+                                 const char *file, int line)
+{
+    const char *rows = getenv("ELLIPSOID_TEST_ROWS");
+    FILE *out = rows && test_count(0, 1, 1) ? fopen(rows, "a") : NULL;
+
+    if (out)
+    {
+        fprintf(out,
+                "%s\t%s\t%s\t%s\t%s\t%s\t%.17g\t%.17g\t%.17g\teveryday\t%g\n",
+                row->group, row->quantity, row->conditions, row->source,
+                row->kind, row->why, value, reference, bound, row->disagrees);
+        fclose(out);
+    }
+    test_near(value, reference, bound * fmax(1, row->disagrees), row->quantity,
+              file, line);
+    if (row->disagrees > 1 && fabs(value - reference) <= bound)
+    {
+        print_error("%s agrees now: %g\n", row->quantity, value);
+        _fail(file, line);
+    }
 }
 
 /* splitmix64: the same numbers everywhere. */

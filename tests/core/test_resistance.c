@@ -9,12 +9,24 @@
 /* Values printed by Carlson (1995), section 3, to 14 digits: 1e-13. */
 static void test_carlson_references(void **unused)
 {
+    static const test_row row = {
+        "resistance",
+        "elliptic integrals R_F and R_D over the printed values",
+        "five of real arguments",
+        "Carlson (1995), section 3",
+        "P",
+        "14 digits are printed",
+        0};
+
     (void)unused;
-    assert_relative(ellipsoid_carlson_rf(1, 2, 0), 1.3110287771461, 1e-13);
-    assert_relative(ellipsoid_carlson_rf(0.5, 1, 0), 1.8540746773014, 1e-13);
-    assert_relative(ellipsoid_carlson_rf(2, 3, 4), 0.58408284167715, 1e-13);
-    assert_relative(ellipsoid_carlson_rd(0, 2, 1), 1.7972103521034, 1e-13);
-    assert_relative(ellipsoid_carlson_rd(2, 3, 4), 0.16510527294261, 1e-13);
+    assert_row(&row, ellipsoid_carlson_rf(1, 2, 0) / 1.3110287771461, 1, 1e-13);
+    assert_row(&row, ellipsoid_carlson_rf(0.5, 1, 0) / 1.8540746773014, 1,
+               1e-13);
+    assert_row(&row, ellipsoid_carlson_rf(2, 3, 4) / 0.58408284167715, 1,
+               1e-13);
+    assert_row(&row, ellipsoid_carlson_rd(0, 2, 1) / 1.7972103521034, 1, 1e-13);
+    assert_row(&row, ellipsoid_carlson_rd(2, 3, 4) / 0.16510527294261, 1,
+               1e-13);
 }
 
 /*
@@ -51,6 +63,21 @@ static void test_carlson_identities(void **unused)
 /* Stokes (1851): 6 pi a and 8 pi a^3, to rounding. */
 static void test_sphere(void **unused)
 {
+    static const test_row force = {"resistance",
+                                   "force on a sphere over 6 pi mu a u",
+                                   "radii 1e-9 to 1e3",
+                                   "Stokes (1851)",
+                                   "A",
+                                   "rounding",
+                                   0};
+    static const test_row torque = {"resistance",
+                                    "torque on a sphere over 8 pi mu a^3 omega",
+                                    "radii 1e-9 to 1e3",
+                                    "Stokes (1851)",
+                                    "A",
+                                    "rounding",
+                                    0};
+
     (void)unused;
     for (double a = 1e-9; a < 1e3; a *= 7)
     {
@@ -60,8 +87,8 @@ static void test_sphere(void **unused)
         ellipsoid_resistance(axes, k, c);
         for (int i = 0; i < 3; i++)
         {
-            assert_relative(k[i], 6 * test_pi * a, 4e-16);
-            assert_relative(c[i], 8 * test_pi * a * a * a, 8e-16);
+            assert_row(&force, k[i] / (6 * test_pi * a), 1, 4e-16);
+            assert_row(&torque, c[i] / (8 * test_pi * a * a * a), 1, 8e-16);
         }
     }
 }
@@ -137,6 +164,22 @@ static spheroid oblate(long double r)
 /* Both sides are good to a few roundings: 1e-13, asked for was 1e-12. */
 static void test_spheroids(void **unused)
 {
+    static const test_row force = {
+        "resistance",
+        "force on a spheroid over the closed form",
+        "aspect ratios 0.01 to 100, along and across",
+        "Oberbeck (1876); Kim & Karrila (1991), table 3.4",
+        "A",
+        "a few roundings of either side",
+        0};
+    static const test_row torque = {
+        "resistance",
+        "torque on a spheroid over the closed form",
+        "aspect ratios 0.01 to 100, along and across",
+        "Perrin (1934); Kim & Karrila (1991), table 3.6",
+        "A",
+        "a few roundings of either side",
+        0};
     const double ratios[] = {0.01, 0.02,    0.1,     0.25,     0.5,  0.8, 0.9,
                              0.99, 0.99999, 1.00001, 1.000001, 1.01, 1.1, 1.3,
                              2,    4,       10,      50,       100};
@@ -157,11 +200,47 @@ static void test_spheroids(void **unused)
             ellipsoid_resistance(axes, k, c);
             for (int i = 0; i < 3; i++)
             {
-                assert_relative(k[i], i == along ? s.along : s.across, 1e-13);
-                assert_relative(c[i], i == along ? s.turn_along : s.turn_across,
-                                1e-13);
+                assert_row(&force, k[i] / (i == along ? s.along : s.across), 1,
+                           1e-13);
+                assert_row(&torque,
+                           c[i] / (i == along ? s.turn_along : s.turn_across),
+                           1, 1e-13);
             }
         }
+    }
+}
+
+/*
+    Perrin's friction factor, of a body that turns at random over a sphere of its
+    volume: the harmonic mean of the three resistances. Perrin (1936), of prolate
+    bodies sqrt(1 - p^2)/(p^(2/3) ln((1 + sqrt(1 - p^2))/p)), of oblate ones
+    sqrt(p^2 - 1)/(p^(2/3) atan(sqrt(p^2 - 1))), p the aspect ratio's inverse.
+*/
+static void test_friction_factor(void **unused)
+{
+    static const test_row row = {"resistance",
+                                 "friction factor of a spheroid over Perrin's",
+                                 "aspect ratios 1/20 to 20",
+                                 "Perrin, J. Phys. Radium 7, 1 (1936)",
+                                 "A",
+                                 "rounding; the closed form cancels by 10",
+                                 0};
+
+    (void)unused;
+    for (int n = 0; n < 8; n++)
+    {
+        const double r = (double[]){0.05, 0.1, 0.25, 0.5, 2, 4, 10, 20}[n];
+        const double p = 1 / r, s = sqrt(fabs(1 - p * p));
+        const double perrin =
+            s / (cbrt(p * p) * (p < 1 ? log((1 + s) / p) : atan(s)));
+        const double axes[3] = {1, r, 1};
+        double k[3], c[3];
+
+        ellipsoid_resistance(axes, k, c);
+        assert_row(&row,
+                   3 / (1 / k[0] + 1 / k[1] + 1 / k[2])
+                       / (6 * test_pi * cbrt(r)) / perrin,
+                   1, 1e-14);
     }
 }
 
@@ -207,6 +286,22 @@ static void integrals(const double a[3], double *chi, double alpha[3])
 
 static void test_triaxial(void **unused)
 {
+    static const test_row force = {
+        "resistance",
+        "force on a triaxial ellipsoid over that by quadrature",
+        "100 bodies, semi-axes 0.1 to 10",
+        "Oberbeck (1876), integrals",
+        "A",
+        "the quadrature is good to 1e-14",
+        0};
+    static const test_row torque = {
+        "resistance",
+        "torque on a triaxial ellipsoid over that by quadrature",
+        "100 bodies, semi-axes 0.1 to 10",
+        "Jeffery (1922), integrals",
+        "A",
+        "the quadrature is good to 1e-14",
+        0};
     uint64_t seed = 2;
 
     (void)unused;
@@ -225,14 +320,14 @@ static void test_triaxial(void **unused)
             const double aj = a[(i + 1) % 3], ak = a[(i + 2) % 3];
             const double p = test_pi * a[0] * a[1] * a[2];
 
-            assert_relative(k[i], 16 * p / (chi + alpha[i] * a[i] * a[i]),
-                            1e-12);
-            assert_relative(c[i],
-                            16 * p * (aj * aj + ak * ak)
-                                / (3
-                                   * (aj * aj * alpha[(i + 1) % 3]
-                                      + ak * ak * alpha[(i + 2) % 3])),
-                            1e-12);
+            assert_row(&force, k[i] * (chi + alpha[i] * a[i] * a[i]) / (16 * p),
+                       1, 1e-12);
+            assert_row(&torque,
+                       c[i] * 3
+                           * (aj * aj * alpha[(i + 1) % 3]
+                              + ak * ak * alpha[(i + 2) % 3])
+                           / (16 * p * (aj * aj + ak * ak)),
+                       1, 1e-12);
         }
     }
 }
@@ -245,6 +340,7 @@ int main(void)
         cmocka_unit_test(test_sphere),
         cmocka_unit_test(test_closed_forms_agree),
         cmocka_unit_test(test_spheroids),
+        cmocka_unit_test(test_friction_factor),
         cmocka_unit_test(test_triaxial),
     };
 

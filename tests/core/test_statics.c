@@ -20,6 +20,13 @@ static double depth_under(const ellipsoid_options *o, double force)
    weight, at 1e-7 of its radius: x is known to 1e-9 of that. */
 static void test_ball_settles_in_water(void **unused)
 {
+    static const test_row row = {"contact",
+                                 "depth of a ball on a floor over Hertz'",
+                                 "0.5 um, in water, by its weight",
+                                 "Hertz; Johnson (1985), eq. 4.23",
+                                 "A",
+                                 "x is known to 1e-9 of the radius",
+                                 0};
     static contact_run r;
     ellipsoid_options o = contact_ball(0.5 * um, 1040);
     double weight;
@@ -32,7 +39,8 @@ static void test_ball_settles_in_water(void **unused)
     weight = (r.model.mass - r.model.fluid_mass) * g;
     r.state.x[2] = 0.6 * um;
     assert_ok(contact_go(&r, 20));
-    assert_relative(contact_now(&r).deepest, depth_under(&o, weight), 1e-6);
+    assert_row(&row, contact_now(&r).deepest / depth_under(&o, weight), 1,
+               1e-6);
     wall_mesh_free(&r.mesh);
 }
 
@@ -42,6 +50,13 @@ static void test_ball_settles_in_water(void **unused)
 */
 static void test_ball_settles_in_vacuum(void **unused)
 {
+    static const test_row row = {"contact",
+                                 "depth of a ball on a floor over Hertz'",
+                                 "10 mm, in vacuum, damped",
+                                 "Hertz; Johnson (1985), eq. 4.23",
+                                 "A",
+                                 "amplitude left after 1 s",
+                                 0};
     static contact_run r;
     ellipsoid_options o = contact_ball(0.01, 1000);
     double depth;
@@ -53,7 +68,7 @@ static void test_ball_settles_in_vacuum(void **unused)
     depth = depth_under(&o, r.model.mass * g);
     r.state.x[2] = o.bead_radius - 0.9 * depth;
     assert_ok(contact_go(&r, 1));
-    assert_relative(contact_now(&r).deepest, depth, 1e-6);
+    assert_row(&row, contact_now(&r).deepest / depth, 1, 1e-6);
     wall_mesh_free(&r.mesh);
 }
 
@@ -61,6 +76,13 @@ static void test_ball_settles_in_vacuum(void **unused)
    the part of the weight along its normal. */
 static void test_ball_in_a_wedge(void **unused)
 {
+    static const test_row row = {"contact",
+                                 "depth of a ball in a wedge over Hertz'",
+                                 "walls at 30 and 60 degrees from level",
+                                 "balance of forces; Johnson (1985), eq. 4.23",
+                                 "A",
+                                 "x is known to 1e-9 of the radius",
+                                 0};
     const double c = cos(test_pi / 6), s = sin(test_pi / 6);
     const double left[3] = {-5 * c * um, -5 * um, 5 * s * um};
     const double down[3] = {5 * c * um, 0, -5 * s * um};
@@ -92,7 +114,8 @@ static void test_ball_in_a_wedge(void **unused)
         const double depth =
             o.bead_radius - ellipsoid_dot(r.state.x, normal[n]);
 
-        assert_relative(depth, depth_under(&o, weight * normal[n][2]), 1e-6);
+        assert_row(&row, depth / depth_under(&o, weight * normal[n][2]), 1,
+                   1e-6);
     }
     assert_int_equal(contact_now(&r).surface_count, 2);
     wall_mesh_free(&r.mesh);
@@ -143,6 +166,14 @@ static double zero_crossing(contact_run *r, int lean, double rest, int n,
 */
 static void test_lying_swings_and_rocks(void **unused)
 {
+    static const test_row row = {"contact",
+                                 "frequency of a dumbbell on a floor over "
+                                 "sqrt(2 k/m) or sqrt(2 k l^2/I)",
+                                 "up and down, and rocking",
+                                 "linear oscillator",
+                                 "A",
+                                 "the amplitude, squared, over 100",
+                                 0};
     static contact_run r;
     ellipsoid_options o = dumbbell();
 
@@ -166,7 +197,7 @@ static void test_lying_swings_and_rocks(void **unused)
         step = 0.01 / frequency;
         first = zero_crossing(&r, lean, o.bead_radius - depth, 1, step);
         last = zero_crossing(&r, lean, o.bead_radius - depth, 20, step);
-        assert_relative(20 * test_pi / (last - first), frequency, 2e-4);
+        assert_row(&row, 20 * test_pi / (last - first) / frequency, 1, 2e-4);
     }
     wall_mesh_free(&r.mesh);
 }
@@ -177,6 +208,13 @@ static void test_lying_swings_and_rocks(void **unused)
 */
 static void test_standing_falls(void **unused)
 {
+    static const test_row row = {"contact",
+                                 "lean of a dumbbell that falls over cosh(s t)",
+                                 "s t = 6, with and without friction",
+                                 "inverted pendulum",
+                                 "A",
+                                 "the lean, and the depth of contact",
+                                 0};
     static contact_run r;
     ellipsoid_options o = dumbbell();
 
@@ -200,7 +238,7 @@ static void test_standing_falls(void **unused)
         /* from rest: lean cosh(s t) */
         assert_ok(contact_go(&r, 6 / rate));
         test_long_axis(&r.state, axis);
-        assert_relative(axis[1], lean * cosh(6), 1e-3);
+        assert_row(&row, axis[1] / (lean * cosh(6)), 1, 1e-3);
         assert_relative(r.state.u[1],
                         o.friction > 0 ? height * lean * sinh(6) * rate : 0,
                         1e-3);
