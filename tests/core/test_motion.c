@@ -23,27 +23,33 @@ static double orbit_constant(const double axis[3], double r)
     return sqrt(across) / fabs(axis[2]);
 }
 
-/* Deviation from Jeffery's axis after `turns` of its period; the shear's rate
-   is 1000/s. */
-static double jeffery_deviation(double density, double tolerance, double r,
-                                double turns, double *constant)
+/* A spheroid of the aspect ratio r without the force of the pressure gradient. */
+static ellipsoid_model jeffery_body(double r, double density, double tolerance)
 {
     ellipsoid_options o = test_free_cell();
-    test_quadratic flow = test_shear(1000);
-    ellipsoid_state s = {.q = {0, 0, 0, 1}};
-    ellipsoid_controller controller = {0};
-    ellipsoid_statistics statistics = {0};
-    ellipsoid_model model;
-    const double period = 2 * test_pi * (r + 1 / r) / 1000;
-    const double start[3] = {0, 0.8, 0.6};
-    const double c = orbit_constant(start, r);
-    double t = 0, axis[3], phase, phi, theta, expected[3];
 
     o.semi_axes[1] = r * 0.5e-6;
     o.density = density;
     o.pressure_gradient = ELLIPSOID_PRESSURE_NONE;
     o.tolerance = tolerance;
-    model = test_model(&o);
+    return test_model(&o);
+}
+
+/* Deviation from Jeffery's axis after `turns` of its period; the shear's rate
+   is 1000/s. */
+static double jeffery_deviation(double density, double tolerance, double r,
+                                double turns, double *constant)
+{
+    test_quadratic flow = test_shear(1000);
+    ellipsoid_state s = {.q = {0, 0, 0, 1}};
+    ellipsoid_controller controller = {0};
+    ellipsoid_statistics statistics = {0};
+    const ellipsoid_model model = jeffery_body(r, density, tolerance);
+    const double period = 2 * test_pi * (r + 1 / r) / 1000;
+    const double start[3] = {0, 0.8, 0.6};
+    const double c = orbit_constant(start, r);
+    double t = 0, axis[3], phase, phi, theta, expected[3];
+
     ellipsoid_quaternion_from_axis(start, 0, s.q);
     assert_ok(test_advance(&model, &flow, &s, &t, turns * period, &controller,
                            &statistics));
@@ -141,19 +147,13 @@ static void test_jeffery_period(void **unused)
     {
         const double r = (double[]){2, 4, 10}[n];
         const double period = 2 * test_pi * (r + 1 / r) / 1000;
-        ellipsoid_options o = test_free_cell();
         test_quadratic flow = test_shear(1000);
         ellipsoid_state s = {.q = {0, 0, 0, 1}};
         ellipsoid_controller controller = {0};
         ellipsoid_statistics statistics = {0};
-        ellipsoid_model model;
+        const ellipsoid_model model = jeffery_body(r, 1e-3, 1e-10);
         double t = 0, axis[3], turned = 0, last = 0;
 
-        o.semi_axes[1] = r * 0.5e-6;
-        o.density = 1e-3;
-        o.pressure_gradient = ELLIPSOID_PRESSURE_NONE;
-        o.tolerance = 1e-10;
-        model = test_model(&o);
         for (int part = 1; part <= 400; part++)
         {
             double angle;

@@ -270,18 +270,17 @@ static void add_place_blocks(const ellipsoid_near_walls *near,
 
 /* action: of all the drag, body frame; outrun: u_free - u, lab. */
 static void add_blocks(const ellipsoid_near_walls *near,
-                       const ellipsoid_wall_expansion *e, const double u[3],
+                       ellipsoid_wall_expansion *e, const double u[3],
                        const double outrun[3], const double action[6],
                        ellipsoid_jacobian_blocks *b)
 {
     const ellipsoid_model *m = near->model;
     const ellipsoid_free_motion *free = near->free;
     ellipsoid_frame *frame = near->frame;
-    double(*axis)[3] = frame->axis, matrix[6][6], squeeze[6][6];
+    double(*axis)[3] = frame->axis, matrix[6][6];
     double column[6], moved[6];
 
     memcpy(matrix, e->slip, sizeof(matrix));
-    memcpy(squeeze, e->squeeze, sizeof(squeeze));
     add_free_resistance(m, matrix);
     add_place_blocks(near, e, matrix, b);
     for (int n = 0; n < 4; n++)
@@ -299,7 +298,7 @@ static void add_blocks(const ellipsoid_near_walls *near,
             moved[i + 3] = free->omega_q[i][n];
         }
         apply(matrix, moved, column);
-        apply(squeeze, turned, squeezed);
+        apply(e->squeeze, turned, squeezed);
         add_part(-1, squeezed, column);
         add_part(1, e->by_pose[n + 3], column);
         add_column(axis, column, &b->uq[0][n], &b->wq[0][n], 4);
@@ -310,7 +309,7 @@ static void add_blocks(const ellipsoid_near_walls *near,
             b->uq[i][n] += turned[i];
         }
     }
-    add_matrix(squeeze, matrix);
+    add_matrix(e->squeeze, matrix);
     for (int l = 0; l < 3; l++)
     {
         const double back[6] = {-axis[0][l], -axis[1][l], -axis[2][l]};
