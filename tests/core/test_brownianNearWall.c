@@ -179,6 +179,70 @@ static void test_numbers(void **unused)
     assert_true(near.near && near.start == 0.0305 && near.end <= far.end);
 }
 
+/* A cell at rest on a floor that ends under it, or on a block's edge, has a
+   resistance that noise can be made of: R_w is positive definite where squeezing
+   is gone, but the wall under the centre is not. */
+static void test_past_rims(void **unused)
+{
+    static const double ratio[] = {0.34, 0.5, 1, 4, 7};
+    const double low[3] = {-1e-4, -1e-4, -1e-4}, high[3] = {0, 1e-4, 0};
+    uint64_t seed = 31;
+    wall_mesh block;
+
+    (void)unused;
+    wall_mesh_init(&block);
+    wall_mesh_box(&block, low, high, 0, 0, 0);
+    wall_mesh_finish(&block);
+    for (int n = 0; n < 20000; n++)
+    {
+        ellipsoid_options o = near_wall(ELLIPSOID_MOTION_INERTIALESS, 1e-3);
+        double r[3][3], square = 0;
+        ellipsoid_noise noise;
+        test_walk w;
+
+        ellipsoid_set(o.semi_axes, 0.5e-6, 0.5e-6 * ratio[n % 5], 0.5e-6);
+        w = walk(&o, 1, (uint32_t)n, 0);
+        w.around.walls_context = &block;
+        test_orientation(&seed, w.state.q);
+        ellipsoid_rotation(w.state.q, r);
+        for (int i = 0; i < 3; i++)
+        {
+            square += pow(o.semi_axes[i] * r[2][i], 2);
+        }
+        ellipsoid_set(w.state.x, 3e-6 * test_signed(&seed), 0,
+                      sqrt(square) + 1e-6 * pow(10, -3 * test_uniform(&seed)));
+        assert_ok(ellipsoid_noise_at(&w.model, &w.around, 0, &noise));
+        assert_ok(ellipsoid_wall_noise_begin(&w.model, &w.around, &w.state,
+                                             &cache, 0, &noise));
+    }
+    wall_mesh_free(&block);
+}
+
+static int not_asked(void *context, double t, const double centre[3],
+                     double reach, ellipsoid_facet_list *list)
+{
+    (void)t;
+    (void)centre;
+    (void)reach;
+    (void)list;
+    *(int *)context = 1;
+    return 0;
+}
+
+/* Walls are not asked about a place that is none. */
+static void test_no_place(void **unused)
+{
+    const ellipsoid_options o = near_wall(ELLIPSOID_MOTION_INERTIALESS, 1e-3);
+    test_walk w = walk(&o, 1, 1, NAN);
+    int asked = 0;
+
+    (void)unused;
+    w.around.walls = not_asked;
+    w.around.walls_context = &asked;
+    assert_int_equal(test_walk_to(&w, 1e-4), ELLIPSOID_BAD_STATE);
+    assert_false(asked);
+}
+
 /* --------------------------------------------------------- equilibrium */
 
 /*
@@ -257,8 +321,8 @@ static void test_profile(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_interval),
-        cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_interval),  cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_past_rims), cmocka_unit_test(test_no_place),
         cmocka_unit_test(test_profile),
     };
 

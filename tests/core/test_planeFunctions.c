@@ -57,7 +57,8 @@ static void evaluate_plane(scene *s, double gap, double resistance[6][6],
 {
     ellipsoid_plane_effect effect;
 
-    ellipsoid_plane_effect_set(&s->own, s->normal, gap, 0, &effect);
+    ellipsoid_plane_effect_set(&s->own, s->normal, (double[]){gap, gap}, 0,
+                               &effect);
     for (int m = 0; m < 8; m++)
     {
         const double u[3] = {m == 0, m == 1, m == 2};
@@ -333,7 +334,8 @@ static void test_change(void **unused)
     {
         double axes[3] = {1e-6, 1e-6, 1e-6}, rates[6], shear[3], normal[3];
         double velocity[6];
-        const double gap = 1e-6 * pow(10, -3.5 + 5 * test_uniform(&seed));
+        const double gap[2] = {1e-6 * pow(10, -3.5 + 5 * test_uniform(&seed)),
+                               1e-6 * pow(10, -3.5 + 5 * test_uniform(&seed))};
         double action[2][6], change[4][2][6];
         ellipsoid_plane_table own;
         ellipsoid_plane_effect effect;
@@ -360,26 +362,29 @@ static void test_change(void **unused)
         ellipsoid_plane_action(&effect, rates, velocity, shear, action, change);
         for (int by = 0; by < 4; by++)
         {
-            const double step = by < 3 ? 1e-4 : 1e-4 * gap;
+            const double step = 1e-4;
             double slope[2][6] = {{0}};
 
             for (int k = -2; k <= 2; k++)
             {
                 double moved[3] = {normal[0], normal[1], normal[2]};
-                double there[2][6];
+                double there[2][6], farther[2];
 
+                for (int m = 0; m < 2; m++)
+                {
+                    farther[m] = gap[m] * (by == 3 ? 1 + k * step : 1);
+                }
                 if (by < 3)
                 {
                     moved[by] += k * step;
                 }
-                ellipsoid_plane_effect_set(
-                    &own, moved, by == 3 ? gap + k * step : gap, 0, &effect);
+                ellipsoid_plane_effect_set(&own, moved, farther, 0, &effect);
                 ellipsoid_plane_action(&effect, rates, velocity, shear, there,
                                        NULL);
                 for (int m = 0; m < 12; m++)
                 {
-                    slope[m / 6][m % 6] +=
-                        weight[k + 2] * there[m / 6][m % 6] / step;
+                    slope[m / 6][m % 6] += weight[k + 2] * there[m / 6][m % 6]
+                                         / (by == 3 ? step * gap[m / 6] : step);
                 }
             }
             for (int m = 0; m < 4; m++)

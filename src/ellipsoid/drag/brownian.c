@@ -93,7 +93,9 @@ static double longest_interval(const ellipsoid_model *model,
         out[i] /= noise->factor[i][i];
         square += out[i] * out[i];
     }
-    return part * part * plane->gap * plane->gap
+    const double moved = part * plane->gap[ELLIPSOID_PLANE_NEAR];
+
+    return moved * moved
          / (2 * ELLIPSOID_BOLTZMANN * model->options.temperature * square);
 }
 

@@ -109,10 +109,10 @@ typedef struct ellipsoid_plane
 {
     double wall[3]; /* unit normal, lab, into the fluid */
     ellipsoid_plane_effect effect;
-    double gap;       /* [m] to the body, cut off at the lubrication_gap */
+    double gap[2];    /* [m] of each action, at least the lubrication_gap */
     double weight[2]; /* [-] of each action: 1 on a wall without end */
     double normal_slope[ELLIPSOID_POSE_SIZE][3];
-    double gap_slope[ELLIPSOID_POSE_SIZE];
+    double gap_slope[2][ELLIPSOID_POSE_SIZE];
     double weight_slope[2][ELLIPSOID_POSE_SIZE];
 } ellipsoid_plane;
 
@@ -128,17 +128,17 @@ ellipsoid_status ellipsoid_find_planes(
     const ellipsoid_state *state, const ellipsoid_frame *frame,
     ellipsoid_facet_cache *cache, ellipsoid_planes *planes);
 
-/* slopes: are derivatives to be asked for? */
+/* gap: of each action; slopes: are derivatives to be asked for? */
 void ellipsoid_plane_effect_set(const ellipsoid_plane_table *own,
-                                const double normal[3], double gap, int slopes,
-                                ellipsoid_plane_effect *effect);
+                                const double normal[3], const double gap[2],
+                                int slopes, ellipsoid_plane_effect *effect);
 
 /*
     What the plane adds to force [m2/s] and torque [m3/s] over mu on a body of
     this velocity, u and omega, that a free one outruns by `rates`, in a flow of
     which (z - z of the centre) shear [1/s] is a part; all in the body frame, FAR
     and NEAR apart. change, if not NULL: its derivatives by the components of the
-    normal and the gap.
+    normal and their gaps.
 */
 void ellipsoid_plane_action(const ellipsoid_plane_effect *effect,
                             const double rates[6], const double velocity[6],

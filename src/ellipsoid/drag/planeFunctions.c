@@ -36,8 +36,9 @@ enum
     FUNCTIONS = ELLIPSOID_PLANE_FUNCTIONS
 };
 
-static void set_values(const ellipsoid_plane_table *own, double nu, double gap,
-                       int slopes, ellipsoid_plane_values *v)
+/* The functions of the table. */
+static void set_functions(const ellipsoid_plane_table *own, double nu,
+                          double gap, int slopes, ellipsoid_plane_values *v)
 {
     const double b = own->ratio, more = b * b - 1, pp = 1 + more * nu * nu;
     const double p = sqrt(pp), p_nu = more * nu / p;
@@ -101,8 +102,16 @@ static void set_values(const ellipsoid_plane_table *own, double nu, double gap,
         v->by_gap[n] =
             scale[n] * (close_gap * sum[0][n] + close * x_gap * sum[2][n]);
     }
+}
 
-    /* 12 pi S^3/tau = 12 pi b^3/(p^3 (b^2 + p^2)) */
+/* 12 pi S^3/tau = 12 pi b^3/(p^3 (b^2 + p^2)) */
+static void set_squeezing(double b, double nu, double gap,
+                          ellipsoid_plane_values *v)
+{
+    const double more = b * b - 1, pp = 1 + more * nu * nu, p = sqrt(pp);
+    const double p_nu = more * nu / p, h = p + gap, close = p / h;
+    const double close_nu = p_nu * gap / (h * h), close_gap = -p / (h * h);
+
     v->squeeze[0] = ellipsoid_squeeze(b, p) * close * close * close / gap;
     v->squeeze[1] =
         v->squeeze[0]
@@ -146,12 +155,15 @@ static void apply_functions(int k, const double *f, double nu,
 }
 
 void ellipsoid_plane_effect_set(const ellipsoid_plane_table *own,
-                                const double normal[3], double gap, int slopes,
-                                ellipsoid_plane_effect *e)
+                                const double normal[3], const double gap[2],
+                                int slopes, ellipsoid_plane_effect *e)
 {
+    const double nu = normal[own->axis], per = 1 / own->radius;
+
     e->own = own;
     ellipsoid_copy(normal, e->normal);
-    set_values(own, normal[own->axis], gap / own->radius, slopes, &e->values);
+    set_functions(own, nu, gap[ELLIPSOID_PLANE_FAR] * per, slopes, &e->values);
+    set_squeezing(own->ratio, nu, gap[ELLIPSOID_PLANE_NEAR] * per, &e->values);
 }
 
 /* The parts of the wrench in the units of force and torque. */

@@ -152,6 +152,8 @@ static void add_plane_derivatives(const ellipsoid_near_walls *near,
     {
         const double of_weight[2] = {plane->weight_slope[0][l],
                                      plane->weight_slope[1][l]};
+        const double of_gap[2] = {plane->weight[0] * plane->gap_slope[0][l],
+                                  plane->weight[1] * plane->gap_slope[1][l]};
 
         add_weighted(of_weight, mu, parts, e->by_pose[l]);
         for (int c = 0; c < 3; c++)
@@ -159,8 +161,7 @@ static void add_plane_derivatives(const ellipsoid_near_walls *near,
             add_weighted(plane->weight, mu * plane->normal_slope[l][c], by[c],
                          e->by_pose[l]);
         }
-        add_weighted(plane->weight, mu * plane->gap_slope[l], by[3],
-                     e->by_pose[l]);
+        add_weighted(of_gap, mu, by[3], e->by_pose[l]);
         for (int c = 0; l >= 3 && c < 3; c++)
         {
             add_part(ellipsoid_dot(near->frame->by_q[l - 3][c], lab), driven[c],

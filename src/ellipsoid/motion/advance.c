@@ -358,10 +358,8 @@ static ellipsoid_status set_start(int moves, const ellipsoid_state *state,
     return ELLIPSOID_OK;
 }
 
-/* Where the run begins. */
-static ellipsoid_status begin(ellipsoid_group *g,
-                              const ellipsoid_member members[], double t,
-                              double end)
+ellipsoid_status ellipsoid_group_start(ellipsoid_group *g,
+                                       const ellipsoid_member members[])
 {
     ellipsoid_status status = ELLIPSOID_OK;
 
@@ -371,10 +369,14 @@ static ellipsoid_status begin(ellipsoid_group *g,
                            members[cell].state, &g->start[cell]);
         g->failed = status == ELLIPSOID_OK ? -1 : cell;
     }
-    if (status == ELLIPSOID_OK)
-    {
-        status = ellipsoid_noise_layer(g, t, end);
-    }
+    return status;
+}
+
+/* Where an interval begins. */
+static ellipsoid_status begin(ellipsoid_group *g, double t, double end)
+{
+    ellipsoid_status status = ellipsoid_noise_layer(g, t, end);
+
     if (status == ELLIPSOID_OK)
     {
         g->has_blocks = g->inertial;
@@ -437,7 +439,7 @@ ellipsoid_status ellipsoid_group_advance(ellipsoid_group *g,
                                          long *attempts)
 {
     ellipsoid_controller controller = common(g, members);
-    ellipsoid_status status = begin(g, members, *t, end);
+    ellipsoid_status status = begin(g, *t, end);
 
     while (status == ELLIPSOID_OK && *t < end)
     {

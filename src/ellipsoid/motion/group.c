@@ -82,9 +82,8 @@ static int is_complete(const ellipsoid_member *m)
    with the run, too, as it cannot be continued: the resistance was that of its
    start. What is left until then is divided evenly, so that no interval is much
    shorter than it has to be: the force grows as it gets shorter. */
-static ellipsoid_status set_noise(ellipsoid_group *g,
-                                  const ellipsoid_member members[], double t,
-                                  double end, double *until)
+static ellipsoid_status set_noise(ellipsoid_group *g, double t, double end,
+                                  double *until)
 {
     ellipsoid_status status = ELLIPSOID_OK;
     double whole = end;
@@ -105,7 +104,7 @@ static ellipsoid_status set_noise(ellipsoid_group *g,
             && ellipsoid_has_near_walls(p->model, &p->surroundings))
         {
             status = ellipsoid_wall_noise_begin(p->model, &p->surroundings,
-                                                members[cell].state, p->cache,
+                                                &g->start[cell].state, p->cache,
                                                 t, noise);
         }
         if (noise->end < *until - noise->tolerance)
@@ -171,9 +170,10 @@ static ellipsoid_status advance(ellipsoid_group *g,
     {
         double until = end;
 
-        if (g->cell[0].noise)
+        status = ellipsoid_group_start(g, members);
+        if (status == ELLIPSOID_OK && g->cell[0].noise)
         {
-            status = set_noise(g, members, *t, end, &until);
+            status = set_noise(g, *t, end, &until);
         }
         if (status == ELLIPSOID_OK)
         {

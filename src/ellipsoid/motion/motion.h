@@ -462,8 +462,13 @@ static inline int ellipsoid_may_recover(ellipsoid_status s)
     return s == ELLIPSOID_STEP_UNDERFLOW || s == ELLIPSOID_NON_FINITE;
 }
 
-/* Takes a group from *t to `end` [s]; the observer may stop it (advance.c).
-   Controllers and observers are the members'; *attempts counts on. */
+/* Where the members are, unit quaternions, becomes the group's start. BAD_STATE:
+   not all is finite (advance.c). */
+ellipsoid_status ellipsoid_group_start(ellipsoid_group *group,
+                                       const ellipsoid_member members[]);
+
+/* Takes a group from its start at *t to `end` [s]; the observer may stop it
+   (advance.c). Controllers and observers are the members'; *attempts counts on. */
 ellipsoid_status ellipsoid_group_advance(ellipsoid_group *group,
                                          const ellipsoid_member members[],
                                          double *t, double end,
