@@ -403,7 +403,7 @@ static void test_continuous(void **unused)
     uint64_t seed = 23;
 
     (void)unused;
-    for (int n = 0; n < 20; n++)
+    for (int n = 0; n < test_count(4, 20, 20); n++)
     {
         const double ends[2][3] = {
             {2e-6 * test_signed(&seed), 3e-6 * test_signed(&seed), 2e-6},
@@ -456,7 +456,7 @@ static void test_continuous_over_edges(void **unused)
     wall_mesh_box(&mesh, block[0], block[1], 0, 8, 0);
     wall_mesh_finish(&mesh);
     ellipsoid_facet_cache_clear(&cache);
-    for (long n = test_count(10, 60, 60); n > 0; n--)
+    for (long n = test_count(3, 60, 60); n > 0; n--)
     {
         const double from[3] = {0.5e-6 * test_signed(&seed), 1.4e-6,
                                 1.2e-6 + 1e-6 * test_uniform(&seed)};
@@ -588,7 +588,7 @@ static void test_continuous_beside_a_pit(void **unused)
     wall_mesh_finish(&mesh);
     ellipsoid_quaternion_from_axis(axis, 0, q);
     ellipsoid_facet_cache_clear(&cache);
-    for (int n = 0; n < 15; n++)
+    for (int n = 0; n < 15; n += test_count(5, 1, 1))
     {
         const double y = (-9 + 0.4 * n) * 1e-6;
         const double from[3] = {3.2e-6, y, 2.5e-6}, to[3] = {1.6e-6, y, 2.5e-6};
@@ -636,7 +636,7 @@ static void test_continuous_by_a_post(void **unused)
         add_post(&mesh, diagonal);
         wall_mesh_finish(&mesh);
         ellipsoid_facet_cache_clear(&cache);
-        for (int n = 0; n < 40; n++)
+        for (long n = test_count(2, 40, 40); n > 0; n--)
         {
             const double from[3] = {(-3 + test_signed(&seed)) * 1e-6,
                                     (-2 + test_signed(&seed)) * 1e-6,

@@ -75,7 +75,7 @@ static double longest_interval(const ellipsoid_model *model,
                                const ellipsoid_noise *noise,
                                const ellipsoid_plane *plane)
 {
-    static const double part = 0.2;
+    static const double part = 0.4;
     const double *a = model->options.semi_axes, *n = plane->effect.normal;
     const double stretched[3] = {a[0] * a[0] * n[0], a[1] * a[1] * n[1],
                                  a[2] * a[2] * n[2]};
