@@ -180,6 +180,54 @@ namespace Foam
         );
     }
 
+    //- A cell that waits is told of once; one that is held for longer has the
+    //  place where it is then; one that is fast has nothing left
+    static void checkOthers(const layer& at)
+    {
+        List<cellState> before(3, at.cellAt(point(10e-6, 10e-6, 5e-6)));
+        List<cellSweep> after(3, cellSweep());
+        DynamicList<cellEvent> events;
+        forAll(before, i)
+        {
+            before[i].id = i;
+            before[i].fate = i < 2 ? cellState::waiting : cellState::stalled;
+            before[i].planned = before[i].time = 0.1;
+            after[i].state = before[i];
+            after[i].state.place = before[i].centre();
+        }
+        after[1].state.time = 0.2;
+        after[2].state.slowTime = 0.95;
+        after[2].state.body.x[0] += 0.5e-6;
+        criterionOf(at, "displacement 1e-6; holdTime 1;").judge
+        (
+            before, after, 0.2, events
+        );
+        holds
+        (
+            "a cell that waits is told of at its first attempt",
+            events.size() == 1 && events[0].type == "waiting"
+         && events[0].cell.id == 0
+        );
+        holds
+        (
+            "one that is held for a hold time again is so where it is then",
+            after[2].state.slowTime == 0
+         && after[2].state.place == after[2].state.unfolded()
+        );
+
+        before[2].fate = after[2].state.fate = cellState::inFlight;
+        after[2].state.slowTime = after[2].state.imbalance = 0.5;
+        criterionOf(at, "speed 1e-7; holdTime 1;").judge
+        (
+            before, after, 0.2, events
+        );
+        holds
+        (
+            "one that is fast has balanced nothing yet",
+            after[2].state.slowTime == 0 && after[2].state.imbalance == 0
+        );
+    }
+
     //- What holds a cell decides, not where it lies in the list
     static void checkChain(const layer& at)
     {
@@ -262,5 +310,6 @@ void Foam::checkCaptures(const layer& at)
 {
     checkImbalance(at);
     checkPlace(at);
+    checkOthers(at);
     checkChain(at);
 }

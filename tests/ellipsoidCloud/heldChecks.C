@@ -63,22 +63,35 @@ namespace Foam
             held.begin();
         }
 
-        //- Caught, and pulled like this. Does it stay?
-        bool stays(const heldWrench& pull)
+        //- Caught, and pulled like this. Do all stay?
+        bool allStay(const List<heldWrench>& pulls)
         {
-            cells[0].fate = cellState::caught;
+            for (cellState& cell : cells)
+            {
+                cell.fate = cellState::caught;
+            }
             events.clear();
             held.update(cells, events);
-            held.take(List<heldWrench>(1, pull), cells);
+            held.take(pulls, cells);
             held.letGo(cells, true, events);
 
-            return held.held().found(cells[0].id);
+            return held.held().size() == cells.size();
         }
 
-        //- That moves it at so many times the speed of a slow one
+        bool stays(const heldWrench& pull)
+        {
+            return allStay(List<heldWrench>(1, pull));
+        }
+
+        //- A pull that moves a cell at so many times the speed of a slow one
+        heldWrench pullOf(const scalar times) const
+        {
+            return {at.drag(vector(times*speed, 0, 0)), Zero};
+        }
+
         bool staysAt(const scalar times)
         {
-            return stays({at.drag(vector(times*speed, 0, 0)), Zero});
+            return stays(pullOf(times));
         }
 
         dictionary notes()
@@ -102,7 +115,18 @@ namespace Foam
         holding pulled(at, cell);
         holds("a weak pull leaves a held cell", pulled.staysAt(0.98));
         holds("so does one as that, asked or not", pulled.staysAt(1.02));
+        holds("the flow is not asked for again", !pulled.held.outdated());
+        pulled.cells[0].slowTime = 1;
+        pulled.cells[0].dragImpulse = vector::one;
         holds("a stronger one moves it", !pulled.staysAt(1.1));
+        holds("then the flow is another", pulled.held.outdated());
+        holds
+        (
+            "and it has to come to rest anew",
+            pulled.cells[0].slowTime == 0
+         && pulled.cells[0].dragImpulse == vector::zero
+         && same(pulled.cells[0].place, cell.centre())
+        );
         holds
         (
             "it is told, and is where it was held",
@@ -119,7 +143,47 @@ namespace Foam
 
         // Off the place where it was let go
         pulled.cells[0].body.x[1] += 0.06e-6;
-        holds("elsewhere it has withstood nothing", !pulled.staysAt(1.1));
+        holds("elsewhere it has withstood nothing", !pulled.staysAt(2.3));
+    }
+
+    //- Of two cells that one is let go makes the other be asked again
+    static void checkTwo(const layer& at)
+    {
+        const cellState cell(at.cellAt(point(10e-6, 10e-6, 5e-6), 3));
+        holding two(at, cell);
+        two.cells.append(at.cellAt(point(15e-6, 10e-6, 5e-6), 4));
+        two.cells[0].body.u[0] = two.cells[1].body.omega[2] = 1;
+
+        const auto pulls = [&](const scalar first, const scalar second)
+        {
+            return List<heldWrench>({two.pullOf(first), two.pullOf(second)});
+        };
+
+        const bool both = two.allStay(pulls(0.98, 0.98));
+        holds("two that are pulled weakly stay", both);
+        holds
+        (
+            "held cells are still",
+            two.cells[0].body.u[0] == 0 && two.cells[1].body.omega[2] == 0
+        );
+        holds
+        (
+            "a flow that does the same is told from another",
+            two.held.take(pulls(0.98, 0.98), two.cells)
+         && !two.held.take(pulls(0.5, 0.98), two.cells)
+        );
+        two.allStay(pulls(0.98, 3));
+        holds
+        (
+            "one goes, the other is not yet asked again",
+            two.events.size() == 1 && two.events[0].cell.id == 4
+        );
+        two.allStay(pulls(1.02, 0));
+        holds
+        (
+            "but then it is",
+            two.events.size() == 1 && two.events[0].cell.id == 3
+        );
     }
 
     //- A cell on the floor that is turned upright
@@ -138,6 +202,14 @@ namespace Foam
         holding afterRestart(at, cell, turned.notes());
         holds("having withstood that it stays", turned.stays(turn));
         holds("so it does after a restart", afterRestart.stays(turn));
+
+        holding asked(at, cell);
+        asked.staysAt(0.98);
+        holds
+        (
+            "another torque is asked of, though the force is the same",
+            !asked.stays({asked.pullOf(0.98).force, turn.torque})
+        );
 
         // A quarter turn about z
         cellState other(cell);
@@ -239,14 +311,29 @@ namespace Foam
         cell.netImpulse = vector(4, 5, 6);
         const scalar axes[] = {0.5e-6, 2e-6, 0.5e-6};
         cell.body.u[0] = 7;
-        cell.body.omega[0] = 8;
-        cell.body.omega[1] = 9;
+        const scalar axis[] = {0.48, 0.6, 0.64};
+        ellipsoid_quaternion_from_axis(axis, 0.7, cell.body.q);
+        std::copy_n(vector(8, 9, 10).v_, 3, cell.body.omega);
+        const vector spin(rotationOf(cell.body.q) & vector(8, 9, 10));
+        const vector O(longAxis(cell.body.q));
         cell.pass(isometry::mirror(point(0.5e-6, 0, 0), vector(1, 0, 0)), axes);
         holds
         (
             "beyond a plane of symmetry forces and velocities are mirrored",
             same(cell.dragImpulse, vector(-1, 2, 3))
          && same(cell.netImpulse, vector(-4, 5, 6)) && cell.body.u[0] == -7
+        );
+        const vector turned(rotationOf(cell.body.q) & pointOf(cell.body.omega));
+        holds
+        (
+            "and spins as what they are",
+            mag(turned - vector(spin.x(), -spin.y(), -spin.z())) < 1e-9
+        );
+        const vector mirrored(-O.x(), O.y(), O.z());
+        holds
+        (
+            "with the axes",
+            mag(1 - mag(longAxis(cell.body.q) & mirrored)) < 1e-12
         );
         holds
         (
@@ -263,6 +350,7 @@ namespace Foam
 void Foam::checkHeld(const layer& at)
 {
     checkPulls(at);
+    checkTwo(at);
     checkTorques(at);
     checkNotes(at);
     checkState(at);

@@ -189,65 +189,80 @@ static void checkMeshNotes(const polyMesh& mesh)
     holds("so does another neighbour", digest() != before);
     neighbour = mesh.faceNeighbour();
     holds("the same mesh is the same", digest() == before);
+
+    bool told = true;
+    const dictionary patches(checkpoint::notesOf(mesh).subDict("patches"));
+    for (const polyPatch& pp : mesh.boundaryMesh())
+    {
+        const dictionary& patch = patches.subDict(pp.name());
+        told = told && patch.get<label>("start") == pp.start()
+         && patch.get<label>("faces") == pp.size()
+         && patch.get<word>("type") == pp.type();
+    }
+    holds("with the patches and where they begin", told);
 }
 
 
-// Two injections of one dictionary draw other numbers, and every cell's time,
-// position and orientation are independent
-static void checkDraws(const layer& at)
+// A cell that is carried over a cyclic patch, and one that enters on its way
+static void checkPassing(const layer& at)
 {
-    const label n = 50;
-    const dictionary dict
-    (
-        entries
+    // How far each was from where it is said to have been advanced from
+    struct seen : public contactObserver
+    {
+        mutable scalar farthest = 0;
+
+        virtual void ended
         (
-            "type box; number 50; duration 1; min (8e-6 8e-6 3e-6);"
-            "max (16e-6 16e-6 7e-6);"
-        )
-    );
-    DynamicList<cellState> cells;
-    bool ordered = true;
-    for (const label first : {0, 50})
-    {
-        const cellInjection::setting from
+            cellSweep& cell, const ellipsoid_contact&, const point& from,
+            const scalar, const ellipsoid_model&, const cellDomain&
+        ) const
         {
-            dict, at.undecomposed, at.domain, at.population, first, 0, true
-        };
-        const auto injection(cellInjection::New(from));
-        const label nBefore = cells.size();
-
-        injection->append(0, 0.5, cells);
-        injection->append(0.5, 2, cells);
-        for (label i = nBefore; i < cells.size(); ++i)
-        {
-            ordered = ordered
-             && cells[i].id >= first && cells[i].id < first + n
-             && (i == nBefore || cells[i].time >= cells[i - 1].time);
+            farthest = max(farthest, mag(cell.state.centre() - from));
         }
-    }
-    holds("an injection's cells come in the order of their times", ordered);
-    holds("and all of them", cells.size() == 2*n, Foam::name(cells.size()));
+    } observer;
 
-    // Uniform numbers of a cell; no two of all are the same
-    DynamicList<scalar> numbers;
-    for (const cellState& cell : cells)
+    List<cellState> cells(2);
+    cells[0] = at.cellAt(point(19.9e-6, 10e-6, 5e-6), 0);
+    cells[0].deepest = cells[0].deepestCell = 1e-7;
+    cells[1] = at.cellAt(point(10e-6, 10e-6, 5e-6), 1);
+    cells[1].fate = cellState::waiting;
+    cells[1].time = cells[1].planned = 0.4e-3;
+    const List<cellState> before(cells);
+    groupScheduler scheduler(at.population, at.domain, nullptr, &observer);
+    const List<cellSweep> moved(scheduler.advanceInterval(cells, 0, 1e-3));
+
+    const vector way(1e-6, 2e-6, -1e-6);
+    const auto near = [&](const vector& a, const vector& b)
     {
-        numbers.append(cell.time);
-        numbers.append((cell.body.x[0] - 8e-6)/8e-6);
-        numbers.append((cell.body.x[1] - 8e-6)/8e-6);
-        numbers.append((cell.body.x[2] - 3e-6)/4e-6);
-    }
-    sort(numbers);
-    scalar nearest = 1;
-    for (label i = 1; i < numbers.size(); ++i)
-    {
-        nearest = min(nearest, numbers[i] - numbers[i - 1]);
-    }
+        return mag(a - b) < 0.05e-6;
+    };
+    const cellState& passed = moved[0].state;
     holds
     (
-        "no number is drawn twice, by two cells or for two uses",
-        nearest > 1e-9 && numbers.first() >= 0 && numbers.last() < 1,
-        Foam::name(nearest)
+        "a cell passes a cyclic patch, and its way is in one piece",
+        near(passed.centre(), before[0].centre() + way - vector(20e-6, 0, 0))
+     && near(passed.unfolded(), before[0].centre() + way)
+    );
+    holds
+    (
+        "what it has swept is in one piece, too",
+        near(pointOf(moved[0].sweep.passed), vector(20e-6, 0, 0))
+     && near
+        (
+            pointOf(moved[0].sweep.high),
+            before[0].centre() + vector(1e-6, 2e-6, 0)
+        )
+    );
+    holds("where it began is seen from where it is", observer.farthest < 5e-6);
+    holds
+    (
+        "it has been as deep in others as it was",
+        passed.deepest == 1e-7 && passed.deepestCell == 1e-7
+    );
+    holds
+    (
+        "a cell that enters moves from then on",
+        near(moved[1].state.centre(), before[1].centre() + 0.6*way)
     );
 }
 
@@ -339,16 +354,18 @@ int main(int argc, char *argv[])
         )
     );
     const layer still(mesh, Zero);
+    const layer stream(mesh, vector(1e-3, 2e-3, -1e-3));
 
     checkDiagonals(still);
-    checkDraws(still);
+    checkInjections(still);
     checkSharing();
     if (!Pstream::parRun())
     {
         checkMeshNotes(mesh);
         checkHeld(still);
-        checkCaptures(layer(mesh, vector(1e-3, 2e-3, -1e-3)));
+        checkCaptures(stream);
     }
+    checkPassing(stream);
     Info<< "End" << nl << endl;
 
     return 0;
