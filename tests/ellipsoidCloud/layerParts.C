@@ -267,6 +267,99 @@ static void checkPassing(const layer& at)
 }
 
 
+// Every step that stands is seen once, where cells push one another to others
+// that they had not been advanced with
+static void checkSeen(const layer& at)
+{
+    // A row has the cell, and how long the step is; -1 for its entry
+    struct seen : public trackSampler
+    {
+        List<scalar> times, starts;
+
+        static void add
+        (
+            const cellState& cell, const scalar time, DynamicList<row>& rows
+        )
+        {
+            row r(Zero);
+            r[0] = cell.id;
+            r[1] = time;
+            rows.append(r);
+        }
+
+        virtual void start(cellState& cell, DynamicList<row>& rows) const
+        {
+            cell.nextRow = 1;
+            cell.lastRow[7] = 2;
+            add(cell, -1, rows);
+        }
+
+        virtual void add
+        (
+            cellState& cell, const ellipsoid_step& step, const meshFlow&,
+            const label, DynamicList<row>& rows
+        ) const
+        {
+            ++cell.nextRow;
+            add(cell, step.end - step.start, rows);
+        }
+
+        virtual void finish(cellState&, DynamicList<row>&) const
+        {}
+
+        virtual void take(const UList<row>& rows)
+        {
+            for (const row& r : rows)
+            {
+                (r[1] < 0 ? starts : times)[label(r[0])] += mag(r[1]);
+            }
+        }
+    } tracks;
+
+    // The first two overlap the third, and push towards the fourth
+    List<cellState> cells(4);
+    const scalar x[] = {10e-6, 10.4e-6, 10.2e-6, 8.81e-6};
+    forAll(cells, i)
+    {
+        cells[i] = at.cellAt(point(x[i], 10e-6, 5e-6), i);
+        cells[i].fate = cellState::waiting;
+    }
+    for (label i = 0; i < 3; ++i)
+    {
+        cells[i].fate = cellState::inFlight;
+        cells[i].nextRow = 1;
+    }
+    tracks.times.setSize(4, Zero);
+    tracks.starts.setSize(4, Zero);
+    groupScheduler scheduler(at.population, at.domain, &tracks, nullptr);
+    const List<cellSweep> moved(scheduler.advanceInterval(cells, 0, 1e-3));
+
+    bool kept = true;
+    for (label i = 0; i < 4; ++i)
+    {
+        reduce(tracks.times[i], sumOp<scalar>());
+        reduce(tracks.starts[i], sumOp<scalar>());
+        kept = kept && moved[i].state.nextRow > 1
+         && mag(tracks.times[i] - 1e-3) < 1e-9;
+    }
+    OStringStream os;
+    os << tracks.times << ' ' << tracks.starts;
+    holds("of each cell all steps are seen once", kept, os.str());
+    holds
+    (
+        "and that it has entered",
+        tracks.starts[3] == 1 && tracks.starts[0] == 0
+     && moved[3].state.lastRow[7] == 2,
+        os.str()
+    );
+    holds
+    (
+        "they have met",
+        moved[3].state.deepestCell > 0 && moved[0].sweep.travel > 0.57e-6
+    );
+}
+
+
 // Ranks give one another what they have advanced
 static void checkSharing()
 {
@@ -357,6 +450,7 @@ int main(int argc, char *argv[])
     const layer stream(mesh, vector(1e-3, 2e-3, -1e-3));
 
     checkDiagonals(still);
+    checkSeen(still);
     checkInjections(still);
     checkSharing();
     if (!Pstream::parRun())
