@@ -22,6 +22,7 @@ namespace Foam
     {
         const label n = 50;
         bool apart = true;
+        label nByTime = 0, nByPlace = 0;
         const dictionary dict
         (
             entries
@@ -67,6 +68,9 @@ namespace Foam
             const scalar* place = numbers.cdata() + numbers.size() - 3;
             ellipsoid_quaternion_from_uniform(place, q);
             const scalar* own = cell.body.q;
+            const bool isLong = cell.size.length > 3e-6;
+            nByTime += isLong == (cell.time < 0.5);
+            nByPlace += isLong == (place[0] < 0.5);
             apart = apart
              && mag(std::inner_product(q, q + 4, own, scalar(0))) < 1 - 1e-6;
         }
@@ -82,6 +86,12 @@ namespace Foam
             apart && nearest > 1e-9
          && numbers.first() >= 0 && numbers.last() < 1,
             Foam::name(nearest)
+        );
+        holds
+        (
+            "sizes of a table are drawn by neither",
+            nByTime > 0 && nByTime < 2*n && nByPlace > 0 && nByPlace < 2*n,
+            Foam::name(nByTime) + " by time, " + Foam::name(nByPlace)
         );
     }
 
