@@ -72,7 +72,8 @@ int main(int argc, char *argv[])
         << "steady: " << flow.isSteady() << endl;
 
     const label outlet = mesh.boundaryMesh().findPatchID("outlet");
-    Info<< "outflow: " << gSum(phi.boundaryField()[outlet]) << nl;
+    Info<< "outflow: " << gSum(phi.boundaryField()[outlet]) << nl
+        << "pressure: " << gAverage(p.primitiveField()) << nl;
 
     if (args.found("again"))
     {
@@ -87,8 +88,13 @@ int main(int argc, char *argv[])
         how.maxIterations = 0;
         coupledStokes(U, p, phi, nu, momentum, how).solve();
         Info<< "again: " << gSum(phi.boundaryField()[outlet]) << nl
+            << "again pressure: " << gAverage(p.primitiveField()) << nl
             << "by U: "
-            << gSum(U.boundaryField()[outlet] & mesh.Sf().boundaryField()[outlet])
+            << gSum
+               (
+                   U.boundaryField()[outlet]
+                 & mesh.Sf().boundaryField()[outlet]
+               )
             << nl;
     }
     Info<< "End" << nl << endl;
