@@ -368,6 +368,88 @@ static void test_energy_is_kept(void **unused)
     wall_mesh_free(&wall);
 }
 
+/* A pit of three planes, each 15 degrees from the floor, n[k] their normals. Where
+   the bead leaves the first over the edge to the second, the contact that ends
+   there takes nothing from that with the third: no force jumps. */
+static void test_pit(void **unused)
+{
+    double n[3][3], corner[3][3], force[2][3];
+    const double bottom[3] = {0, 0, 0}, lean = test_pi / 12;
+    wall_mesh wall;
+
+    (void)unused;
+    for (int k = 0; k < 3; k++)
+    {
+        const double angle = 2 * test_pi * k / 3;
+
+        ellipsoid_set(n[k], -sin(lean) * cos(angle), -sin(lean) * sin(angle),
+                      cos(lean));
+    }
+    wall_mesh_init(&wall);
+    for (int k = 0; k < 3; k++)
+    {
+        ellipsoid_cross(n[k], n[(k + 1) % 3], corner[k]);
+        for (int i = 0; i < 3; i++)
+        {
+            corner[k][i] *= 3 / corner[k][2];
+        }
+    }
+    for (int k = 0; k < 3; k++)
+    {
+        wall_mesh_triangle(&wall, bottom, corner[(k + 2) % 3], corner[k], k);
+    }
+    wall_mesh_finish(&wall);
+    for (double height = 0.7; height < 0.99; height += 0.02)
+    {
+        for (int side = 0; side < 2; side++)
+        {
+            double x[3];
+
+            for (int i = 0; i < 3; i++)
+            {
+                x[i] = 0.004 * corner[0][i] + height * n[0][i]
+                     + (side ? 1e-9 : -1e-9) * (n[0][i] - n[1][i]);
+            }
+            assert_int_equal(touch(&wall, x, force[side]), 3 - side);
+        }
+        assert_near(distance(force[0], force[1]), 0, 1e-6);
+    }
+    wall_mesh_free(&wall);
+}
+
+/* On the edge of a table but for rounding it is the table that the bead touches,
+   whichever of both facets comes first. */
+static void test_edge_but_for_rounding(void **unused)
+{
+    const double corner[3] = {-3, -3, 0}, along[3] = {3, 0, 0};
+    const double brink[3] = {0, -3, 0}, down[3] = {0, 0, -3};
+    const double across[3] = {0, 6, 0}, x[3] = {-1e-12, 0.3, 0.9};
+    int order[4];
+    wall_mesh wall;
+    ellipsoid_facet_list list;
+
+    (void)unused;
+    wall_mesh_init(&wall);
+    wall_mesh_plane(&wall, corner, along, across, 1, 1, 0, 0);
+    wall_mesh_plane(&wall, brink, down, across, 1, 1, 0, 1);
+    wall_mesh_finish(&wall);
+    list = wall_mesh_all(&wall);
+    list.index = order;
+    for (int start = 0; start < 8; start++)
+    {
+        double force[3], slope[3][3];
+
+        for (int k = 0; k < 4; k++)
+        {
+            order[k] = (start + (start < 4 ? k : 4 - k)) % 4;
+        }
+        assert_int_equal(ellipsoid_bead_force(x, r, 1, &list, force, slope), 1);
+        assert_true(force[0] == 0 && force[1] == 0 && force[2] > 0);
+        assert_true(slope[0][0] == 0 && slope[2][2] < 0);
+    }
+    wall_mesh_free(&wall);
+}
+
 /* In a tube of 24 sides, each of which it overlaps: the deepest 16 count, and in
    the order of the facets nothing but rounding. */
 static void test_more_contacts_than_count(void **unused)
@@ -431,6 +513,8 @@ int main(void)
         cmocka_unit_test(test_slit),
         cmocka_unit_test(test_thin_plate),
         cmocka_unit_test(test_baffle),
+        cmocka_unit_test(test_pit),
+        cmocka_unit_test(test_edge_but_for_rounding),
         cmocka_unit_test(test_more_contacts_than_count),
         cmocka_unit_test(test_derivative_is_exact),
         cmocka_unit_test(test_energy_is_kept),

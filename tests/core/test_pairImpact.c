@@ -360,6 +360,33 @@ static void test_over_a_period(void **unused)
     assert_true(met > 20);
 }
 
+/* Two balls that forces press together, all but still: as one on the floor in
+   test_bounce.c. */
+static void test_pressed_together(void **unused)
+{
+    static encounter e;
+    const double press = 10;
+    const ellipsoid_options o = partner(1, 1);
+    /* both are as deep in one another as each in a wall */
+    const double depth = 2 * pow(press / contact_stiffness(&o), 2.0 / 3);
+
+    (void)unused;
+    memset(&e, 0, sizeof e);
+    for (int n = 0; n < 2; n++)
+    {
+        ellipsoid_options pressed = o;
+
+        pressed.external_force[0] = n ? -press : press;
+        e.model[n] = test_model(&pressed);
+        e.state[n].q[3] = 1;
+        e.state[n].x[0] = (n ? 1 : -1) * (1 - 0.5 * depth * (1 + 1e-7));
+        e.around[n].id = n;
+    }
+    go(&e, 20 * sqrt(e.model[0].mass * depth / press));
+    assert_true(e.statistics[0].accepted < 20);
+    assert_relative(e.deepest, depth, 1e-5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -367,6 +394,7 @@ int main(void)
         cmocka_unit_test(test_duration),
         cmocka_unit_test(test_forces_balance),
         cmocka_unit_test(test_over_a_period),
+        cmocka_unit_test(test_pressed_together),
     };
 
     return cmocka_run_group_tests_name("pairImpact", tests, NULL, NULL);

@@ -112,10 +112,43 @@ static void test_two_are_one(void **unused)
     }
 }
 
+/* What a step sweeps holds it at its quarters, where it goes one way and back
+   and then the other */
+static void test_step(void **state)
+{
+    ellipsoid_options o = ellipsoid_options_default();
+    const ellipsoid_model model = test_model(&o);
+    ellipsoid_step step = {.start = 1, .end = 2};
+    ellipsoid_sweep sweep;
+
+    (void)state;
+    step.before.q[3] = step.after.q[3] = 1;
+    for (int i = 0; i < 3; i++)
+    {
+        step.dense[0][AT_X + i] = (i + 1) * 1e-6;
+        step.dense[1][AT_X + i] = -2 * (i + 1) * 1e-6;
+    }
+    ellipsoid_sweep_begin(&sweep, &step.before);
+    ellipsoid_sweep_add_step(&sweep, &model, &step);
+    for (int quarter = 1; quarter < 4; quarter++)
+    {
+        ellipsoid_state at;
+
+        ellipsoid_step_state(&step, 1 + 0.25 * quarter, &at);
+        assert_true(sweep.travel >= (1 - 1e-12) * ellipsoid_length(at.x));
+        for (int i = 0; i < 3; i++)
+        {
+            assert_true(sweep.low[i] <= at.x[i] && at.x[i] <= sweep.high[i]);
+        }
+    }
+    assert_true(sweep.travel > 0.3e-6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_two_are_one),
+        cmocka_unit_test(test_step),
     };
 
     return cmocka_run_group_tests_name("sweep", tests, NULL, NULL);

@@ -20,6 +20,7 @@ int main(int argc, char *argv[])
 {
     argList::addOption("resistance", "number", "k [1/s]");
     argList::addOption("maxIterations", "count", "Give up after so many");
+    argList::addOption("again", "factor", "Begin again from the flow times this");
     argList::addBoolOption("simplec", "By SIMPLEC");
 
     #include "setRootCase.H"
@@ -59,19 +60,11 @@ int main(int argc, char *argv[])
         args.getOrDefault<label>("maxIterations", how.maxIterations);
     how.pResidual = how.UResidual = how.fluxTolerance = 1e-8;
 
-    coupledStokes flow
-    (
-        U,
-        p,
-        phi,
-        nu,
-        [&]
-        {
-            return
-                fvm::div(phi, U) - fvm::laplacian(nu, U) + fvm::Sp(k, U);
-        },
-        how
-    );
+    const auto momentum = [&]
+    {
+        return fvm::div(phi, U) - fvm::laplacian(nu, U) + fvm::Sp(k, U);
+    };
+    coupledStokes flow(U, p, phi, nu, momentum, how);
 
     Info<< "steady: " << flow.isSteady() << endl;
     const coupledStokes::outcome end = flow.solve();
@@ -80,7 +73,31 @@ int main(int argc, char *argv[])
 
     const label outlet = mesh.boundaryMesh().findPatchID("outlet");
     Info<< "outflow: " << gSum(phi.boundaryField()[outlet]) << nl
-        << "End" << nl << endl;
+        << "pressure: " << gAverage(p.primitiveField()) << nl;
+
+    if (args.found("again"))
+    {
+        const scalar factor = args.get<scalar>("again");
+        U *= factor;
+        p *= factor;
+        phi *= factor;
+        U.correctBoundaryConditions();
+        p.correctBoundaryConditions();
+
+        // What it begins from, and nothing else
+        how.maxIterations = 0;
+        coupledStokes(U, p, phi, nu, momentum, how).solve();
+        Info<< "again: " << gSum(phi.boundaryField()[outlet]) << nl
+            << "again pressure: " << gAverage(p.primitiveField()) << nl
+            << "by U: "
+            << gSum
+               (
+                   U.boundaryField()[outlet]
+                 & mesh.Sf().boundaryField()[outlet]
+               )
+            << nl;
+    }
+    Info<< "End" << nl << endl;
 
     return 0;
 }

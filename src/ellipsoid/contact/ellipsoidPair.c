@@ -189,11 +189,6 @@ static void minimise(const ellipsoid_surface *a, const ellipsoid_surface *b,
         {
             return;
         }
-        if (length > 0.5)
-        {
-            d[0] *= 0.5 / length;
-            d[1] *= 0.5 / length;
-        }
         for (int halved = 0;; halved++)
         {
             retract(n, at->across, d, moved);

@@ -48,8 +48,8 @@ static void widen(const swept_box *by, double low[3], double high[3])
     }
 }
 
-/* Those of all cells, and of their images that come near them; sets what they
-   span and returns how many. */
+/* Those of all cells, and of their images that come near them; sets what the
+   cells span and returns how many. */
 static int set_boxes(const ellipsoid_near_query *query, swept_box *boxes,
                      double low[3], double high[3])
 {
@@ -87,10 +87,6 @@ static int set_boxes(const ellipsoid_near_query *query, swept_box *boxes,
             ellipsoid_add(image->high, cells->repeat[n]);
             count += overlap(low, high, image);
         }
-    }
-    for (int k = query->count; k < count; k++)
-    {
-        widen(&boxes[k], low, high);
     }
     return count;
 }

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
+
+/*---------------------------------------------------------------------------*\
+Description
+    What occupancy keeps of cells that are held and let go, in fluid at rest;
+    and what a restart has of it and of a cell.
+
+\*---------------------------------------------------------------------------*/
+
+#include "layerParts.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Classes * * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- One cell that is held
+    struct holding
+    {
+        const layer& at;
+        captureCriterion criterion;
+        occupancy held;
+        List<cellState> cells;
+        DynamicList<cellEvent> events;
+
+        static constexpr scalar speed = 1e-6;
+
+        holding
+        (
+            const layer& at,
+            const cellState& cell,
+            const dictionary& notes = dictionary()
+        )
+        :
+            at(at),
+            criterion
+            (
+                entries("speed 1e-6; holdTime 0.05;"),
+                at.mesh.boundaryMesh()
+            ),
+            held
+            (
+                occupancy::setting
+                (
+                    entries("active yes;"),
+                    at.mesh.boundaryMesh()
+                ),
+                criterion,
+                tableSet
+                {
+                    at.mesh.boundaryMesh().names(), at.population,
+                    at.mesh.time().path()/"tables", false, dictionary(),
+                    []() { return ""; }, 1
+                },
+                notes
+            ),
+            cells(1, cell)
+        {
+            criterion.setInletSpeed(1);
+            held.setDomain(at.domain);
+            held.begin();
+        }
+
+        //- Caught, and pulled like this. Do all stay?
+        bool allStay(const List<heldWrench>& pulls)
+        {
+            for (cellState& cell : cells)
+            {
+                cell.fate = cellState::caught;
+            }
+            events.clear();
+            held.update(cells, events);
+            held.take(pulls, cells);
+            held.letGo(cells, true, events);
+
+            return held.held().size() == cells.size();
+        }
+
+        bool stays(const heldWrench& pull)
+        {
+            return allStay(List<heldWrench>(1, pull));
+        }
+
+        //- A pull that moves a cell at so many times the speed of a slow one
+        heldWrench pullOf(const scalar times) const
+        {
+            return {at.drag(vector(times*speed, 0, 0)), Zero};
+        }
+
+        bool staysAt(const scalar times)
+        {
+            return stays(pullOf(times));
+        }
+
+        dictionary notes()
+        {
+            dictionary notes, tables;
+            held.note(notes, tables);
+            return notes;
+        }
+    };
+}
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    static void checkPulls(const layer& at)
+    {
+        const cellState cell(at.cellAt(point(10e-6, 10e-6, 5e-6), 3));
+
+        holding pulled(at, cell);
+        holds("a weak pull leaves a held cell", pulled.staysAt(0.98));
+        holds("so does one as that, asked or not", pulled.staysAt(1.02));
+        holds("the flow is not asked for again", !pulled.held.outdated());
+        pulled.cells[0].slowTime = 1;
+        pulled.cells[0].dragImpulse = vector::one;
+        holds("a stronger one moves it", !pulled.staysAt(1.1));
+        holds("then the flow is another", pulled.held.outdated());
+        holds
+        (
+            "and it has to come to rest anew",
+            pulled.cells[0].slowTime == 0
+         && pulled.cells[0].dragImpulse == vector::zero
+         && same(pulled.cells[0].place, cell.centre())
+        );
+        holds
+        (
+            "it is told, and is where it was held",
+            pulled.events.size() == 1 && pulled.events[0].type == "released"
+         && pulled.cells[0].fate == cellState::inFlight
+         && pulled.cells[0].centre() == cell.centre()
+        );
+        holds("one that withstood a pull does so again", pulled.staysAt(1.1));
+        holds("and what exceeds that by less than moves it", pulled.staysAt(2));
+        holds("by more it does not", !pulled.staysAt(2.3));
+
+        holding afterRestart(at, cell, pulled.notes());
+        holds("a restart knows it", afterRestart.staysAt(3.2));
+
+        // Off the place where it was let go
+        pulled.cells[0].body.x[1] += 0.06e-6;
+        holds("elsewhere it has withstood nothing", !pulled.staysAt(2.3));
+    }
+
+    //- Of two cells that one is let go makes the other be asked again
+    static void checkTwo(const layer& at)
+    {
+        const cellState cell(at.cellAt(point(10e-6, 10e-6, 5e-6), 3));
+        holding two(at, cell);
+        two.cells.append(at.cellAt(point(15e-6, 10e-6, 5e-6), 4));
+        two.cells[0].body.u[0] = two.cells[1].body.omega[2] = 1;
+
+        const auto pulls = [&](const scalar first, const scalar second)
+        {
+            return List<heldWrench>({two.pullOf(first), two.pullOf(second)});
+        };
+
+        const bool both = two.allStay(pulls(0.98, 0.98));
+        holds("two that are pulled weakly stay", both);
+        holds
+        (
+            "held cells are still",
+            two.cells[0].body.u[0] == 0 && two.cells[1].body.omega[2] == 0
+        );
+        holds
+        (
+            "a flow that does the same is told from another",
+            two.held.take(pulls(0.98, 0.98), two.cells)
+         && !two.held.take(pulls(0.5, 0.98), two.cells)
+        );
+        two.allStay(pulls(0.98, 3));
+        holds
+        (
+            "one goes, the other is not yet asked again",
+            two.events.size() == 1 && two.events[0].cell.id == 4
+        );
+        two.allStay(pulls(1.02, 0));
+        holds
+        (
+            "but then it is",
+            two.events.size() == 1 && two.events[0].cell.id == 3
+        );
+    }
+
+    //- A cell on the floor that is turned upright
+    static void checkTorques(const layer& at)
+    {
+        const ellipsoid_model& model = at.population.median();
+        const cellState cell(at.cellAt(point(10e-6, 10e-6, 0.5e-6), 3));
+        const heldWrench turn
+        {
+            Zero,
+            vector(40*model.viscosity*model.rotation_resistance[0], 0, 0)
+        };
+
+        holding turned(at, cell);
+        holds("a torque moves a cell on the floor", !turned.stays(turn));
+        holding afterRestart(at, cell, turned.notes());
+        holds("having withstood that it stays", turned.stays(turn));
+        holds("so it does after a restart", afterRestart.stays(turn));
+
+        holding asked(at, cell);
+        asked.staysAt(0.98);
+        holds
+        (
+            "another torque is asked of, though the force is the same",
+            !asked.stays({asked.pullOf(0.98).force, turn.torque})
+        );
+
+        // A quarter turn about z
+        cellState other(cell);
+        other.body.q[2] = other.body.q[3] = std::sqrt(0.5);
+        holding quarter(at, other);
+        const heldWrench lab
+        {
+            at.drag(vector(9*holding::speed, 0, 0)), turn.torque
+        };
+        quarter.stays(lab);
+        const vectorField from(quarter.notes().get<vectorField>("letGoFrom"));
+        holds
+        (
+            "forces are of the lab, torques of the body",
+            from.size() == 3 && same(from[0], cell.centre())
+         && same(from[1], lab.force)
+         && mag(from[2] - vector(0, -turn.torque.x(), 0))
+          < 1e-9*mag(turn.torque)
+        );
+    }
+
+    //- What a restart has of held cells
+    static void checkNotes(const layer& at)
+    {
+        const dictionary given
+        (
+            entries
+            (
+                "held (3 5); heldForces ((1 2 3) (4 5 6));"
+                "letGo (7 9); letGoFrom ((1 2 3) (4 5 6) (7 8 9) (10 11 12)"
+                "    (13 14 15) (16 17 18));"
+                "stayed (3 4); borne ((1 2 3) (4 5 6) (7 8 9) (10 11 12));"
+            )
+        );
+        const dictionary written
+        (
+            holding(at, at.cellAt(point(10e-6, 10e-6, 5e-6)), given).notes()
+        );
+        const auto has = [&](const char* name, const bool does)
+        {
+            holds((string("a restart has ") + name).c_str(), does);
+        };
+
+        for (const char* name : {"held", "letGo", "stayed"})
+        {
+            has
+            (
+                name,
+                given.get<labelList>(name) == written.get<labelList>(name)
+            );
+        }
+        for (const char* name : {"heldForces", "letGoFrom", "borne"})
+        {
+            has
+            (
+                name,
+                given.get<vectorField>(name) == written.get<vectorField>(name)
+            );
+        }
+    }
+
+    //- What a restart has of a cell, and what an image makes of it
+    static void checkState(const layer& at)
+    {
+        List<cellState> cells(3);
+        scalar next = 1;
+        for (cellState& cell : cells)
+        {
+            cell = cellState();
+            scalar* number = reinterpret_cast<scalar*>(&cell);
+            const scalar* end = reinterpret_cast<scalar*>(&cell.id);
+            while (number != end)
+            {
+                *number++ = std::sqrt(next++);
+            }
+            for (label* of : {&cell.id, &cell.tet, &cell.fate, &cell.patch})
+            {
+                *of = label(next++);
+            }
+        }
+        OStringStream os;
+        os.precision(17);
+        writeStates(cells, os);
+        const List<cellState> read
+        (
+            readStates(entries(os.str()))
+        );
+        bool equal = read.size() == cells.size();
+        forAll(read, i)
+        {
+            equal =
+                equal && !std::memcmp(&read[i], &cells[i], sizeof(cellState));
+        }
+        holds("a restart has all of a cell, to the last bit", equal);
+
+        cellState cell(at.cellAt(point(1e-6, 2e-6, 3e-6)));
+        const point x(cell.centre());
+        cell.dragImpulse = vector(1, 2, 3);
+        cell.netImpulse = vector(4, 5, 6);
+        const scalar axes[] = {0.5e-6, 2e-6, 0.5e-6};
+        cell.body.u[0] = 7;
+        const scalar axis[] = {0.48, 0.6, 0.64};
+        ellipsoid_quaternion_from_axis(axis, 0.7, cell.body.q);
+        std::copy_n(vector(8, 9, 10).v_, 3, cell.body.omega);
+        const vector spin(rotationOf(cell.body.q) & vector(8, 9, 10));
+        const vector O(longAxis(cell.body.q));
+        cell.pass(isometry::mirror(point(0.5e-6, 0, 0), vector(1, 0, 0)), axes);
+        holds
+        (
+            "beyond a plane of symmetry forces and velocities are mirrored",
+            same(cell.dragImpulse, vector(-1, 2, 3))
+         && same(cell.netImpulse, vector(-4, 5, 6)) && cell.body.u[0] == -7
+        );
+        const vector turned(rotationOf(cell.body.q) & pointOf(cell.body.omega));
+        holds
+        (
+            "and spins as what they are",
+            mag(turned - vector(spin.x(), -spin.y(), -spin.z())) < 1e-9
+        );
+        const vector mirrored(-O.x(), O.y(), O.z());
+        holds
+        (
+            "with the axes",
+            mag(1 - mag(longAxis(cell.body.q) & mirrored)) < 1e-12
+        );
+        holds
+        (
+            "and places, with the way in one piece",
+            same(cell.centre(), point(0, 2e-6, 3e-6))
+         && same(cell.unfolded(), x)
+        );
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Shared Functions  * * * * * * * * * * * * * //
+
+void Foam::checkHeld(const layer& at)
+{
+    checkPulls(at);
+    checkTwo(at);
+    checkTorques(at);
+    checkNotes(at);
+    checkState(at);
+}

@@ -1,0 +1,466 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
+
+/*---------------------------------------------------------------------------*\
+Application
+    layerParts
+
+Description
+    Parts of the layer one by one, in a case whose mesh goes on in two
+    directions: for each that is looked at a line with its name and whether it
+    is as it should be.
+
+\*---------------------------------------------------------------------------*/
+
+#include "layerParts.H"
+#include "argList.H"
+#include "fvcFlux.H"
+#include "groupSharing.H"
+#include "mathematicalConstants.H"
+#include "Time.H"
+
+#include <cmath>
+
+using namespace Foam;
+
+// * * * * * * * * * * * * * * * Shared Functions  * * * * * * * * * * * * * //
+
+Foam::layer::layer(const fvMesh& mesh, const vector& velocity)
+:
+    mesh(mesh),
+    properties(mesh),
+    population(properties),
+    undecomposed(mesh),
+    domain(population, undecomposed, autoPtr<volVectorField>(), false)
+{
+    const volVectorField U
+    (
+        IOobject("U", mesh.time().timeName(), mesh),
+        mesh,
+        dimensionedVector("U", dimVelocity, velocity)
+    );
+    const surfaceScalarField phi("phi", fvc::flux(U));
+
+    undecomposed.gather(U, phi);
+    domain.flow.renew(undecomposed, properties.options().fluid_density);
+}
+
+
+Foam::cellState Foam::layer::cellAt(const point& x, const label id) const
+{
+    cellState cell = cellState();
+    meshFlow::probe at;
+
+    std::copy_n(x.v_, 3, cell.body.x);
+    cell.body.q[3] = 1;
+    cell.id = id;
+    cell.patch = -1;
+    cell.size = population.medianSize();
+    if (!domain.flow.find(x, at))
+    {
+        FatalErrorInFunction << x << " is not in the mesh" << exit(FatalError);
+    }
+    cell.tet = at.tet;
+
+    return cell;
+}
+
+
+Foam::vector Foam::layer::drag(const vector& velocity) const
+{
+    const ellipsoid_model& model = population.median();
+
+    return
+        model.viscosity*cmptMultiply(pointOf(model.resistance), velocity);
+}
+
+
+void Foam::holds(const char* name, const bool does, const string& found)
+{
+    Info<< (does ? "holds: " : "WRONG: ") << name << nl;
+    if (!does)
+    {
+        Info<< "    " << found.c_str() << nl;
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+// Across the edge where patches of two directions meet: the post's image, and
+// another cell
+static void checkDiagonals(const layer& at)
+{
+    const scalar period = 20e-6;
+    const domainImages& images = at.domain.flow.images();
+    const List<vector> periods(images.periods());
+
+    bool all = periods.size() == 8;
+    for (label i = -1; i < 2; ++i)
+    {
+        for (label j = -1; j < 2; ++j)
+        {
+            bool found = !i && !j;
+            for (const vector& b : periods)
+            {
+                found = found || mag(b - period*vector(i, j, 0)) < 1e-9*period;
+            }
+            all = all && found;
+        }
+    }
+    OStringStream os;
+    os << periods;
+    holds("eight periods are about one of two directions", all, os.str());
+
+    // The post's nearest edge is 1 um off in both directions
+    const auto slanted =
+        [&](const scalar x)
+        {
+            cellState cell(at.cellAt(point(x, x, 5e-6)));
+            cell.body.q[2] = -std::sin(constant::mathematical::pi/8);
+            cell.body.q[3] = std::cos(constant::mathematical::pi/8);
+            return
+                cellInjection::overlaps
+                (
+                    cell, at.population.median(), at.domain
+                );
+        };
+    holds("a wall's image across an edge is there", slanted(19.9e-6));
+    holds("and no nearer", !slanted(19.5e-6));
+
+    // 0.99 um apart, and as wide as 1 um
+    List<cellState> cells(2);
+    cells[0] = at.cellAt(point(19.5e-6, 19.5e-6, 5e-6), 0);
+    cells[1] = at.cellAt(point(0.2e-6, 0.2e-6, 5e-6), 1);
+    for (cellState& cell : cells)
+    {
+        cell.body.q[0] = cell.body.q[3] = std::sqrt(0.5);
+    }
+    groupScheduler scheduler(at.population, at.domain, nullptr, nullptr);
+    const List<cellSweep> moved(scheduler.advanceInterval(cells, 0, 1e-3));
+    const vector apart
+    (
+        moved[1].state.unfolded() + period*vector(1, 1, 0)
+      - moved[0].state.unfolded()
+    );
+    os.rewind();
+    os << moved[0].state.deepestCell << ' ' << moved[1].state.deepestCell
+        << " deep, then " << apart;
+    holds
+    (
+        "two cells push one another across an edge",
+        moved[0].state.deepestCell > 1e-9 && moved[1].state.deepestCell > 1e-9
+     && apart.x() > 0.701e-6 && apart.y() > 0.701e-6,
+        os.str()
+    );
+}
+
+
+// What a restart knows the mesh by
+static void checkMeshNotes(const polyMesh& mesh)
+{
+    pointField points(mesh.points());
+    faceList faces(mesh.faces());
+    labelList owner(mesh.faceOwner());
+    labelList neighbour(mesh.faceNeighbour());
+
+    const auto digest = [&]()
+    {
+        const polyMesh other
+        (
+            IOobject("other", mesh.time().timeName(), mesh.time()),
+            pointField(points), faceList(faces), labelList(owner),
+            labelList(neighbour), false
+        );
+        return checkpoint::notesOf(other).get<string>("digest");
+    };
+    const string before(digest());
+
+    points[0].x() -= 1e-9;
+    holds("a point that has moved makes another mesh", digest() != before);
+    points = mesh.points();
+    faces[0].flip();
+    holds("so does a face of other points", digest() != before);
+    faces = mesh.faces();
+    Swap(owner.first(), owner.last());
+    holds("so does another owner", digest() != before);
+    owner = mesh.faceOwner();
+    Swap(neighbour.first(), neighbour.last());
+    holds("so does another neighbour", digest() != before);
+    neighbour = mesh.faceNeighbour();
+    holds("the same mesh is the same", digest() == before);
+
+    bool told = true;
+    const dictionary patches(checkpoint::notesOf(mesh).subDict("patches"));
+    for (const polyPatch& pp : mesh.boundaryMesh())
+    {
+        const dictionary& patch = patches.subDict(pp.name());
+        told = told && patch.get<label>("start") == pp.start()
+         && patch.get<label>("faces") == pp.size()
+         && patch.get<word>("type") == pp.type();
+    }
+    holds("with the patches and where they begin", told);
+}
+
+
+// A cell that is carried over a cyclic patch, and one that enters on its way
+static void checkPassing(const layer& at)
+{
+    // How far each was from where it is said to have been advanced from
+    struct seen : public contactObserver
+    {
+        mutable scalar farthest = 0;
+
+        virtual void ended
+        (
+            cellSweep& cell, const ellipsoid_contact&, const point& from,
+            const scalar, const ellipsoid_model&, const cellDomain&
+        ) const
+        {
+            farthest = max(farthest, mag(cell.state.centre() - from));
+        }
+    } observer;
+
+    List<cellState> cells(2);
+    cells[0] = at.cellAt(point(19.9e-6, 10e-6, 5e-6), 0);
+    cells[0].deepest = cells[0].deepestCell = 1e-7;
+    cells[1] = at.cellAt(point(10e-6, 10e-6, 5e-6), 1);
+    cells[1].fate = cellState::waiting;
+    cells[1].time = cells[1].planned = 0.4e-3;
+    const List<cellState> before(cells);
+    groupScheduler scheduler(at.population, at.domain, nullptr, &observer);
+    const List<cellSweep> moved(scheduler.advanceInterval(cells, 0, 1e-3));
+
+    const vector way(1e-6, 2e-6, -1e-6);
+    const auto near = [&](const vector& a, const vector& b)
+    {
+        return mag(a - b) < 0.05e-6;
+    };
+    const cellState& passed = moved[0].state;
+    holds
+    (
+        "a cell passes a cyclic patch, and its way is in one piece",
+        near(passed.centre(), before[0].centre() + way - vector(20e-6, 0, 0))
+     && near(passed.unfolded(), before[0].centre() + way)
+    );
+    holds
+    (
+        "what it has swept is in one piece, too",
+        near(pointOf(moved[0].sweep.passed), vector(20e-6, 0, 0))
+     && near
+        (
+            pointOf(moved[0].sweep.high),
+            before[0].centre() + vector(1e-6, 2e-6, 0)
+        )
+    );
+    holds("where it began is seen from where it is", observer.farthest < 5e-6);
+    holds
+    (
+        "it has been as deep in others as it was",
+        passed.deepest == 1e-7 && passed.deepestCell == 1e-7
+    );
+    holds
+    (
+        "a cell that enters moves from then on",
+        near(moved[1].state.centre(), before[1].centre() + 0.6*way)
+    );
+}
+
+
+// Every step that stands is seen once, where cells push one another to others
+// that they had not been advanced with
+static void checkSeen(const layer& at)
+{
+    // A row has the cell, and how long the step is; -1 for its entry
+    struct seen : public trackSampler
+    {
+        List<scalar> times, starts;
+
+        static void add
+        (
+            const cellState& cell, const scalar time, DynamicList<row>& rows
+        )
+        {
+            row r(Zero);
+            r[0] = cell.id;
+            r[1] = time;
+            rows.append(r);
+        }
+
+        virtual void start(cellState& cell, DynamicList<row>& rows) const
+        {
+            cell.nextRow = 1;
+            cell.lastRow[7] = 2;
+            add(cell, -1, rows);
+        }
+
+        virtual void add
+        (
+            cellState& cell, const ellipsoid_step& step, const meshFlow&,
+            const label, DynamicList<row>& rows
+        ) const
+        {
+            ++cell.nextRow;
+            add(cell, step.end - step.start, rows);
+        }
+
+        virtual void finish(cellState&, DynamicList<row>&) const
+        {}
+
+        virtual void take(const UList<row>& rows)
+        {
+            for (const row& r : rows)
+            {
+                (r[1] < 0 ? starts : times)[label(r[0])] += mag(r[1]);
+            }
+        }
+    } tracks;
+
+    // The first two overlap the third, and push towards the fourth
+    List<cellState> cells(4);
+    const scalar x[] = {10e-6, 10.4e-6, 10.2e-6, 8.81e-6};
+    forAll(cells, i)
+    {
+        cells[i] = at.cellAt(point(x[i], 10e-6, 5e-6), i);
+        cells[i].fate = cellState::waiting;
+    }
+    for (label i = 0; i < 3; ++i)
+    {
+        cells[i].fate = cellState::inFlight;
+        cells[i].nextRow = 1;
+    }
+    tracks.times.setSize(4, Zero);
+    tracks.starts.setSize(4, Zero);
+    groupScheduler scheduler(at.population, at.domain, &tracks, nullptr);
+    const List<cellSweep> moved(scheduler.advanceInterval(cells, 0, 1e-3));
+
+    bool kept = true;
+    for (label i = 0; i < 4; ++i)
+    {
+        reduce(tracks.times[i], sumOp<scalar>());
+        reduce(tracks.starts[i], sumOp<scalar>());
+        kept = kept && moved[i].state.nextRow > 1
+         && mag(tracks.times[i] - 1e-3) < 1e-9;
+    }
+    OStringStream os;
+    os << tracks.times << ' ' << tracks.starts;
+    holds("of each cell all steps are seen once", kept, os.str());
+    holds
+    (
+        "and that it has entered",
+        tracks.starts[3] == 1 && tracks.starts[0] == 0
+     && moved[3].state.lastRow[7] == 2,
+        os.str()
+    );
+    holds
+    (
+        "they have met",
+        moved[3].state.deepestCell > 0 && moved[0].sweep.travel > 0.57e-6
+    );
+}
+
+
+// Ranks give one another what they have advanced
+static void checkSharing()
+{
+    const label nCells = 23;
+    const label nRanks = Pstream::nProcs();
+    List<cellSweep> cells(nCells, cellSweep());
+
+    // Cells of a group do not follow one another in the list; one is slow
+    List<labelList> groups;
+    for (label i = 0; i < nCells;)
+    {
+        labelList group(min(1 + i % 3, nCells - i));
+        for (label& member : group)
+        {
+            member = (5*i++) % nCells;
+            cells[member].state.controller.step = member == 7 ? 1e-9 : 1e-4;
+        }
+        groups.append(group);
+    }
+    const labelList ranks(groupSharing::distributed(cells, groups, 1e-2));
+
+    // Every byte tells which cell it is of, and whether that was advanced
+    const auto filled = [](const label i, const bool advanced)
+    {
+        cellSweep cell;
+        char* byte = reinterpret_cast<char*>(&cell);
+        for (std::size_t k = 0; k < sizeof(cellSweep); ++k)
+        {
+            byte[k] = char(7*k + 3*i + (advanced ? 101 : 0));
+        }
+        return cell;
+    };
+    forAll(groups, k)
+    {
+        for (const label i : groups[k])
+        {
+            cells[i] = filled(i, ranks[k] == Pstream::myProcNo());
+        }
+    }
+    groupSharing::exchange(cells, groups, ranks);
+
+    label nWrong = 0;
+    forAll(cells, i)
+    {
+        const cellSweep wanted(filled(i, true));
+        nWrong += std::memcmp(&wanted, &cells[i], sizeof(cellSweep)) != 0;
+    }
+    nWrong = returnReduce(nWrong, sumOp<label>());
+    holds
+    (
+        "every rank has what each has advanced",
+        nWrong == 0,
+        Foam::name(nWrong) + " cells have not"
+    );
+
+    labelList nOf(nRanks, 0);
+    label busy = -1;
+    forAll(groups, k)
+    {
+        ++nOf[ranks[k]];
+        busy = groups[k].found(7) ? ranks[k] : busy;
+    }
+    OStringStream os;
+    os << nOf;
+    holds
+    (
+        "a rank with a slow cell has no other group, the rest share them",
+        nRanks == 1
+     || (nOf[busy] == 1 && max(nOf) <= groups.size()/(nRanks - 1) + 1),
+        os.str()
+    );
+}
+
+
+int main(int argc, char *argv[])
+{
+    const argList args(argc, argv);
+    Time runTime(Time::controlDictName, args);
+    const fvMesh mesh
+    (
+        IOobject
+        (
+            fvMesh::defaultRegion, runTime.timeName(), runTime,
+            IOobject::MUST_READ
+        )
+    );
+    const layer still(mesh, Zero);
+    const layer stream(mesh, vector(1e-3, 2e-3, -1e-3));
+
+    checkDiagonals(still);
+    checkSeen(still);
+    checkInjections(still);
+    checkSharing();
+    if (!Pstream::parRun())
+    {
+        checkMeshNotes(mesh);
+        checkHeld(still);
+        checkCaptures(stream);
+    }
+    checkPassing(stream);
+    Info<< "End" << nl << endl;
+
+    return 0;
+}
