@@ -24,7 +24,7 @@ PICTURES = "gallery/validation"
 GROUPS = ("resistance", "free motion", "integration", "Brownian motion", "contact", "walls", "flow between mesh points",
           "flow solver", "occupied flow", "tracking on meshes", "devices", "parallel and restart")
 KINDS = {"A": "exact", "P": "published computation", "E": "experiment, or a fit to experiments",
-         "S": "another code, run side by side"}
+         "S": "another code, run side by side", "I": "the program itself, run otherwise"}
 COLUMNS = ("group", "quantity", "conditions", "source", "kind", "why", "value", "reference", "bound", "often",
            "disagrees", "test", "errorOverBound")
 KEY = ("group", "quantity", "conditions", "test")

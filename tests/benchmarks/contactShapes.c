@@ -3,7 +3,7 @@
 
 /*
     contactShapes.c - beads against the ellipsoid itself: force, torque, place
-    at rest and cost (docs/validation.md).
+    at rest and cost (docs/beadShapes.md).
 
     All sets of beads have the stiffness 4/3 E* sqrt(r_b) of the default cell.
 */

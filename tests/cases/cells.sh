@@ -247,7 +247,7 @@ same_tables()   # CASE OTHER [CONDITIONS]
         cmp "$tap_folder/$1/$tables/$file" "$tap_folder/$2/$tables/$file" || differ=$((differ + 1))
     done
     if [ $# -gt 2 ]; then
-        tap_row "parallel and restart" "tables, of five, in which a byte differs" "$3" "one run on one rank" A "none may" "$differ" 0 0.5
+        tap_row "parallel and restart" "tables, of five, in which a byte differs" "$3" "one run on one rank" I "none may" "$differ" 0 0.5
     fi
     [ "$differ" -eq 0 ]
 }

@@ -6,7 +6,7 @@
 import csv
 import math
 import os
-import re  # noqa: F401  (for what follows it)
+import re
 import sys
 
 import numpy as np
@@ -29,6 +29,13 @@ def table(name):
 def columns(rows, *names):
     """Some columns as an array, one row each."""
     return np.array([[row[name] for name in names] for row in rows])
+
+
+def vectors(name):
+    """Values of a vector field, a mesh cell each."""
+    with open(name, encoding="ascii") as file:
+        rows = re.search(r"internalField.*?\n\d+\n\((.*?)\n\)", file.read(), re.S).group(1)
+    return np.array([line.strip("()").split() for line in rows.split("\n") if line], float)
 
 
 def expect(holds, what):

@@ -3,7 +3,7 @@
 
 /*
     test_beads.c - the envelope of the bead layouts against the figures that
-    docs/validation.md gives for them, and what is refused.
+    docs/beadShapes.md gives for them, and what is refused.
 */
 #include "coreTest.h"
 

@@ -80,6 +80,14 @@ static void check_sphere(ellipsoid_motion motion, int cells, int followed)
         (int)(9 * 8 / (0.2 * 0.2)); /* 4 L^2/D is 8 L^2/way^2 dt */
     ellipsoid_options o = over_wall(motion, 1, 3.4, scale, dt);
     double *height = calloc((size_t)cells, sizeof(*height));
+    static const test_row row = {
+        "Brownian motion",
+        "error of the mean height over a wall, over that allowed",
+        "heavy sphere, soft wall, both motions",
+        "Boltzmann",
+        "A",
+        "5 standard errors, and 2.4 nm by the interval",
+        0};
     double distance, sigma, apart = 0;
     long tried = 0, touching = 0;
     test_sample sample = {0};
@@ -124,7 +132,7 @@ static void check_sphere(ellipsoid_motion motion, int cells, int followed)
     free(height);
     assert_true(touching > cells / 5); /* contact counts */
     assert_true(distance < 2.225);
-    assert_near(sample.mean, p.mean, 5 * sigma + 2.4e-9);
+    assert_row(&row, (sample.mean - p.mean) / (5 * sigma + 2.4e-9), 0, 1);
     assert_true(apart < 2e-3 * scale);
 }
 
@@ -162,6 +170,14 @@ static void check_hard_wall(ellipsoid_motion motion, double part,
     const double theory = scale - 0.582597 * way + way * way / (8 * scale);
     const double sigma = scale * sqrt(8 / (double)count) / part;
     ellipsoid_options o = over_wall(motion, 1, 1e6, scale, interval_of(way));
+    static const test_row row = {
+        "Brownian motion",
+        "mean height over a hard wall less Lindley's, over kT/weight",
+        "sphere, the same noise, intervals of three lengths",
+        "Lindley's recursion",
+        "A",
+        "depth of contact, and the turn of the force in an interval",
+        0};
     double height = 0, sum = 0, beside = 0, expected = 0;
     reference r = reference_of(o, 32, 1, radius);
     test_walk w;
@@ -192,7 +208,7 @@ static void check_hard_wall(ellipsoid_motion motion, double part,
                   sigma / scale,
                   (double)w.statistics.accepted / (double)followed,
                   (double)w.statistics.rejected / (double)followed);
-    assert_near(sum / scale, beside / scale, 0.005);
+    assert_row(&row, (sum - beside) / scale, 0, 0.005);
     /* measured: the third order is -0.01 (sigma/L)^3 L */
     assert_near(expected, theory, 5 * sigma + 0.02 * way * part * part);
 }
@@ -372,6 +388,22 @@ static void check_cell(ellipsoid_motion motion, double dt, int cells)
     ellipsoid_options o = over_wall(motion, 32, 4.6, 0.3 * micron, dt);
     const long half = lround(12 / dt);
     double *height = calloc((size_t)cells, sizeof(*height));
+    static const test_row heights = {
+        "Brownian motion",
+        "mean height over a wall, in standard errors",
+        "E. coli of 32 beads, soft wall",
+        "Boltzmann",
+        "A",
+        "5 sigma",
+        0};
+    static const test_row turned = {
+        "Brownian motion",
+        "mean square of the axis along the normal, in standard errors",
+        "E. coli of 32 beads, soft wall",
+        "Boltzmann",
+        "A",
+        "5 sigma",
+        0};
     double distance;
     long tried = 0;
     test_sample mean = {0}, upright = {0};
@@ -416,8 +448,9 @@ static void check_cell(ellipsoid_motion motion, double dt, int cells)
                   distance, (double)tried / cells / (double)(2 * half));
     free(height);
     assert_true(distance < 2.225);
-    assert_near(mean.mean, p.mean, 5 * test_sample_sigma(&mean));
-    assert_near(upright.mean, p.upright, 5 * test_sample_sigma(&upright));
+    assert_row(&heights, (mean.mean - p.mean) / test_sample_sigma(&mean), 0, 5);
+    assert_row(&turned,
+               (upright.mean - p.upright) / test_sample_sigma(&upright), 0, 5);
 }
 
 static void test_cell_profile(void **unused)

@@ -238,7 +238,7 @@ static void test_slit_steps(void **unused)
         "error of the quaternion after 60 ms in a slit",
         "20 cells, 4 mm/s in 10 um, tolerance 1e-6",
         "the same at 1e-9",
-        "A",
+        "I",
         "20 tolerances, in proportion",
         0};
     static const test_row coarse = {
@@ -246,7 +246,7 @@ static void test_slit_steps(void **unused)
         "error of the quaternion after 60 ms in a slit",
         "20 cells, 4 mm/s in 10 um, tolerance 1e-5",
         "the same at 1e-9",
-        "A",
+        "I",
         "20 tolerances, in proportion",
         0};
     ellipsoid_options o = test_free_cell();
