@@ -250,7 +250,9 @@ def draw_device(case, begin, end, frames):
     caption = f"""All cells of the run, true ellipsoids seen from above,
         {factor if factor > 1 else 1 / factor:.3g} times {"slowed down" if factor > 1 else "as fast"}.
         The speed is that of the flow as it was at the start."""
-    return film_of(case, None, window, times, actors, " ".join(caption.split()))
+    film = film_of(case, None, window, times, actors, " ".join(caption.split()))
+    film.name = "movieOfDevice"   # beside that of the sieve
+    return film
 
 
 def draw(case, sieve=None, device=False, begin=None, end=None, frames=None):

@@ -111,6 +111,7 @@ namespace Foam
     static bool hasAll
     (
         const dictionary& dict,
+        const fileName& file,
         const columnTable& columns,
         const wordList& names,
         const bool required
@@ -124,8 +125,8 @@ namespace Foam
         if (n != names.size() && (n || required))
         {
             FatalIOErrorInFunction(streamOf(dict, "file"))
-                << "the head of the file must name all of the columns "
-                << flatOutput(names) << exit(FatalIOError);
+                << file.c_str() << ", line 1: the head must name all of the "
+                << "columns " << flatOutput(names) << exit(FatalIOError);
         }
 
         return n;
@@ -183,7 +184,7 @@ namespace Foam
         all.append("density");
         const columnTable columns(columnsOf(dict, file, all));
 
-        hasAll(dict, columns, place, true);
+        hasAll(dict, file, columns, place, true);
         pointField positions(columns["x1"].size());
         forAll(positions, i)
         {
@@ -192,7 +193,11 @@ namespace Foam
         }
         setExactly(dict, "positions", positions);
 
-        if (!dict.found("orientation") && hasAll(dict, columns, turn, false))
+        if
+        (
+            !dict.found("orientation")
+         && hasAll(dict, file, columns, turn, false)
+        )
         {
             List<FixedList<scalar, 4>> orientations(positions.size());
             forAll(orientations, i)
@@ -204,7 +209,7 @@ namespace Foam
             }
             setExactly(dict, "orientations", orientations);
         }
-        if (hasAll(dict, columns, size, false))
+        if (hasAll(dict, file, columns, size, false))
         {
             List<FixedList<scalar, 2>> sizes(positions.size());
             forAll(sizes, i)
