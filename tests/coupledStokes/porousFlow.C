@@ -20,7 +20,7 @@ int main(int argc, char *argv[])
 {
     argList::addOption("resistance", "number", "k [1/s]");
     argList::addOption("maxIterations", "count", "Give up after so many");
-    argList::addOption("again", "factor", "Begin again from the flow times this");
+    argList::addOption("again", "factor", "Begin again from its multiple");
     argList::addBoolOption("simplec", "By SIMPLEC");
 
     #include "setRootCase.H"
