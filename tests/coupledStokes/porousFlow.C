@@ -20,7 +20,7 @@ int main(int argc, char *argv[])
 {
     argList::addOption("resistance", "number", "k [1/s]");
     argList::addOption("maxIterations", "count", "Give up after so many");
-    argList::addOption("again", "factor", "Begin again from the flow times this");
+    argList::addOption("again", "factor", "Begin again from its multiple");
     argList::addBoolOption("simplec", "By SIMPLEC");
 
     #include "setRootCase.H"
@@ -68,8 +68,19 @@ int main(int argc, char *argv[])
 
     Info<< "steady: " << flow.isSteady() << endl;
     const coupledStokes::outcome end = flow.solve();
+    const vectorField solvedU(U.primitiveField());
+    const scalarField solvedP(p.primitiveField());
+    const scalarField solvedPhi(phi.primitiveField());
     Info<< "outcome: " << end << nl << flow.shortcomings().c_str()
-        << "steady: " << flow.isSteady() << endl;
+        << "steady: " << flow.isSteady() << nl
+        << "left alone: "
+        << returnReduce
+           (
+               solvedU == U.primitiveField() && solvedP == p.primitiveField()
+            && solvedPhi == phi.primitiveField(),
+               andOp<bool>()
+           )
+        << endl;
 
     const label outlet = mesh.boundaryMesh().findPatchID("outlet");
     Info<< "outflow: " << gSum(phi.boundaryField()[outlet]) << nl
