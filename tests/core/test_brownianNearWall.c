@@ -237,6 +237,41 @@ static void test_past_rims(void **unused)
     wall_mesh_free(&block);
 }
 
+/* Nor is an interval shorter where the tip that is next to a floor is past its
+   rim than where the floor goes on: there the tip moves more, with nothing
+   across the gap. */
+static void test_interval_past_a_rim(void **unused)
+{
+    static const double low[3] = {-1e-4, -1e-4, -1e-4};
+    const ellipsoid_options o = near_wall(ELLIPSOID_MOTION_INERTIALESS, 1);
+    const double axis[3] = {cos(0.3), 0, -sin(0.3)};
+    double end[2];
+
+    (void)unused;
+    for (int n = 0; n < 2; n++)
+    {
+        const double high[3] = {n ? 1e-4 : 0, 1e-4, 0};
+        test_walk w = walk(&o, 1, 1, 0);
+        ellipsoid_noise noise;
+        wall_mesh block;
+
+        wall_mesh_init(&block);
+        wall_mesh_box(&block, low, high, 0, 0, 0);
+        wall_mesh_finish(&block);
+        w.around.walls_context = &block;
+        ellipsoid_quaternion_from_axis(axis, 0, w.state.q);
+        ellipsoid_set(w.state.x, -0.5e-6, 0, 0.82e-6);
+        assert_ok(ellipsoid_noise_at(&w.model, &w.around, 0, &noise));
+        assert_ok(ellipsoid_wall_noise_begin(&w.model, &w.around, &w.state,
+                                             &cache, 0, &noise));
+        end[n] = noise.end;
+        wall_mesh_free(&block);
+    }
+    print_message("# interval past a rim %.2e s, beside a wall %.2e s\n",
+                  end[0], end[1]);
+    assert_true(end[0] > end[1]);
+}
+
 static int not_asked(void *context, double t, const double centre[3],
                      double reach, ellipsoid_facet_list *list)
 {
@@ -348,8 +383,11 @@ static void test_profile(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_interval),  cmocka_unit_test(test_numbers),
-        cmocka_unit_test(test_past_rims), cmocka_unit_test(test_no_place),
+        cmocka_unit_test(test_interval),
+        cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_past_rims),
+        cmocka_unit_test(test_interval_past_a_rim),
+        cmocka_unit_test(test_no_place),
         cmocka_unit_test(test_profile),
     };
 

@@ -70,7 +70,7 @@ static int factorise(double matrix[6][6])
 }
 
 /* Of an interval in which the nearest point moves by `part` of the gap along the
-   normal, rms: (part gap)^2/(2 kT o.M o), o.M o the square of 1/L o. */
+   normal, rms; past a wall's rim of that at which the table is read: (part gap)^2/(2 kT o.M o), o.M o the square of 1/L o. */
 static double longest_interval(const ellipsoid_model *model,
                                const ellipsoid_noise *noise,
                                const ellipsoid_plane *plane)
@@ -93,7 +93,7 @@ static double longest_interval(const ellipsoid_model *model,
         out[i] /= noise->factor[i][i];
         square += out[i] * out[i];
     }
-    const double moved = part * plane->gap[ELLIPSOID_PLANE_NEAR];
+    const double moved = part * plane->gap[ELLIPSOID_PLANE_FAR];
 
     return moved * moved
          / (2 * ELLIPSOID_BOLTZMANN * model->options.temperature * square);
