@@ -12,16 +12,11 @@ Description
 
 \*---------------------------------------------------------------------------*/
 
+#include "fvCFD.H"
 #include "layerParts.H"
-#include "argList.H"
-#include "fvcFlux.H"
 #include "groupSharing.H"
-#include "mathematicalConstants.H"
-#include "Time.H"
 
 #include <cmath>
-
-using namespace Foam;
 
 // * * * * * * * * * * * * * * * Shared Functions  * * * * * * * * * * * * * //
 
@@ -436,16 +431,10 @@ static void checkSharing()
 
 int main(int argc, char *argv[])
 {
-    const argList args(argc, argv);
-    Time runTime(Time::controlDictName, args);
-    const fvMesh mesh
-    (
-        IOobject
-        (
-            fvMesh::defaultRegion, runTime.timeName(), runTime,
-            IOobject::MUST_READ
-        )
-    );
+    #include "setRootCase.H"
+    #include "createTime.H"
+    #include "createMesh.H"
+
     const layer still(mesh, Zero);
     const layer stream(mesh, vector(1e-3, 2e-3, -1e-3));
 

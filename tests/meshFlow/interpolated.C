@@ -12,16 +12,11 @@ Description
 
 \*---------------------------------------------------------------------------*/
 
-#include "argList.H"
+#include "fvCFD.H"
 #include "flowOfField.H"
 #include "interpolation.H"
 #include "Random.H"
 #include "StringStream.H"
-#include "surfaceFields.H"
-#include "Time.H"
-#include "volFields.H"
-
-using namespace Foam;
 
 static void print(const char* what, const volVectorField& U)
 {
@@ -61,16 +56,10 @@ static void print(const char* what, const volVectorField& U)
 
 int main(int argc, char *argv[])
 {
-    const argList args(argc, argv);
-    Time runTime(Time::controlDictName, args);
-    const fvMesh mesh
-    (
-        IOobject
-        (
-            fvMesh::defaultRegion, runTime.timeName(), runTime,
-            IOobject::MUST_READ
-        )
-    );
+    #include "setRootCase.H"
+    #include "createTime.H"
+    #include "createMesh.H"
+
     const auto io =
         [&](const word& name)
         {

@@ -70,7 +70,8 @@ static int factorise(double matrix[6][6])
 }
 
 /* Of an interval in which the nearest point moves by `part` of the gap along the
-   normal, rms; past a wall's rim of that at which the table is read: (part gap)^2/(2 kT o.M o), o.M o the square of 1/L o. */
+   normal, rms: (part gap)^2/(2 kT o.M o), o.M o the square of 1/L o; the gap is
+   that at which the table is read, which is wider past a wall's rim. */
 static double longest_interval(const ellipsoid_model *model,
                                const ellipsoid_noise *noise,
                                const ellipsoid_plane *plane)

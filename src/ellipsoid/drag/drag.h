@@ -138,7 +138,7 @@ void ellipsoid_plane_effect_set(const ellipsoid_plane_table *own,
     this velocity, u and omega, that a free one outruns by `rates`, in a flow of
     which (z - z of the centre) shear [1/s] is a part; all in the body frame, FAR
     and NEAR apart. change, if not NULL: its derivatives by the components of the
-    normal and their gaps.
+    normal, and of each action by its gap.
 */
 void ellipsoid_plane_action(const ellipsoid_plane_effect *effect,
                             const double rates[6], const double velocity[6],

@@ -85,7 +85,7 @@ void ellipsoid_wall_begin(view *s, const ellipsoid_facet *facet, double height,
     const double reach = ELLIPSOID_WALL_BESIDE * s->model->options.wall_range;
     const double longest = fmax(a[0], fmax(a[1], a[2]));
     kernel *far = &w->seen[FAR], *near = &w->seen[NEAR];
-    double n[3], stretched[3], slope;
+    double n[3], stretched[3];
 
     memset(w, 0, sizeof(*w));
     w->facet = facet;
@@ -96,8 +96,8 @@ void ellipsoid_wall_begin(view *s, const ellipsoid_facet *facet, double height,
         stretched[i] = a[i] * n[i];
     }
     w->support = ellipsoid_length(stretched);
-    w->gap =
-        cut_off(height - w->support, s->model->options.lubrication_gap, &slope);
+    w->gap = cut_off(height - w->support, s->model->options.lubrication_gap,
+                     &w->gap_slope);
     far->scale = 1 / height;
     near->scale = sqrt(0.5 * w->support / w->gap);
     for (int i = 0; i < 3; i++)
@@ -309,8 +309,7 @@ static double far_gap(double part, double gap, double height, double slope[3])
 /* Slopes of a plane by component n of the pose; fade: the factor of its weights
    and its derivatives by height and support; far_slope: those of far_gap(). */
 static void set_slopes(view *s, const wall *w, int n, const double fade[3],
-                       double gap_slope, const double far_slope[3],
-                       ellipsoid_plane *plane)
+                       const double far_slope[3], ellipsoid_plane *plane)
 {
     const double *a = s->model->options.semi_axes;
     const double *axis = w->seen[FAR].normal, *out = w->seen[NEAR].normal;
@@ -325,7 +324,7 @@ static void set_slopes(view *s, const wall *w, int n, const double fade[3],
             n < 3 ? 0 : ellipsoid_dot(s->turned[n - 3][i], w->facet->normal);
         p_n += a[i] * out[i] * turn[i];
     }
-    plane->gap_slope[NEAR][n] = gap_slope * (h_n - p_n);
+    plane->gap_slope[NEAR][n] = w->gap_slope * (h_n - p_n);
     scale[FAR] = -h_n / h;
     scale[NEAR] = 0.5 * (p_n / p - plane->gap_slope[NEAR][n] / w->gap);
     for (int i = 0; i < 3; i++)
@@ -354,17 +353,15 @@ int ellipsoid_wall_plane(view *s, const wall *w, int slopes,
 {
     const double range = s->model->options.wall_range, h = w->height;
     const double p = w->support;
-    double far_slope, beside_slope, gap_slope, of_far_gap[3];
+    double far_slope, beside_slope, of_far_gap[3];
     const double far = 1 - smooth_step(2 * h / range - 1, &far_slope);
     const double cut = smooth_step(h / p, &beside_slope);
     const double fade[3] = {
         far * cut, far * beside_slope / p - 2 * far_slope / range * cut,
         -far * beside_slope * h / (p * p)};
 
-    plane->gap[NEAR] =
-        cut_off(h - p, s->model->options.lubrication_gap, &gap_slope);
-    plane->gap[FAR] =
-        far_gap(part_of(w, NEAR), plane->gap[NEAR], h, of_far_gap);
+    plane->gap[NEAR] = w->gap;
+    plane->gap[FAR] = far_gap(part_of(w, NEAR), w->gap, h, of_far_gap);
     ellipsoid_copy(w->facet->normal, plane->wall);
     for (int m = 0; m < 2; m++)
     {
@@ -374,7 +371,7 @@ int ellipsoid_wall_plane(view *s, const wall *w, int slopes,
     }
     for (int n = 0; slopes && n < POSE; n++)
     {
-        set_slopes(s, w, n, fade, gap_slope, of_far_gap, plane);
+        set_slopes(s, w, n, fade, of_far_gap, plane);
     }
     if (plane->weight[FAR] == 0 && plane->weight[NEAR] == 0)
     {

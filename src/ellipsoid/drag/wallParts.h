@@ -36,7 +36,8 @@ typedef struct ellipsoid_wall_rim
 typedef struct ellipsoid_wall
 {
     const ellipsoid_facet *facet; /* the first */
-    double height, support, gap;
+    double height, support;
+    double gap, gap_slope; /* cut off; its derivative by that which is not */
     ellipsoid_wall_kernel seen[2];
     ellipsoid_wall_rim sum[2];
 } ellipsoid_wall;
