@@ -216,6 +216,65 @@ static void test_wall_that_ends(void **unused)
 }
 
 /*
+    A sphere by a round post or in a tunnel: squeezing is that of a sphere of
+    radii R1 = 1/(1/a +- 1/R) and a at a plane, and alike however finely the wall
+    is cut, above a facet and above an edge.
+*/
+static void test_round_wall(void **unused)
+{
+    static const test_row row = {
+        "walls",
+        "squeezing of a sphere at a round wall over that known",
+        "posts and tunnels of 4 and 8 radii in 96 and 192 facets, gap 0.06 "
+        "radii",
+        "Reynolds' equation, S^3/(R1 + R2) of the reduced radii",
+        "A",
+        "15 %: terms of lower order are left out there, and here it is a sum "
+        "of "
+        "planes",
+        0};
+    const double radius = 1e-6, gap = 0.06e-6;
+    const double x[3] = {0, 0, radius + gap}, q[4] = {0, 0, 0, 1};
+    ellipsoid_options o = near_walls();
+    ellipsoid_model model;
+    double flat[6][6], free;
+    wall_mesh floor;
+
+    (void)unused;
+    ellipsoid_set(o.semi_axes, radius, radius, radius);
+    model = test_model(&o);
+    free = 1e-9 * 6 * test_pi * model.viscosity * radius;
+    wall_mesh_init(&floor);
+    add_floor(&floor, 0, 1, 1);
+    wall_mesh_finish(&floor);
+    ellipsoid_facet_cache_clear(&cache);
+    lab_resistance(&model, &floor, x, q, flat);
+    wall_mesh_free(&floor);
+    for (int n = 0; n < 16; n++)
+    {
+        arc shape = {n % 2 ? 1 : -1, (n & 2 ? 4 : 8) * radius};
+        const int facets = (n & 4 ? 96 : 192) + (n & 8 ? 1 : 0);
+        const double bent =
+            1 / (1 / radius - shape.sign / shape.radius) / radius;
+        const double known = 2 * pow(bent, 1.5) / (bent + 1);
+        double found[6][6], ratio;
+        wall_mesh mesh;
+
+        wall_mesh_init(&mesh);
+        wall_mesh_grid(&mesh, facets, 3, bend, &shape, 2, 0);
+        wall_mesh_finish(&mesh);
+        ellipsoid_facet_cache_clear(&cache);
+        lab_resistance(&model, &mesh, x, q, found);
+        ratio = (found[2][2] - free) / (flat[2][2] - free) / known;
+        print_message("%s of %g in %d: %.3f, %.3f of it\n",
+                      n % 2 ? "tunnel" : "post", shape.radius, facets,
+                      ratio * known, ratio);
+        assert_row(&row, ratio, 1, 0.15);
+        wall_mesh_free(&mesh);
+    }
+}
+
+/*
     A sphere held in the flow of a stagnation point, (x z, y z, -z^2): the force
     over 6 pi mu a h^2 is known (Goren & O'Neill, Chem. Eng. Sci. 26, 325 (1971):
     3.23 at contact; here by tests/benchmarks/resolvedCell) and stays finite,
@@ -369,6 +428,7 @@ int main(void)
         cmocka_unit_test(test_jacobian),
         cmocka_unit_test(test_cuts),
         cmocka_unit_test(test_wall_that_ends),
+        cmocka_unit_test(test_round_wall),
         cmocka_unit_test(test_held_at_a_stagnation_point),
         cmocka_unit_test(test_in_line_with_an_edge),
         cmocka_unit_test(test_slit),

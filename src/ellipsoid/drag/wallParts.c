@@ -14,14 +14,6 @@
     Phi over the angle along its rim, over 2 pi, and so adds up over facets, is
     the same for any triangulation, and continuous. At r = c, beyond which no
     wall is looked for, Phi = (r^2/(1 + r^2) - k r^2)/N is flat and 1.
-    The functions of the table take the wall to be there across the gap: where
-    only a part s of that is, they are those of a gap of 1/(s/g + (1 - s)/(g +
-    h)), h the height of the centre. (At g itself their matrix is not positive
-    without that of squeezing.)
-    Where a wall ends the pressure of squeezing does, too, and so it counts by the
-    square of its part: over a half-plane Reynolds' equation gives 0.29, 0.53 and
-    0.84 of the force where the part is 0.5, 0.72 and 0.92, and its square 0.25,
-    0.52 and 0.84.
     Edges between facets of one plane are left out: the angle alone gives 1 if
     the foot is on the wall, else 0, and edges that are no seams the integral of
     Phi - 1.
@@ -255,20 +247,6 @@ void ellipsoid_wall_add(view *s, const ellipsoid_facet *facet, wall *w)
     }
 }
 
-static double part_of(const wall *w, int m)
-{
-    return w->sum[m].inside + w->sum[m].value;
-}
-
-/* What a wall counts by, of the part that it covers, and its derivative by that. */
-static double counted(const wall *w, int m, double *slope)
-{
-    const double part = part_of(w, m);
-
-    *slope = m == NEAR ? 2 * part : 1;
-    return m == NEAR ? part * part : part;
-}
-
 /* How a weight's sum changes with component n of the pose: r = scale (shrink v +
    shift). */
 static double sum_slope(view *s, const kernel *k, const rim *sum, int n,
@@ -293,30 +271,14 @@ static double sum_slope(view *s, const kernel *k, const rim *sum, int n,
     return by;
 }
 
-/* The gap of the table's functions, and its derivatives by part, gap and height. */
-static double far_gap(double part, double gap, double height, double slope[3])
-{
-    const double near = 1 / gap, away = 1 / (gap + height);
-    const double whole = 1 / (part * near + (1 - part) * away);
-    const double square = whole * whole;
-
-    slope[2] = square * (1 - part) * away * away;
-    slope[1] = square * part * near * near + slope[2];
-    slope[0] = square * (away - near);
-    return whole;
-}
-
-/* Slopes of a plane by component n of the pose; fade: the factor of its weights
-   and its derivatives by height and support; far_slope: those of far_gap(). */
-static void set_slopes(view *s, const wall *w, int n, const double fade[3],
-                       const double far_slope[3], ellipsoid_plane *plane)
+/* How gap, parts and fade change with component n of the pose. */
+static void set_slopes(view *s, wall *w, int n, const double fade[2])
 {
     const double *a = s->model->options.semi_axes;
     const double *axis = w->seen[FAR].normal, *out = w->seen[NEAR].normal;
     const double h = w->height, p = w->support;
     const double h_n = n < 3 ? w->facet->normal[n] : 0;
-    double *turn = plane->normal_slope[n], p_n = 0, shift[2][3], scale[2];
-    double part_n[2];
+    double *turn = w->normal_by[n], p_n = 0, shift[2][3], scale[2];
 
     for (int i = 0; i < 3; i++)
     {
@@ -324,9 +286,9 @@ static void set_slopes(view *s, const wall *w, int n, const double fade[3],
             n < 3 ? 0 : ellipsoid_dot(s->turned[n - 3][i], w->facet->normal);
         p_n += a[i] * out[i] * turn[i];
     }
-    plane->gap_slope[NEAR][n] = w->gap_slope * (h_n - p_n);
+    w->gap_by[n] = w->gap_slope * (h_n - p_n);
     scale[FAR] = -h_n / h;
-    scale[NEAR] = 0.5 * (p_n / p - plane->gap_slope[NEAR][n] / w->gap);
+    scale[NEAR] = 0.5 * (p_n / p - w->gap_by[n] / w->gap);
     for (int i = 0; i < 3; i++)
     {
         shift[FAR][i] = h_n * axis[i] + h * turn[i];
@@ -335,49 +297,30 @@ static void set_slopes(view *s, const wall *w, int n, const double fade[3],
     }
     for (int m = 0; m < 2; m++)
     {
-        double slope;
-        const double count = counted(w, m, &slope);
-
-        part_n[m] =
+        w->part_by[m][n] =
             sum_slope(s, &w->seen[m], &w->sum[m], n, scale[m], shift[m]);
-        plane->weight_slope[m][n] = (fade[1] * h_n + fade[2] * p_n) * count
-                                  + fade[0] * (slope * part_n[m]);
     }
-    plane->gap_slope[FAR][n] = far_slope[0] * part_n[NEAR]
-                             + far_slope[1] * plane->gap_slope[NEAR][n]
-                             + far_slope[2] * h_n;
+    w->fade_by[n] = fade[0] * h_n + fade[1] * p_n;
 }
 
-int ellipsoid_wall_plane(view *s, const wall *w, int slopes,
-                         ellipsoid_plane *plane)
+void ellipsoid_wall_end(view *s, int slopes, wall *w)
 {
     const double range = s->model->options.wall_range, h = w->height;
     const double p = w->support;
-    double far_slope, beside_slope, of_far_gap[3];
+    double far_slope, beside_slope;
     const double far = 1 - smooth_step(2 * h / range - 1, &far_slope);
     const double cut = smooth_step(h / p, &beside_slope);
-    const double fade[3] = {
-        far * cut, far * beside_slope / p - 2 * far_slope / range * cut,
-        -far * beside_slope * h / (p * p)};
+    const double fade[2] = {far * beside_slope / p
+                                - 2 * far_slope / range * cut,
+                            -far * beside_slope * h / (p * p)};
 
-    plane->gap[NEAR] = w->gap;
-    plane->gap[FAR] = far_gap(part_of(w, NEAR), w->gap, h, of_far_gap);
-    ellipsoid_copy(w->facet->normal, plane->wall);
+    w->fade = far * cut;
     for (int m = 0; m < 2; m++)
     {
-        double slope;
-
-        plane->weight[m] = fade[0] * counted(w, m, &slope);
+        w->part[m] = w->sum[m].inside + w->sum[m].value;
     }
     for (int n = 0; slopes && n < POSE; n++)
     {
-        set_slopes(s, w, n, fade, of_far_gap, plane);
+        set_slopes(s, w, n, fade);
     }
-    if (plane->weight[FAR] == 0 && plane->weight[NEAR] == 0)
-    {
-        return 0;
-    }
-    ellipsoid_plane_effect_set(&s->model->plane, w->seen[FAR].normal,
-                               plane->gap, slopes, &plane->effect);
-    return 1;
 }

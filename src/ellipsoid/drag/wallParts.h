@@ -40,6 +40,11 @@ typedef struct ellipsoid_wall
     double gap, gap_slope; /* cut off; its derivative by that which is not */
     ellipsoid_wall_kernel seen[2];
     ellipsoid_wall_rim sum[2];
+    /* once it has all its facets: the part of the plane that it covers, by each
+       kernel, and how it fades; with slopes by the pose */
+    double part[2], fade;
+    double normal_by[ELLIPSOID_POSE_SIZE][3], gap_by[ELLIPSOID_POSE_SIZE];
+    double part_by[2][ELLIPSOID_POSE_SIZE], fade_by[ELLIPSOID_POSE_SIZE];
 } ellipsoid_wall;
 
 typedef struct ellipsoid_wall_view
@@ -67,9 +72,9 @@ void ellipsoid_wall_begin(ellipsoid_wall_view *view,
 void ellipsoid_wall_add(ellipsoid_wall_view *view, const ellipsoid_facet *facet,
                         ellipsoid_wall *wall);
 
-/* The plane of a wall; 0 if it does not count. It fades where it goes out of
-   range, and where it cuts the body, which then is beside its wall. */
-int ellipsoid_wall_plane(ellipsoid_wall_view *view, const ellipsoid_wall *wall,
-                         int slopes, ellipsoid_plane *plane);
+/* When it has all facets: parts, and fade where it goes out of range, and where
+   its plane cuts the body, which then is beside it. */
+void ellipsoid_wall_end(ellipsoid_wall_view *view, int slopes,
+                        ellipsoid_wall *wall);
 
 #endif
