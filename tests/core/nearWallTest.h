@@ -75,4 +75,21 @@ static inline void add_floor(wall_mesh *mesh, double height, int nu, int nv)
     wall_mesh_plane(mesh, corner, along, across, nu, nv, 2, 0);
 }
 
+/* A tunnel (sign 1) or a post (-1) along x2, touched from within or outside by
+   x3 = 0. */
+typedef struct arc
+{
+    double sign, radius;
+} arc;
+
+static inline void bend(const double *uv, double point[3], void *context)
+{
+    const arc *a = context;
+    const double angle = 2 * test_pi * (uv[0] - 0.5);
+    const double across = fabs(sin(angle)) < 1e-9 ? 0 : sin(angle);
+
+    ellipsoid_set(point, a->radius * across, 6e-5 * (uv[1] - 0.5),
+                  a->sign * a->radius * (1 - cos(angle)));
+}
+
 #endif

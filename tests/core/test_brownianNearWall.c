@@ -6,6 +6,7 @@
     wall: drift, diffusion and equilibrium.
 */
 #include "brownianProfile.h"
+#include "nearWallTest.h"
 
 static ellipsoid_options near_wall(ellipsoid_motion motion, double interval)
 {
@@ -205,14 +206,27 @@ static void test_past_rims(void **unused)
 {
     static const double ratio[] = {0.34, 0.5, 1, 4, 7};
     const double low[3] = {-1e-4, -1e-4, -1e-4}, high[3] = {0, 1e-4, 0};
+    static const int facets[] = {6, 24, 24};
     uint64_t seed = 31;
-    wall_mesh block;
+    wall_mesh walls[4];
 
     (void)unused;
-    wall_mesh_init(&block);
-    wall_mesh_box(&block, low, high, 0, 0, 0);
-    wall_mesh_finish(&block);
-    for (int n = 0; n < 20000; n++)
+    for (int k = 0; k < 4; k++)
+    {
+        arc shape = {k < 3 ? -1 : 1, k < 3 ? 2e-6 : 8e-6};
+
+        wall_mesh_init(&walls[k]);
+        if (k == 0)
+        {
+            wall_mesh_box(&walls[k], low, high, 0, 0, 0);
+        }
+        else
+        {
+            wall_mesh_grid(&walls[k], facets[k - 1], 3, bend, &shape, 2, 0);
+        }
+        wall_mesh_finish(&walls[k]);
+    }
+    for (int n = 0; n < 40000; n++)
     {
         ellipsoid_options o = near_wall(ELLIPSOID_MOTION_INERTIALESS, 1e-3);
         double r[3][3], square = 0;
@@ -221,7 +235,7 @@ static void test_past_rims(void **unused)
 
         ellipsoid_set(o.semi_axes, 0.5e-6, 0.5e-6 * ratio[n % 5], 0.5e-6);
         w = walk(&o, 1, (uint32_t)n, 0);
-        w.around.walls_context = &block;
+        w.around.walls_context = &walls[n / 5 % 4];
         test_orientation(&seed, w.state.q);
         ellipsoid_rotation(w.state.q, r);
         for (int i = 0; i < 3; i++)
@@ -234,7 +248,10 @@ static void test_past_rims(void **unused)
         assert_ok(ellipsoid_wall_noise_begin(&w.model, &w.around, &w.state,
                                              &cache, 0, &noise));
     }
-    wall_mesh_free(&block);
+    for (int k = 0; k < 4; k++)
+    {
+        wall_mesh_free(&walls[k]);
+    }
 }
 
 /* Nor is an interval shorter where the tip that is next to a floor is past its

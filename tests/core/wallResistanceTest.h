@@ -71,23 +71,6 @@ static inline double difference(double a[6][6], double b[6][6])
     return worst;
 }
 
-/* A tunnel (sign 1) or a post (-1) along x2, touched from within or outside by
-   x3 = 0. */
-typedef struct arc
-{
-    double sign, radius;
-} arc;
-
-static inline void bend(const double *uv, double point[3], void *context)
-{
-    const arc *a = context;
-    const double angle = 2 * test_pi * (uv[0] - 0.5);
-    const double across = fabs(sin(angle)) < 1e-9 ? 0 : sin(angle);
-
-    ellipsoid_set(point, a->radius * across, 6e-5 * (uv[1] - 0.5),
-                  a->sign * a->radius * (1 - cos(angle)));
-}
-
 /* A shallow step, a ridge, a corner and a lid: planes, edges and vertices, all
    in range. */
 static inline void add_landscape(wall_mesh *mesh)
