@@ -108,6 +108,7 @@ static void check_equilibrium(double per_tau, long count, long followed)
     test_walk w;
 
     o.noise_interval = per_tau * slowest;
+    o.tolerance = 1e-6;
     w = test_walk_of(&o, 2, 1);
     for (long n = -200; n < count; n++)
     {

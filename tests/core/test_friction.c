@@ -273,6 +273,7 @@ static void test_rolling_does_not_chatter(void **unused)
     {
         o.friction = rough ? 0.3 : 0;
         o.external_force[2] = -2e-11;
+        o.tolerance = 1e-6;
         contact_start(&r, &o, 0);
         lay_cell(&r, 0, 1);
         assert_ok(contact_go(&r, 0.01));

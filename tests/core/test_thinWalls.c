@@ -54,6 +54,7 @@ static void go(trip *t, test_quadratic *flow, const double force[3], double end)
                                                  .walls_context = &t->walls};
 
     options.buoyancy = 0;
+    options.tolerance = 1e-6; /* depths of nanometres are compared */
     ellipsoid_copy(force, options.external_force);
 
     const ellipsoid_model model = test_model(&options);

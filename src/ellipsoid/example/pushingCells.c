@@ -91,7 +91,6 @@ int main(void)
     options.density = 1500;
     options.motion = ELLIPSOID_MOTION_INERTIALESS;
     options.contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;
-    options.tolerance = 1e-4;
     ellipsoid_status status = ellipsoid_model_init(&model, &options);
 
     ellipsoid_box(low, high, point, corner);
