@@ -164,6 +164,29 @@ void Foam::atomicWrite
 }
 
 
+void Foam::atomicWrite
+(
+    const fileName& file,
+    const std::function<void(std::ostream&)>& write
+)
+{
+    const fileName part(partOf(file));
+
+    mkDir(file.path());
+    std::ofstream os(part);
+    write(os);
+    os.close();
+
+    if (!os)
+    {
+        const int reason = errno;
+        rm(part);
+        cannotWrite(file, reason);
+    }
+    renamePart(file);
+}
+
+
 void Foam::durableWrite
 (
     const fileName& file,

@@ -5,23 +5,43 @@
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+void Foam::captureStatistics::record::see(const cellState& now)
+{
+    centre = now.centre();
+    unfolded = now.unfolded();
+    deepest = now.deepest;
+    deepestCell = now.deepestCell;
+    imbalance = now.imbalance;
+    size = now.size;
+    fate = now.fate;
+    patch = now.patch;
+}
+
+
 void Foam::captureStatistics::count(const cellEvent& event)
 {
     const cellState& now = event.cell;
+    const auto known = cells_.emplace(now.id, record());
+    record& cell = known.first->second;
 
-    if (!cells_.insert(now.id, record{now, now, now.time, -1, -1}))
+    if (known.second)
     {
-        --counts_[cells_[now.id].last.fate];
+        cell.planned = now.time;
     }
-
-    record& cell = cells_[now.id];
-    cell.last = now;
+    else
+    {
+        --counts_[cell.fate];
+    }
+    if (known.second || event.type == "injected")
+    {
+        cell.injected = now.time;
+        cell.start = now.centre();
+        std::copy_n(now.body.q, 4, cell.startQ.begin());
+    }
+    cell.see(now);
+    cell.time = now.time;
     ++counts_[now.fate];
 
-    if (event.type == "injected")
-    {
-        cell.injection = now;
-    }
     if (now.fate == cellState::caught && cell.firstSieve < 0)
     {
         cell.firstCatch = now.time;
@@ -43,11 +63,7 @@ Foam::captureStatistics::captureStatistics
     counts_(Zero),
     log(set, "events", cellEvent::header(set), 12)
 {
-    std::istringstream lines(log.text());
-    std::string line;
-    std::getline(lines, line);
-
-    while (std::getline(lines, line))
+    log.forRows([&](const std::string& line)
     {
         cellEvent event = cellEvent();
         event.cell.size = set_.population.medianSize();
@@ -60,7 +76,7 @@ Foam::captureStatistics::captureStatistics
         }
 
         count(event);
-    }
+    });
 }
 
 

@@ -12,10 +12,9 @@ Description
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::captureStatistics::writeCells() const
+void Foam::captureStatistics::writeCells(std::ostream& os) const
 {
     const bool sizes = set_.population.varies();
-    std::ostringstream os;
     os.precision(12);
     os  << "id,tInjected,x1,x2,x3,eps1,eps2,eps3,eta,fate,patch,tFate,"
         << "firstSieve,tFirstCatch,deepest,deepestCell,tPlanned,"
@@ -23,49 +22,46 @@ void Foam::captureStatistics::writeCells() const
         << (set_.unfolds ? ",x1EndUnfolded,x2EndUnfolded,x3EndUnfolded" : "")
         << '\n';
 
-    for (const label id : cells_.sortedToc())
+    for (const auto& of : cells_)
     {
-        const record& cell = cells_[id];
-        const cellState::fateType fate = cellState::fateType(cell.last.fate);
+        const record& cell = of.second;
+        const cellState::fateType fate = cellState::fateType(cell.fate);
 
         if (fate == cellState::waiting)
         {
             continue;
         }
 
-        os  << id << ',' << set_.timeText(cell.injection.time, 12)
-            << commas{cell.injection.body.x, 3}
-            << commas{cell.injection.body.q, 4}
+        os  << of.first << ',' << set_.timeText(cell.injected, 12)
+            << commas{cell.start.v_, 3} << commas{cell.startQ.cdata(), 4}
             << ',' << cellState::fateNames[fate] << ','
             << set_.patchName
                (
-                   fate == cellState::inFlight ? -1 : cell.last.patch
+                   fate == cellState::inFlight ? -1 : cell.patch
                )
-            << ',' << set_.timeText(cell.last.time, 12) << ','
+            << ',' << set_.timeText(cell.time, 12) << ','
             << set_.patchName(cell.firstSieve) << ',';
         if (cell.firstSieve >= 0)
         {
             os << set_.timeText(cell.firstCatch, 12);
         }
-        os << ',' << cell.last.deepest << ',' << cell.last.deepestCell
+        os  << ',' << cell.deepest << ',' << cell.deepestCell
             << ',' << set_.timeText(cell.planned, 12) << ',';
         if (fate == cellState::caught)
         {
-            os << cell.last.imbalance;
+            os << cell.imbalance;
         }
-        os << commas{cell.last.body.x, 3};
+        os << commas{cell.centre.v_, 3};
         if (sizes)
         {
-            os << ',' << cell.last.size.length << ',' << cell.last.size.width;
+            os << ',' << cell.size.length << ',' << cell.size.width;
         }
         if (set_.unfolds)
         {
-            os << commas{cell.last.unfolded().v_, 3};
+            os << commas{cell.unfolded.v_, 3};
         }
         os << '\n';
     }
-
-    atomicWrite(set_.folder/"cells.csv", os.str());
 }
 
 
@@ -82,12 +78,12 @@ void Foam::captureStatistics::writeCaptures(Ostream& os) const
     for (const label patchi : sieves_)
     {
         DynamicList<scalar> times;
-        forAllConstIters(cells_, iter)
+        for (const auto& of : cells_)
         {
-            const cellState& last = iter().last;
-            if (last.fate == cellState::caught && last.patch == patchi)
+            const record& cell = of.second;
+            if (cell.fate == cellState::caught && cell.patch == patchi)
             {
-                times.append(last.time);
+                times.append(cell.time);
             }
         }
         Foam::sort(times);
@@ -116,7 +112,7 @@ void Foam::captureStatistics::writeCaptures(Ostream& os) const
 
 void Foam::captureStatistics::report(Ostream& os) const
 {
-    os  << "cells: " << cells_.size() - counts_[cellState::waiting]
+    os  << "cells: " << label(cells_.size()) - counts_[cellState::waiting]
         << " injected, "
         << counts_[cellState::caught] << " caught, "
         << counts_[cellState::escaped] << " escaped, "
@@ -140,31 +136,31 @@ void Foam::captureStatistics::reportContact(Ostream& os) const
     label worstId = -1;
 
     // In order, since a sum depends on it
-    for (const label id : cells_.sortedToc())
+    for (const auto& of : cells_)
     {
-        const record& r = cells_[id];
-        wall = max(wall, r.last.deepest);
-        cell = max(cell, r.last.deepestCell);
+        const record& r = of.second;
+        wall = max(wall, r.deepest);
+        cell = max(cell, r.deepestCell);
 
         const scalar beadRadius =
             median.options.bead_radius
-           *(r.last.size.width/set_.population.medianSize().width);
-        wallPart = max(wallPart, 100*r.last.deepest/beadRadius);
-        cellPart = max(cellPart, 100*r.last.deepestCell/beadRadius);
+           *(r.size.width/set_.population.medianSize().width);
+        wallPart = max(wallPart, 100*r.deepest/beadRadius);
+        cellPart = max(cellPart, 100*r.deepestCell/beadRadius);
 
-        if (r.injection.time > r.planned)
+        if (r.injected > r.planned)
         {
-            delay += r.injection.time - r.planned;
+            delay += r.injected - r.planned;
             ++nDelayed;
         }
-        if (r.last.fate == cellState::caught)
+        if (r.fate == cellState::caught)
         {
-            nBalanced += r.last.imbalance < 0.01;
+            nBalanced += r.imbalance < 0.01;
 
-            if (r.last.imbalance > worst)
+            if (r.imbalance > worst)
             {
-                worst = r.last.imbalance;
-                worstId = id;
+                worst = r.imbalance;
+                worstId = of.first;
             }
         }
     }
@@ -209,16 +205,15 @@ void Foam::captureStatistics::finish
     {
         if (cell.fate != cellState::waiting)
         {
-            cellState& last = cells_[cell.id].last;
-            const scalar since = last.time;
-
-            last = cell;
-            last.time = since;
+            cells_.at(cell.id).see(cell);
         }
     }
 
     reportContact(os);
-    writeCells();
+    atomicWrite
+    (
+        set_.folder/"cells.csv", [&](std::ostream& to) { writeCells(to); }
+    );
     writeCaptures(os);
     os << nl;
     report(os);

@@ -435,6 +435,9 @@ void Foam::ellipsoidCloud::evolve()
     }
     statistics_->add(std::move(events));
 
+    // A cell that enters now has a row of this time, too
+    tracks_->flush(time_);
+
     for (const cellSweep& cell : moves)
     {
         if (cell.gone())

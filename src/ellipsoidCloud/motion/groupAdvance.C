@@ -14,6 +14,10 @@ namespace Foam
     //- So many cells go together at most: what a group needs grows with their
     //  square, and is 1.3 GB then
     static const label largestGroup = 2000;
+
+    //- So many lists of facets are kept, of 21 kB each: where there are more
+    //  cells, their lists are made anew in each interval
+    static const label keptCaches = 1000;
 }
 
 
@@ -226,6 +230,10 @@ void Foam::groupAdvance::enter
 {
     const ellipsoidProperties& properties = population_.properties();
 
+    if (caches_.size() > keptCaches)
+    {
+        caches_.clear();
+    }
     forAll(group, i)
     {
         cellSweep& cell = cells[group[i]];

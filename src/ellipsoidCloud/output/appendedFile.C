@@ -126,7 +126,23 @@ Foam::dictionary Foam::appendedFile::notes()
 }
 
 
-std::string Foam::appendedFile::text() const
+void Foam::appendedFile::forRows
+(
+    const std::function<void(const std::string&)>& act
+) const
 {
-    return size_ > 0 ? textOf(name_).substr(0, std::size_t(size_)) : "";
+    std::ifstream is(name_);
+    std::string line;
+    scalar left = size_;
+    bool header = true;
+
+    while (left > 0 && std::getline(is, line))
+    {
+        left -= line.size() + 1;
+        if (!header)
+        {
+            act(line);
+        }
+        header = false;
+    }
 }

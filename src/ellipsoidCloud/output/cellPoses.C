@@ -15,14 +15,14 @@
 
 namespace Foam
 {
-    //- Text of the file of one time
-    static std::string textOf
+    //- Write the file of one time
+    static void writeCells
     (
+        std::ostream& os,
         const tableSet& set,
         const UList<cellState>& cells
     )
     {
-        std::ostringstream os;
         os.precision(9);
 
         const List<vtkArray> arrays
@@ -35,7 +35,6 @@ namespace Foam
             {"Float64", "omega", 3},
             {"Float64", "axes", 9}
         });
-        const labelList points(identity(cells.size()));
         const labelList ends(identity(cells.size(), 1));
 
         const auto writeNumbers = [&](std::ostream& to, label first, label n)
@@ -59,9 +58,14 @@ namespace Foam
                 }
             }
         };
-        writePolyData(os, arrays, writeNumbers, "Verts", points, ends);
-
-        return os.str();
+        const auto writePoints = [&](std::ostream& to)
+        {
+            for (const label i : identity(cells.size()))
+            {
+                to << i << '\n';
+            }
+        };
+        writePolyData(os, arrays, writeNumbers, "Verts", writePoints, ends);
     }
 
     //- The files of a folder by their times
@@ -149,7 +153,11 @@ void Foam::writePoses
 
     const fileName folder(set.folder/"poses");
     mkDir(folder);
-    atomicWrite(folder/(timeName + ".vtp"), textOf(set, entered));
+    atomicWrite
+    (
+        folder/(timeName + ".vtp"),
+        [&](std::ostream& os) { writeCells(os, set, entered); }
+    );
     writeSeries(folder);
 }
 

@@ -19,9 +19,10 @@ namespace Foam
     //- The fields of a line
     typedef decltype(stringOps::split(std::string(), ',')) csvLine;
 
-    static label idOf(const csvLine& line)
+    //- The cell of a line
+    static label idOf(const std::string& line)
     {
-        return std::atol(line[1].str().c_str());
+        return std::atol(line.c_str() + line.find(',') + 1);
     }
 
     //- The text of a number of tracks.vtp, of which positions come first, in a
@@ -34,19 +35,63 @@ namespace Foam
         ].str();
     }
 
-    //- Visit all rows, of the runs that this one continues, too
-    static void forRows
+    //- Where the points of each cell end when those of one follow those of
+    //  another, with an entry of each cell in order
+    static labelList endsOf
     (
-        const fileName& file,
-        const std::function<void(const csvLine&)>& act
+        const appendedFile& file,
+        std::map<label, label>& cells
     )
     {
-        std::ifstream is(file);
-        std::string line;
-        std::getline(is, line);
-        while (std::getline(is, line))
+        file.forRows([&](const std::string& text) { ++cells[idOf(text)]; });
+
+        DynamicList<label> ends(cells.size());
+        label nPoints = 0;
+        for (const auto& cell : cells)
         {
-            act(stringOps::split(line, ','));
+            nPoints += cell.second;
+            ends.append(nPoints);
+        }
+        return labelList(std::move(ends));
+    }
+
+    //- Write the numbers of the rows in that order, a part at a time: all would
+    //  take more memory than the cells
+    static void writeInLines
+    (
+        std::ostream& os,
+        const appendedFile& file,
+        const labelUList& ends,
+        std::map<label, label>& next
+    )
+    {
+        const label nPoints = ends.size() ? ends.last() : 0;
+        labelList part(min(nPoints, label(1 << 20)));
+
+        for (label first = 0; first < nPoints; first += part.size())
+        {
+            auto end = ends.cbegin();
+            label begin = 0;
+            for (auto& cell : next)
+            {
+                cell.second = begin;
+                begin = *end++;
+            }
+
+            label row = 0;
+            file.forRows([&](const std::string& text)
+            {
+                const label i = next[idOf(text)]++ - first;
+                if (i >= 0 && i < part.size())
+                {
+                    part[i] = row;
+                }
+                ++row;
+            });
+            for (label i = 0; i < min(part.size(), nPoints - first); ++i)
+            {
+                os << part[i] << '\n';
+            }
         }
     }
 
@@ -199,10 +244,24 @@ void Foam::cellTracks::finish(cellState& cell, DynamicList<row>& rows) const
 }
 
 
-void Foam::cellTracks::flush()
+void Foam::cellTracks::flush(const scalar until)
 {
-    const List<List<row>> all(gathered(List<row>(rows_)));
-    rows_.clear();
+    DynamicList<row> due;
+    label nKept = 0;
+    for (const row& r : rows_)
+    {
+        if (r[0] < until)
+        {
+            due.append(r);
+        }
+        else
+        {
+            rows_[nKept++] = r;
+        }
+    }
+    rows_.setSize(nKept);
+
+    const List<List<row>> all(gathered(List<row>(std::move(due))));
 
     if (!Pstream::master())
     {
@@ -260,12 +319,10 @@ void Foam::cellTracks::writeVTP
 
     const auto writeNumbers = [&](std::ostream& os, label first, label n)
     {
-        forRows(file.name(), [&](const csvLine& line)
+        file.forRows([&](const std::string& text)
         {
-            const auto options = set_.population.optionsOf
-            (
-                sizeOf(idOf(line))
-            );
+            const csvLine line(stringOps::split(text, ','));
+
             for (label i = first; i < first + n; ++i)
             {
                 if (i == 18)
@@ -274,7 +331,8 @@ void Foam::cellTracks::writeVTP
                 }
                 else if (i > 18 && i < 22)
                 {
-                    os << options.semi_axes[i - 19];
+                    const cellSize size(sizeOf(idOf(text)));
+                    os << set_.population.optionsOf(size).semi_axes[i - 19];
                 }
                 else
                 {
@@ -285,29 +343,17 @@ void Foam::cellTracks::writeVTP
         });
     };
 
-    std::map<label, DynamicList<label>> pointsOf;
-    label nPoints = 0;
-    forRows(file.name(), [&](const csvLine& line)
+    std::map<label, label> at;
+    const labelList ends(endsOf(file, at));
+
+    const auto writePoints = [&](std::ostream& os)
     {
-        pointsOf[idOf(line)].append(nPoints++);
+        writeInLines(os, file, ends, at);
+    };
+
+    atomicWrite(set_.folder/"tracks.vtp", [&](std::ostream& os)
+    {
+        os.precision(9);
+        writePolyData(os, arrays, writeNumbers, "Lines", writePoints, ends);
     });
-
-    DynamicList<label> points(nPoints);
-    DynamicList<label> ends;
-    for (auto& cell : pointsOf)
-    {
-        points.append(cell.second);
-        ends.append(points.size());
-        cell.second.clearStorage();
-    }
-
-    const fileName vtp(set_.folder/"tracks.vtp");
-    std::ofstream os(vtp);
-    os.precision(9);
-    writePolyData(os, arrays, writeNumbers, "Lines", points, ends);
-
-    if (!os.flush())
-    {
-        cannotWrite(vtp);
-    }
 }

@@ -26,21 +26,6 @@ namespace Foam
     {
         os << "</DataArray>\n";
     }
-
-    static void writeLabels
-    (
-        std::ostream& os,
-        const char* name,
-        const labelUList& labels
-    )
-    {
-        beginArray(os, {"Int64", name, 1});
-        for (const label i : labels)
-        {
-            os << i << '\n';
-        }
-        endArray(os);
-    }
 }
 
 
@@ -52,13 +37,14 @@ void Foam::writePolyData
     const UList<vtkArray>& arrays,
     const numberWriter& writeNumbers,
     const char* kind,
-    const labelUList& points,
+    const std::function<void(std::ostream&)>& writePoints,
     const labelUList& ends
 )
 {
     os  << vtkProlog
         << "<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
-        << "<Piece NumberOfPoints=\"" << points.size() << "\" NumberOf" << kind
+        << "<Piece NumberOfPoints=\"" << (ends.size() ? ends.last() : 0)
+        << "\" NumberOf" << kind
         << "=\"" << ends.size() << "\">\n<Points>\n";
     label first = 0;
     for (const vtkArray& array : arrays)
@@ -70,7 +56,14 @@ void Foam::writePolyData
         first += array.nComponents;
     }
     os << "</PointData>\n<" << kind << ">\n";
-    writeLabels(os, "connectivity", points);
-    writeLabels(os, "offsets", ends);
+    beginArray(os, {"Int64", "connectivity", 1});
+    writePoints(os);
+    endArray(os);
+    beginArray(os, {"Int64", "offsets", 1});
+    for (const label end : ends)
+    {
+        os << end << '\n';
+    }
+    endArray(os);
     os  << "</" << kind << ">\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
