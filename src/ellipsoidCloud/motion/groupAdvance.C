@@ -17,7 +17,7 @@ namespace Foam
 
     //- So many lists of facets are kept, of 21 kB each: where there are more
     //  cells, their lists are made anew in each interval
-    static const label keptCaches = 1000;
+    static const label keptCaches = 250;
 }
 
 
