@@ -20,6 +20,14 @@ new_posts()     # CASE RADIUS PERIOD SLOPE POSTS
     sed -i "s/^RADIUS, PERIOD, SHIFT, POSTS = .*/RADIUS, PERIOD, SHIFT, POSTS = $2, $3, $4, $5/" postMesh
     sed -i "s/^RADIUS, PERIOD, SHIFT = .*/RADIUS, PERIOD, SHIFT = $2e-6, $3e-6, $4/" separatingStreamline followSpheres
 }
+
+# No face of an opening turns from inflow to outflow: where that is decided anew in each iteration, some flows do not settle
+solve_settled()
+{
+    sed -i 's/pressureInletOutletVelocity/zeroGradient/' 0/U
+    solve_flow > log.shown || { cat log.shown; return 1; }
+}
+
 # The step of p from one side to the other, which turns the flow
 set_jump()      { sed -i "s/^\( *jump *uniform\) .*;/\1 $1;/" 0/p; }
 
@@ -35,9 +43,7 @@ level_flow()    # GUESS of the jump, PRESSURE at the inlet [m2/s2]
         fi
         rm -rf 0 && cp -r 0.orig 0 && set_jump "$jump"
         sed -i "s/uniform 0.0342857142857143;/uniform $2;/" 0/p
-        # No face of an opening turns from inflow to outflow: where that is decided anew in each iteration, some flows do not settle
-        sed -i 's/pressureInletOutletVelocity/zeroGradient/' 0/U
-        solve_flow > log.shown || { cat log.shown; return 1; }
+        solve_settled || return
         "$ELLIPSOID_PYTHON" separatingStreamline > widths || return
         share+=("$(awk '{ n += $2 } END { print n/NR }' widths)")
     done

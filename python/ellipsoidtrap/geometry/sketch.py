@@ -5,13 +5,13 @@
 
 import os
 
+from ..colours import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION
 from . import rings
 from .surfaces import FRAGMENTS
 
 FILE = f"{FRAGMENTS}/plan.png"
 MARK = "Written by makeGeometry"
-# Okabe and Ito's colours, which the colour-blind can tell apart
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
 FLUID, RED = "#E3F0F8", "#C00000"
 MOST_PLACES = 200
 

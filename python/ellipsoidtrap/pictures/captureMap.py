@@ -30,7 +30,7 @@ NAMES = {"noRoom": "no room", "inFlight": "in flight"}
 
 # Sieves beside one another differ in lightness, too
 SIEVES = (
-    style.VERMILLION, "black", style.SKY, style.PURPLE, style.ORANGE, style.BLUE, "#009E73",
+    style.VERMILLION, "black", style.SKY, style.PURPLE, style.ORANGE, style.BLUE, style.GREEN,
     "#7A4B00",
 )
 

@@ -22,6 +22,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.tri import Triangulation
 
+from ..colours import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION, YELLOW
 from .case import NotApplicable
 from .files import CaseError, write_csv
 
@@ -42,10 +43,6 @@ POTENTIAL_MAP = ListedColormap(
     plt.get_cmap("RdBu_r")(np.linspace(0, 1, 256)) * (1 - PALE) + PALE, "paleRdBu"
 )
 SOLID = "0.82"
-
-# Okabe and Ito's colours, which the colour-blind can tell apart
-ORANGE, SKY, YELLOW = "#E69F00", "#56B4E9", "#F0E442"
-BLUE, VERMILLION, PURPLE = "#0072B2", "#D55E00", "#CC79A7"
 
 # Colour, width and dashes tell the fates apart, also in grey
 FATE_LINES = {
