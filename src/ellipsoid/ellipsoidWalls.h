@@ -165,11 +165,15 @@ size_t ellipsoid_walls_bytes(const ellipsoid_walls *walls);
 const ellipsoid_facet *ellipsoid_walls_facets(const ellipsoid_walls *walls,
                                               int *count);
 
+/* In reaches, how far a search looks as a rule. */
+#define ELLIPSOID_FAR_REACHES 1000
+
 /*
     The facets whose boxes come nearer than `reach` [m] to `centre` [m, lab],
     ascending, into index[], at most so many; list->reach is the distance of the
-    nearest facet, up to `far` [m], where there are none. Returns how many there
-    are: if they are more than there is room for, the list is of no use.
+    nearest facet, up to `far` [m], where there are none: a cell that is told of
+    so many reaches does not need to ask for a while. Returns how many there are:
+    if they are more than there is room for, the list is of no use.
 */
 int ellipsoid_walls_search(const ellipsoid_walls *walls, const double centre[3],
                            double reach, double far, int room, int *index,

@@ -7,7 +7,8 @@
     Everything is a polynomial in the quaternion, so the derivatives are exact
     also where q is not of length one, as inside a step.
 */
-#include "motion/stokesDrag.h"
+#include "drag/stokesDrag.h"
+#include "motion/motion.h"
 
 #include <math.h>
 #include <string.h>

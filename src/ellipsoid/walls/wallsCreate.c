@@ -391,9 +391,9 @@ int ellipsoid_walls_list(void *context, double t, const double centre[3],
     const ellipsoid_walls_context *here = context;
 
     (void)t;
-    /* a cell that has come so far does not need to ask for a while */
-    return ellipsoid_walls_search(here->walls, centre, reach, 1000 * reach,
-                                  here->room, here->index, list)
+    return ellipsoid_walls_search(here->walls, centre, reach,
+                                  ELLIPSOID_FAR_REACHES * reach, here->room,
+                                  here->index, list)
                  > here->room
              ? -1
              : 0;

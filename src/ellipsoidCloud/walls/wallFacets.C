@@ -227,7 +227,7 @@ int Foam::wallFacets::list
     }
 
     // As far as nothing is, where nothing is
-    const scalar far = size_ ? min(1000*reach, known_) : GREAT;
+    const scalar far = size_ ? min(ELLIPSOID_FAR_REACHES*reach, known_) : GREAT;
     const auto search =
         [&]()
         {

@@ -13,7 +13,7 @@
 #ifndef ELLIPSOID_STOKES_DRAG_H
 #define ELLIPSOID_STOKES_DRAG_H
 
-#include "motion/motion.h"
+#include "drag/drag.h"
 
 #include <string.h>
 
