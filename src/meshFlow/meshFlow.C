@@ -145,15 +145,16 @@ Foam::vector Foam::meshFlow::velocityOf
     }
     else
     {
-        const linearFlow& linear = linearIn(values, c);
+        const auto u =
+            [&](const label i) -> const vector&
+            {
+                return values.vertices[i].u;
+            };
 
-        for (int a = 0; a < 4; ++a)
-        {
-            value += c.weight[a]*linear.u[a];
-        }
+        value = c.value<vector>(u);
         if (derivatives)
         {
-            *derivatives = linear.derivatives;
+            *derivatives = c.derivatives(u);
         }
     }
 

@@ -8,6 +8,7 @@ Description
 
 \*---------------------------------------------------------------------------*/
 #include "meshFlow.H"
+#include "checkFinite.H"
 #include "tetDecomposition.H"
 #include "undecomposedFlow.H"
 #include "vertexFit.H"
@@ -17,8 +18,6 @@ Description
 #include "wallsAtVertices.H"
 #include "DynamicList.H"
 #include "transform.H"
-
-#include <cmath>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -107,83 +106,37 @@ namespace Foam
         UList<Type>& atPoints
     )
     {
-        const polyMesh& mesh = field.mesh();
-        bitSet isCyclic(mesh.nPoints());
-        DynamicList<domainImages::seam> mirrors;
-
+        const polyBoundaryMesh& patches = field.mesh().boundaryMesh();
+        bitSet isCyclic(field.mesh().nPoints());
         for (const domainImages::seam& seam : images.seams())
         {
-            if (seam.mirrors())
+            if (!seam.mirrors())
             {
-                mirrors.append(seam);
-                continue;
+                isCyclic.set(patches[seam.patch].meshPoints());
             }
-            isCyclic.set(mesh.boundaryMesh()[seam.patch].meshPoints());
         }
 
-        for (const domainImages::seam& seam : mirrors)
+        for (const bool reflected : {false, true})
         {
-            for
-            (
-                const label pointi
-              : mesh.boundaryMesh()[seam.patch].meshPoints()
-            )
+            for (const domainImages::seam& seam : images.seams())
             {
-                // At a cyclic patch the other side counts as well
-                if (!isCyclic.test(pointi))
+                const labelList& points = patches[seam.patch].meshPoints();
+
+                for (label i = 0; seam.mirrors() && i < points.size(); ++i)
                 {
-                    atPoints[pointi] = beforeMirror(field, images, pointi);
+                    Type& value = atPoints[points[i]];
+                    if (reflected)
+                    {
+                        value =
+                            0.5*(value + transform(seam.inward.turn(), value));
+                    }
+                    // At a cyclic patch the other side counts as well
+                    else if (!isCyclic.test(points[i]))
+                    {
+                        value = beforeMirror(field, images, points[i]);
+                    }
                 }
             }
-        }
-        for (const domainImages::seam& seam : mirrors)
-        {
-            for
-            (
-                const label pointi
-              : mesh.boundaryMesh()[seam.patch].meshPoints()
-            )
-            {
-                Type& value = atPoints[pointi];
-                value = 0.5*(value + transform(seam.inward.turn(), value));
-            }
-        }
-    }
-
-    //- End the run if a value of a field of that name is not finite
-    template<class Type>
-    static void checkFinite
-    (
-        const UList<Type>& values,
-        const char* name = "flow",
-        const char* advice = "solve the flow again from clean fields"
-    )
-    {
-        for (const Type& value : values)
-        {
-            for (direction i = 0; i < pTraits<Type>::nComponents; ++i)
-            {
-                if (!std::isfinite(component(value, i)))
-                {
-                    FatalErrorInFunction
-                        << "the " << name << " field holds a value that is not "
-                        << "finite: " << advice << exit(FatalError);
-                }
-            }
-        }
-    }
-
-    //- The same of the values in the mesh and on its boundary
-    template<class Type>
-    static void checkFinite
-    (
-        const GeometricField<Type, fvPatchField, volMesh>& field
-    )
-    {
-        checkFinite(field.primitiveField());
-        for (const fvPatchField<Type>& pf : field.boundaryField())
-        {
-            checkFinite(pf);
         }
     }
 
@@ -228,15 +181,12 @@ namespace Foam
     )
     {}
 
-    //- A field at all vertices but the means of others. Ends the run if a value
-    //  is not finite.
+    //- A field at all vertices but the means of others
     template<class Type>
     static Field<Type> atVertices
     (
         const GeometricField<Type, fvPatchField, volMesh>& field,
-        const vertexPlaces& places,
-        const char* name = "flow",
-        const char* advice = "solve the flow again from clean fields"
+        const vertexPlaces& places
     )
     {
         const label nCells = field.mesh().nCells();
@@ -257,8 +207,6 @@ namespace Foam
         {
             values[nCells + nPoints + sidei] = atSide(field, sides[sidei]);
         }
-
-        checkFinite(values, name, advice);
 
         return values;
     }
@@ -319,10 +267,10 @@ void Foam::meshFlow::setFlow
     const pointField& apexes = undecomposed.decomposition().apexes();
     const vertexPlaces places{apexes, images_, baffles};
     const pointImages images(undecomposed.mesh(), images_);
-    checkFinite(undecomposed.U());
+    checkFinite(undecomposed.U(), undecomposed.mesh().C(), "mesh cell");
     if (undecomposed.hasPressure())
     {
-        checkFinite(undecomposed.p());
+        checkFinite(undecomposed.p(), undecomposed.mesh().C(), "mesh cell");
     }
 
     if (pressure_)
@@ -380,15 +328,10 @@ void Foam::meshFlow::setField
     const baffleSides& baffles
 )
 {
+    checkFinite(E, E.mesh().C(), "mesh cell");
     const vectorField atOthers
     (
-        atVertices
-        (
-            E,
-            {undecomposed.decomposition().apexes(), images_, baffles},
-            "electric",
-            "look at what forces/electricField names"
-        )
+        atVertices(E, {undecomposed.decomposition().apexes(), images_, baffles})
     );
 
     label i = atOthers.size();

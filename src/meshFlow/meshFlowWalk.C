@@ -328,32 +328,6 @@ const Foam::tetFlow& Foam::meshFlow::flowIn
 }
 
 
-const Foam::linearFlow& Foam::meshFlow::linearIn
-(
-    const flowValues& values,
-    tetCoordinates& c
-) const
-{
-    if (c.flowOf != values.vertices.cdata())
-    {
-        const auto u =
-            [&](const label i) -> const vector&
-            {
-                return values.vertices[i].u;
-            };
-
-        c.flowOf = values.vertices.cdata();
-        for (int a = 0; a < 4; ++a)
-        {
-            c.linear.u[a] = u(c.vertices[a]);
-        }
-        c.linear.derivatives = c.derivatives(u);
-    }
-
-    return c.linear;
-}
-
-
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 bool Foam::meshFlow::find(const point& x, probe& at) const

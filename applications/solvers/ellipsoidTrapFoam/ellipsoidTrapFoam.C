@@ -99,7 +99,12 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
         cells.reset(new ellipsoidCloud(mesh, ellipsoidCloud::OWN));
     }
 
-    autoPtr<flowFields> flow(steadyFlow::New(mesh, solve));
+    autoPtr<flowFields> flow
+    (
+        solve == flowFields::NO
+      ? new flowFields(mesh)
+      : new steadyFlow(mesh, solve)
+    );
     const bool accepted = flow->accept();
 
     if (!accepted && cells.valid())

@@ -148,17 +148,9 @@ Foam::flowFields::flowFields(const fvMesh& mesh)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-const Foam::dictionary& Foam::flowFields::controls(const fvMesh& mesh)
-{
-    const dictionary& solution = mesh.solutionDict();
-
-    return subDictOf(solution, "flow");
-}
-
-
 Foam::flowFields::solveType Foam::flowFields::solveOf(const fvMesh& mesh)
 {
-    const dictionary& dict = controls(mesh);
+    const dictionary& dict = subDictOf(mesh.solutionDict(), "flow");
     const masterGate once;
 
     checkKeywords
@@ -183,7 +175,7 @@ bool Foam::flowFields::accept()
 
     scalar continuityTolerance, fluxTolerance;
     {
-        const dictionary& dict = controls(mesh_);
+        const dictionary& dict = subDictOf(mesh_.solutionDict(), "flow");
         const masterGate once;
         continuityTolerance =
             checkedNumber(dict, "continuityTolerance", above(0), 1e-3);
@@ -249,7 +241,8 @@ void Foam::flowFields::checkPatches() const
     const masterGate once;
     const scalar tolerance = checkedNumber
     (
-        controls(mesh_), "fluxTolerance", above(0), scalar(0.1)
+        subDictOf(mesh_.solutionDict(), "flow"), "fluxTolerance", above(0),
+        scalar(0.1)
     );
 
     forAll(ofU, i)

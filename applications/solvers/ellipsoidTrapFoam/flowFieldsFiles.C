@@ -42,8 +42,7 @@ namespace Foam
     //- What that says
     static dictionary digestsOf(const fileName& path)
     {
-        IStringStream is(textOf(digestsFile(path)));
-        return dictionary(is);
+        return dictionaryOf(textOf(digestsFile(path)), digestsFile(path));
     }
 
     static string digest(const fileName& file)

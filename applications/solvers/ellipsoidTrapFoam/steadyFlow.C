@@ -107,35 +107,6 @@ void Foam::steadyFlow::solveFrom(const flow& kept, const scalar tolerance)
 }
 
 
-void Foam::steadyFlow::refuseForeign() const
-{
-    if (foreign())
-    {
-        const masterGate once;
-        FatalErrorInFunction
-            << "The flow in " << instance_ << " is of another program, and not"
-            << " steady by the measures of this one:" << nl
-            << solver_.shortcomings().c_str()
-            << "-frozenFlow, or flow { solve no; } in system/fvSolution, takes"
-            << " it as it is; flow { solve yes; } solves it again and keeps its"
-            << " files as U.bak, p.bak and phi.bak" << exit(FatalError);
-    }
-}
-
-
-Foam::autoPtr<Foam::flowFields> Foam::steadyFlow::New
-(
-    const fvMesh& mesh,
-    const solveType solve
-)
-{
-    return autoPtr<flowFields>
-    (
-        solve == NO ? new flowFields(mesh) : new steadyFlow(mesh, solve)
-    );
-}
-
-
 bool Foam::steadyFlow::accept()
 {
     if (solve_ == AUTO)
@@ -146,7 +117,18 @@ bool Foam::steadyFlow::accept()
             tellOfClocks();
             return true;
         }
-        refuseForeign();
+        if (foreign())
+        {
+            const masterGate once;
+            FatalErrorInFunction
+                << "The flow in " << instance_ << " is of another program, and"
+                << " not steady by the measures of this one:" << nl
+                << solver_.shortcomings().c_str()
+                << "-frozenFlow, or flow { solve no; } in system/fvSolution,"
+                << " takes it as it is; flow { solve yes; } solves it again and"
+                << " keeps its files as U.bak, p.bak and phi.bak"
+                << exit(FatalError);
+        }
     }
     checkModels();
     checkRegions();

@@ -26,16 +26,14 @@ static dictionary readIfPresent
     const fileName& folder
 )
 {
-    IOobject io
+    return IOdictionary
     (
-        name, folder, mesh.time(), IOobject::MUST_READ, IOobject::NO_WRITE, false
+        IOobject
+        (
+            name, folder, mesh.time(),
+            IOobject::READ_IF_PRESENT, IOobject::NO_WRITE, false
+        )
     );
-
-    if (!io.typeHeaderOk<IOdictionary>(true))
-    {
-        return dictionary();
-    }
-    return IOdictionary(io);
 }
 
 } // End namespace Foam

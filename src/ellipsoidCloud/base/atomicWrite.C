@@ -32,6 +32,20 @@ std::string Foam::textOf(const fileName& file)
 }
 
 
+Foam::dictionary Foam::dictionaryOf
+(
+    const std::string& text,
+    const fileName& name
+)
+{
+    IStringStream is(text);
+    is.name() = name;
+    is.lineNumber() = 1;
+
+    return dictionary(is);
+}
+
+
 Foam::SHA1 Foam::digestOf(const fileName& file, const scalar size)
 {
     SHA1 digest;
@@ -121,7 +135,7 @@ void Foam::writePart
 void Foam::writePart(regIOobject& object)
 {
     const Time& time = object.time();
-    const unsigned int precision = IOstream::defaultPrecision(17);
+    const exactDigits exact;
 
     object.instance() = time.timeName();
 
@@ -132,8 +146,6 @@ void Foam::writePart(regIOobject& object)
     object.writeData(os);
     IOobject::writeEndDivider(os);
     writePart(object.objectPath(), os.str(), time.writeCompression());
-
-    IOstream::defaultPrecision(precision);
 }
 
 
@@ -152,14 +164,9 @@ void Foam::renamePart(const fileName& file)
 }
 
 
-void Foam::atomicWrite
-(
-    const fileName& file,
-    const std::string& text,
-    const IOstream::compressionType compression
-)
+void Foam::atomicWrite(const fileName& file, const std::string& text)
 {
-    writePart(file, text, compression);
+    writePart(file, text);
     renamePart(file);
 }
 
@@ -212,13 +219,10 @@ void Foam::atomicWrite(regIOobject& object, const bool valid)
         return;
     }
 
-    const unsigned int precision = IOstream::defaultPrecision(17);
-
+    const exactDigits exact;
     object.instance() = object.time().timeName();
     if (!object.write(valid))
     {
         cannotWrite(object.objectPath());
     }
-
-    IOstream::defaultPrecision(precision);
 }

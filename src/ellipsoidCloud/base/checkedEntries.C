@@ -7,6 +7,7 @@
 #include "foamVersions.H"
 #include "IFstream.H"
 #include "masterGate.H"
+#include "regExp.H"
 
 #include <functional>
 #include <vector>
@@ -51,13 +52,6 @@ static string complaintOf(const std::function<void()>& act)
     throwErrors(FatalError, throwing);
 
     return complaint;
-}
-
-
-//- Does a character belong to the name of a variable?
-static bool isNamed(const char c)
-{
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
 }
 
 } // End namespace Foam
@@ -123,12 +117,7 @@ void Foam::checkPatterns(const std::string& text, const fileName& file)
     (
         complaintOf
         (
-            [&]
-            {
-                IStringStream is(text);
-                is.name() = file;
-                const dictionary entries(is);
-            }
+            [&] { dictionaryOf(text, file); }
         )
     );
     throwErrors(FatalIOError, throwing);
@@ -170,50 +159,26 @@ bool Foam::isVariable(const dictionary& dict, const word& keyword)
         return true;
     }
 
-    const std::string text(fileTextOf(dict));
-    bool stands = false;
-
-    for
-    (
-        std::size_t at = text.find(keyword);
-        at != std::string::npos;
-        at = text.find(keyword, at + 1)
-    )
+    // Variables have no other characters
+    if (!regExp("[A-Za-z0-9_]+").match(keyword))
     {
-        const std::size_t end = at + keyword.size();
-        std::size_t begin = at;
-
-        if (end < text.size() && isNamed(text[end]))
-        {
-            continue;
-        }
-        stands = stands || at == 0 || !isNamed(text[at - 1]);
-
-        // $NAME, ${NAME}, $.NAME, $:OTHER.NAME
-        while
-        (
-            begin > 0
-         && (
-                isNamed(text[begin - 1])
-             || string("{.:^").find(text[begin - 1]) != string::npos
-            )
-        )
-        {
-            --begin;
-        }
-        const std::size_t last = text.find_last_of("{.:^$", at);
-        if
-        (
-            begin > 0 && text[begin - 1] == '$'
-         && (begin == at || last == at - 1)
-        )
-        {
-            return true;
-        }
+        return false;
     }
+    const std::string text(fileTextOf(dict));
+    const auto has =
+        [&](const std::string& before)
+        {
+            return regExp(before + keyword + "([^A-Za-z0-9_]|$)").search(text);
+        };
 
-    // One that a file which is included sets, for other dictionaries
-    return !text.empty() && !stands && &dict == &dict.topDict() && !dict.isDict(keyword);
+    // $NAME, ${NAME}, $.NAME, $:OTHER.NAME; or one that a file which is included
+    // sets, for other dictionaries
+    return
+        has("\\$([A-Za-z0-9_{.:^]*[{.:^])?")
+     || (
+            !text.empty() && !has("(^|[^A-Za-z0-9_])")
+         && &dict == &dict.topDict() && !dict.isDict(keyword)
+        );
 }
 
 

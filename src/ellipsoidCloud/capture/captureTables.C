@@ -51,16 +51,9 @@ void Foam::captureStatistics::writeCells(std::ostream& os) const
         {
             os << cell.imbalance;
         }
-        os << commas{cell.centre.v_, 3};
-        if (sizes)
-        {
-            os << ',' << cell.size.length << ',' << cell.size.width;
-        }
-        if (set_.unfolds)
-        {
-            os << commas{cell.unfolded.v_, 3};
-        }
-        os << '\n';
+        os  << commas{cell.centre.v_, 3}
+            << commas{&cell.size.length, sizes ? 2 : 0}
+            << commas{cell.unfolded.v_, set_.unfolds ? 3 : 0} << '\n';
     }
 }
 

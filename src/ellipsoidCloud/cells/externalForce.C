@@ -19,22 +19,6 @@ namespace Foam
 }
 
 
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-void Foam::externalForce::checkType(const dictionary& dict, const word& type)
-{
-    if (!dictionaryConstructorTablePtr_->found(type))
-    {
-        FatalIOErrorInFunction(streamOf(dict, "type"))
-            << "unknown type of an external force " << type << nl
-            << "    allowed: "
-            << flatOutput(dictionaryConstructorTablePtr_->sortedToc()) << nl
-            << "    others come from libraries that libs of controlDict names"
-            << exit(FatalIOError);
-    }
-}
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::autoPtr<Foam::externalForce> Foam::externalForce::New
@@ -48,7 +32,15 @@ Foam::autoPtr<Foam::externalForce> Foam::externalForce::New
 
         checkValues(dict, {"type"});
         type = dict.get<word>("type");
-        checkType(dict, type);
+        if (!dictionaryConstructorTablePtr_->found(type))
+        {
+            FatalIOErrorInFunction(streamOf(dict, "type"))
+                << "unknown type of an external force " << type << nl
+                << "    allowed: "
+                << flatOutput(dictionaryConstructorTablePtr_->sortedToc()) << nl
+                << "    others come from libraries that libs of controlDict"
+                << " names" << exit(FatalIOError);
+        }
     }
 
     return (*dictionaryConstructorTablePtr_)[type](dict);

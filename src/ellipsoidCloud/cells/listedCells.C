@@ -2,12 +2,12 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "listedCells.H"
+#include "atomicWrite.H"
 #include "checkedEntries.H"
 #include "csvFields.H"
 #include "FixedList.H"
 #include "HashTable.H"
 #include "pointField.H"
-#include "StringStream.H"
 
 #include <fstream>
 
@@ -15,7 +15,7 @@
 
 namespace Foam
 {
-    typedef HashTable<scalarList> columnTable;
+    typedef HashTable<DynamicList<scalar>> columnTable;
 
     //- The next line, as spreadsheets write it, too
     static bool hasLine(std::istream& is, std::string& text)
@@ -58,7 +58,7 @@ namespace Foam
         }
 
         const std::vector<std::string> head(csvFields(text));
-        HashTable<DynamicList<scalar>> found;
+        columnTable found;
         for (const std::string& name : head)
         {
             if (names.found(word(name, false)))
@@ -96,13 +96,7 @@ namespace Foam
             }
         }
 
-        columnTable columns;
-        forAllConstIters(found, iter)
-        {
-            columns.insert(iter.key(), scalarList(iter.val()));
-        }
-
-        return columns;
+        return found;
     }
 
 
@@ -130,24 +124,6 @@ namespace Foam
         }
 
         return n;
-    }
-
-
-    //- Set an entry with all digits of its numbers
-    template<class Type>
-    static void setExactly
-    (
-        dictionary& dict,
-        const word& keyword,
-        const Type& value
-    )
-    {
-        OStringStream os;
-        os.precision(17);
-        os  << keyword << token::SPACE << value << token::END_STATEMENT;
-
-        IStringStream is(os.str());
-        dict.set(entry::New(is).ptr());
     }
 
 
@@ -191,7 +167,8 @@ namespace Foam
             positions[i] =
                 point(columns["x1"][i], columns["x2"][i], columns["x3"][i]);
         }
-        setExactly(dict, "positions", positions);
+        const exactDigits exact;
+        dict.set("positions", positions);
 
         if
         (
@@ -207,7 +184,7 @@ namespace Foam
                     orientations[i][j] = columns[turn[j]][i];
                 }
             }
-            setExactly(dict, "orientations", orientations);
+            dict.set("orientations", orientations);
         }
         if (hasAll(dict, file, columns, size, false))
         {
@@ -217,11 +194,11 @@ namespace Foam
                 sizes[i][0] = columns["length"][i];
                 sizes[i][1] = columns["width"][i];
             }
-            setExactly(dict, "sizes", sizes);
+            dict.set("sizes", sizes);
         }
         if (columns.found("density"))
         {
-            setExactly(dict, "densities", columns["density"]);
+            dict.set("densities", columns["density"]);
         }
         dict.remove("file");
     }

@@ -79,38 +79,38 @@ namespace Foam
         forAll(patches, i)
         {
             const dictionary& patch = patches[i].dict();
-            const label first = patch.get<label>("startFace");
-            const label n = patch.get<label>("nFaces");
             const label end =
                 i + 1 < patches.size()
               ? patches[i + 1].dict().get<label>("startFace")
               : nFaces;
-            const string name("patch " + patches[i].keyword() + " has ");
-
-            if (first != start)
+            const struct
             {
-                return
-                    name + "startFace " + Foam::name(first) + nl
-                  + "    allowed: " + Foam::name(start)
-                  + ", after the faces that come before";
+                const char* entry;
+                label allowed;
+                const char* why;
             }
-            if (n < 0 || first + n != end)
+            rules[] =
             {
-                return
-                    name + "nFaces " + Foam::name(n) + nl
-                  + "    allowed: " + Foam::name(end - first)
-                  + ", up to the next patch or the last of "
-                  + Foam::name(nFaces) + " faces";
-            }
+                {"startFace", start, ", after the faces that come before"},
+                {"nFaces", end - start, ", up to the next patch or the last face"},
+                {
+                    "myProcNo", Pstream::myProcNo(),
+                    ". The folder is another processor's: put it back, or"
+                    " decomposePar -force"
+                }
+            };
 
-            const label self = Pstream::myProcNo();
-            const label rank = patch.getOrDefault<label>("myProcNo", self);
-            if (rank != self)
+            for (const auto& rule : rules)
             {
-                return
-                    name + "myProcNo " + Foam::name(rank) + nl
-                  + "    allowed: " + Foam::name(self) + ". The folder is another processor's: put it back, or"
-                  + " decomposePar -force";
+                const label given =
+                    patch.getOrDefault<label>(rule.entry, rule.allowed);
+                if (given != rule.allowed)
+                {
+                    return
+                        "patch " + patches[i].keyword() + " has " + rule.entry
+                      + ' ' + Foam::name(given) + "\n    allowed: "
+                      + Foam::name(rule.allowed) + rule.why;
+                }
             }
             start = end;
         }
@@ -245,12 +245,7 @@ Foam::dictionary Foam::caseFiles::controls(const argList& args)
     string text(textOf(file));
     broadcast(text);
 
-    // Its name is where files that it includes are; a file begins at line 1
-    IStringStream is(text);
-    is.name() = file;
-    is.lineNumber() = 1;
-
-    return dictionary(is);
+    return dictionaryOf(text, file);
 }
 
 

@@ -45,14 +45,6 @@ namespace Foam
         digest.append(static_cast<const char*>(bytes), list.byteSize());
     }
 
-    //- A dictionary of that text; the name is for messages
-    static dictionary parsed(const string& text, const fileName& name)
-    {
-        IStringStream is(text);
-        is.name() = name;
-        return dictionary(is);
-    }
-
     //- Is the run to go on from the latest time there is? Collective
     static bool fromLatestTime(const argList& args)
     {
@@ -234,7 +226,7 @@ Foam::checkpoint::checkpoint(const Time& time)
     const masterGate once;
     if (isWhole(text))
     {
-        notes_ = parsed(text, file);
+        notes_ = dictionaryOf(text, file);
     }
     else if (some)
     {
@@ -319,7 +311,7 @@ std::string Foam::checkpoint::wayBack(const Time& time)
         if
         (
             isWhole(text)
-         && hasTables(parsed(text, path), time.globalPath())
+         && hasTables(dictionaryOf(text, path), time.globalPath())
         )
         {
             return leadsTo(of.second) + " to go on from " + of.second;

@@ -142,7 +142,7 @@ void Foam::ellipsoidCloud::checkImages(const domainImages& images) const
         if
         (
             !seam.mirrors()
-         && properties_.section("occupancy").getOrDefault("active", false)
+         && blocking_.active
         )
         {
             const word& name = mesh_.boundaryMesh()[seam.patch].name();
@@ -199,6 +199,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
     (
         electricField::read(properties_.section("forces"), mesh, *undecomposed_)
     ),
+    blocking_(properties_.section("occupancy"), mesh.boundaryMesh()),
     criterion_(properties_.section("capture"), mesh.boundaryMesh()),
     time_(presentTime(mesh.time())),
     firstTime_(mesh.time().timeName())

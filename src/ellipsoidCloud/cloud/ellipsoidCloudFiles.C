@@ -56,15 +56,11 @@ void Foam::ellipsoidCloud::makeTables()
     statistics_.reset(new captureStatistics(set, criterion_.sieves()));
     tracks_.reset(new cellTracks(set));
 
-    const occupancy::setting from
-    (
-        properties_.section("occupancy"), mesh_.boundaryMesh()
-    );
-    if (from.active)
+    if (blocking_.active)
     {
         occupancy_.reset
         (
-            new occupancy(from, criterion_, set, earlier_.notes())
+            new occupancy(blocking_, criterion_, set, earlier_.notes())
         );
     }
 }
@@ -77,12 +73,7 @@ void Foam::ellipsoidCloud::reportApertures(const bool hasFlow) const
     if (Pstream::master())
     {
         const undecomposedFlow::serialScope serial;
-        const occupancy::setting from
-        (
-            properties_.section("occupancy"), mesh_.boundaryMesh()
-        );
-
-        for (const occupancy::aperture& a : from.apertures)
+        for (const occupancy::aperture& a : blocking_.apertures)
         {
             const scalar area = a.area(undecomposed_->mesh());
 

@@ -7,7 +7,6 @@
 #include "checkedEntries.H"
 #include "caseSummary.H"
 #include "cellPopulation.H"
-#include "checkedEntries.H"
 #include "ellipsoidCloud.H"
 #include "masterGate.H"
 #include "meshSearch.H"

@@ -20,9 +20,12 @@ Foam::cellOrientation::orientationNames_
 });
 
 
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-void Foam::cellOrientation::checkEntries(const dictionary& dict) const
+Foam::cellOrientation::cellOrientation(const dictionary& dict)
+:
+    type_(orientationNames_.getOrDefault("orientation", dict, otRandom)),
+    q_{0, 0, 0, 1}
 {
     const HashTable<orientationType> readers
     ({
@@ -40,17 +43,6 @@ void Foam::cellOrientation::checkEntries(const dictionary& dict) const
                 << exit(FatalIOError);
         }
     }
-}
-
-
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
-
-Foam::cellOrientation::cellOrientation(const dictionary& dict)
-:
-    type_(orientationNames_.getOrDefault("orientation", dict, otRandom)),
-    q_{0, 0, 0, 1}
-{
-    checkEntries(dict);
 
     if (type_ == otAligned)
     {

@@ -129,9 +129,7 @@ void Foam::groupScheduler::withMemory
 {
     while (act() == ELLIPSOID_TOO_MANY_CELLS)
     {
-        const label more = 2*max(more_.size(), memory_.size());
-        more_.clear();
-        more_.setSize(more);
+        more_ = scalarList(2*max(more_.size(), memory_.size()));
         ellipsoid_world_extend
         (
             world, more_.data(), more_.size()*sizeof(scalar)
@@ -154,8 +152,7 @@ ellipsoid_world* Foam::groupScheduler::begun
 
     if (memory_.size() < needed)
     {
-        memory_.clear();
-        memory_.setSize(needed + needed/2);
+        memory_ = scalarList(needed + needed/2);
     }
 
     while
@@ -168,9 +165,7 @@ ellipsoid_world* Foam::groupScheduler::begun
      == ELLIPSOID_TOO_MANY_CELLS
     )
     {
-        const label more = 2*memory_.size();
-        memory_.clear();
-        memory_.setSize(more);
+        memory_ = scalarList(2*memory_.size());
     }
 
     return world;

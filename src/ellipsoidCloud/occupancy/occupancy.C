@@ -14,6 +14,53 @@ const Foam::Enum<Foam::occupancy::flowType> Foam::occupancy::flowNames
 });
 
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- What a state calls the ids of a map, and so many vectors of each value,
+    //  which are its first
+    struct mapNotes
+    {
+        const char* ids;
+        const char* vectors;
+        label n;
+
+        template<class Type>
+        void write(const Map<Type>& map, dictionary& notes) const
+        {
+            const labelList labels(map.sortedToc());
+            vectorField all(n*labels.size());
+            forAll(labels, i)
+            {
+                const void* value = &map[labels[i]];
+                std::copy_n(static_cast<const vector*>(value), n, &all[n*i]);
+            }
+            notes.add(ids, labels);
+            notes.add(vectors, all);
+        }
+
+        template<class Type>
+        void read(const dictionary& notes, Map<Type>& map) const
+        {
+            const labelList labels(notes.getOrDefault(ids, labelList()));
+            const vectorField all(notes.getOrDefault(vectors, vectorField()));
+            forAll(labels, i)
+            {
+                Type value = Type();
+                void* first = &value;
+                std::copy_n(&all[n*i], n, static_cast<vector*>(first));
+                map.insert(labels[i], value);
+            }
+        }
+    };
+
+    static const mapNotes ofStayed = {"stayed", "borne", 2};
+    static const mapNotes ofLetGo = {"letGo", "letGoFrom", 3};
+    static const mapNotes ofHeld = {"held", "heldForces", 1};
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::occupancy::setting::setting
@@ -94,30 +141,9 @@ Foam::occupancy::occupancy
     set_(set),
     fluxes_(set, "fluxes", "t,sieve,flux,share,cells", 9)
 {
-    const labelList ids(notes.getOrDefault("held", labelList()));
-    const vectorField forces(notes.getOrDefault("heldForces", vectorField()));
-
-    forAll(ids, i)
-    {
-        held_.insert(ids[i], heldWrench{forces[i], Zero});
-    }
-
-    const labelList gone(notes.getOrDefault("letGo", labelList()));
-    const vectorField places(notes.getOrDefault("letGoFrom", vectorField()));
-
-    forAll(gone, i)
-    {
-        const vector* of = &places[3*i];
-        letGo_.insert(gone[i], letGoCell{of[0], heldWrench{of[1], of[2]}});
-    }
-
-    const labelList stayed(notes.getOrDefault("stayed", labelList()));
-    const vectorField borne(notes.getOrDefault("borne", vectorField()));
-
-    forAll(stayed, i)
-    {
-        borne_.insert(stayed[i], heldWrench{borne[2*i], borne[2*i + 1]});
-    }
+    ofHeld.read(notes, held_);
+    ofLetGo.read(notes, letGo_);
+    ofStayed.read(notes, borne_);
 }
 
 
@@ -175,55 +201,25 @@ void Foam::occupancy::letGo
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-bool Foam::occupancy::aperture::isBefore
-(
-    const fvMesh& mesh,
-    const label facei
-) const
-{
-    return ((mesh.C()[mesh.owner()[facei]] - box.centre()) & normal) < 0;
-}
-
-
-Foam::DynamicList<Foam::label> Foam::occupancy::aperture::faces
-(
-    const fvMesh& mesh
-) const
-{
-    const point middle(box.centre());
-    DynamicList<label> found;
-
-    // Mesh faces between centres on either side of the plane in the middle
-    for (label facei = 0; facei < mesh.nInternalFaces(); ++facei)
-    {
-        const point& to = mesh.C()[mesh.neighbour()[facei]];
-        const bool after = ((to - middle) & normal) >= 0;
-
-        if
-        (
-            isBefore(mesh, facei) == after
-         && box.contains(mesh.Cf()[facei])
-        )
-        {
-            found.append(facei);
-        }
-    }
-
-    return found;
-}
-
-
 Foam::scalar Foam::occupancy::aperture::flux
 (
     const surfaceScalarField& phi
 ) const
 {
     const fvMesh& mesh = phi.mesh();
+    const point middle(box.centre());
     scalar sum = 0;
 
-    for (const label facei : faces(mesh))
+    // Mesh faces between centres on either side of the plane in the middle
+    for (label facei = 0; facei < mesh.nInternalFaces(); ++facei)
     {
-        sum += phi[facei]*(isBefore(mesh, facei) ? 1 : -1);
+        const scalar from = (mesh.C()[mesh.owner()[facei]] - middle) & normal;
+        const scalar to = (mesh.C()[mesh.neighbour()[facei]] - middle) & normal;
+
+        if ((from < 0) == (to >= 0) && box.contains(mesh.Cf()[facei]))
+        {
+            sum += from < 0 ? phi[facei] : -phi[facei];
+        }
     }
 
     return sum;
@@ -235,13 +231,7 @@ Foam::scalar Foam::occupancy::aperture::area(const fvMesh& mesh) const
     // Of a mesh that rounds the corners of the device
     const scalar tolerance = 0.1;
 
-    scalar sum = 0;
-    for (const label facei : faces(mesh))
-    {
-        const scalar across = (mesh.Sf()[facei] & normal)/mag(normal);
-        sum += isBefore(mesh, facei) ? across : -across;
-    }
-
+    const scalar sum = flux(((mesh.Sf() & normal)/mag(normal))());
     const bool given = givenArea > 0;
 
     if (!(sum > 0) || (given && mag(sum/givenArea - 1) > tolerance))
@@ -408,37 +398,8 @@ void Foam::occupancy::write
 
 void Foam::occupancy::note(dictionary& notes, dictionary& tables)
 {
-    const labelList ids(held_.sortedToc());
-    vectorField forces(ids.size());
-    forAll(ids, i)
-    {
-        forces[i] = held_[ids[i]].force;
-    }
-
-    const labelList gone(letGo_.sortedToc());
-    vectorField places(3*gone.size());
-    forAll(gone, i)
-    {
-        const letGoCell& of = letGo_[gone[i]];
-        places[3*i] = of.centre;
-        places[3*i + 1] = of.pull.force;
-        places[3*i + 2] = of.pull.torque;
-    }
-
-    const labelList stayed(borne_.sortedToc());
-    vectorField borne(2*stayed.size());
-    forAll(stayed, i)
-    {
-        const heldWrench& of = borne_[stayed[i]];
-        borne[2*i] = of.force;
-        borne[2*i + 1] = of.torque;
-    }
-
-    notes.add("stayed", stayed);
-    notes.add("borne", borne);
-    notes.add("letGo", gone);
-    notes.add("letGoFrom", places);
-    notes.add("held", ids);
-    notes.add("heldForces", forces);
+    ofStayed.write(borne_, notes);
+    ofLetGo.write(letGo_, notes);
+    ofHeld.write(held_, notes);
     tables.add("fluxes", fluxes_.notes());
 }

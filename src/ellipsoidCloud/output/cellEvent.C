@@ -20,20 +20,14 @@ std::string Foam::cellEvent::header(const tableSet& set)
 
 void Foam::cellEvent::write(std::ostream& os, const tableSet& set) const
 {
+    const point unfolded(cell.unfolded());
+
     os  << set.timeText(cell.time, 12) << ',' << cell.id << ',' << type << ','
         << set.patchName(cell.patch)
         << commas{cell.body.x, 3} << commas{cell.body.q, 4}
-        << ',' << cell.deepest << ',' << cell.deepestCell;
-
-    if (set.population.varies())
-    {
-        os << ',' << cell.size.length << ',' << cell.size.width;
-    }
-    if (set.unfolds)
-    {
-        os << commas{cell.unfolded().v_, 3};
-    }
-    os << '\n';
+        << ',' << cell.deepest << ',' << cell.deepestCell
+        << commas{&cell.size.length, set.population.varies() ? 2 : 0}
+        << commas{unfolded.v_, set.unfolds ? 3 : 0} << '\n';
 }
 
 

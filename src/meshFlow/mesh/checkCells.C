@@ -3,6 +3,7 @@
 
 #include "checkCells.H"
 #include "masterGate.H"
+#include "plainLists.H"
 #include "polyMesh.H"
 #include "Tuple2.H"
 
@@ -36,11 +37,17 @@ void Foam::checkCells(const polyMesh& mesh)
     }
 
     // That of the first rank that has one
-    List<Tuple2<label, point>> faults(Pstream::nProcs());
     const bool found = first < mesh.nCells();
-    faults[Pstream::myProcNo()] =
-        Tuple2<label, point>(found ? first : -1, found ? centres[first] : point::zero);
-    Pstream::gatherList(faults);
+    const List<Tuple2<label, point>> faults
+    (
+        gathered
+        (
+            Tuple2<label, point>
+            (
+                found ? first : -1, found ? centres[first] : point::zero
+            )
+        )
+    );
 
     const masterGate once;
     forAll(faults, ranki)

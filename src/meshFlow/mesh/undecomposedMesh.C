@@ -145,13 +145,12 @@ bool Foam::undecomposedFlow::readAddressing()
     }
 
     // Those of faces are from 1, for the sake of their sign
-    for (label& address : pointAddressing_)
+    for (labelList* addressing : {&pointAddressing_, &cellAddressing_})
     {
-        ++address;
-    }
-    for (label& address : cellAddressing_)
-    {
-        ++address;
+        for (label& address : *addressing)
+        {
+            ++address;
+        }
     }
 
     return true;
