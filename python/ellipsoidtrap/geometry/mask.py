@@ -328,9 +328,17 @@ def walls_of(plan, base):
     return walls
 
 
-def sections_of(top, plan, depth, base):
+def in_fluid(plan, point, wall):
+    """Whether a point lies in the fluid, and farther than this from all walls."""
+    return (rings.contains(plan[0].points, *point)
+            and not any(rings.contains(one.points, *point) for one in plan[1:])
+            and all(math.dist(point, rings.foot(point, edge.start, edge.end)) > wall
+                    for ring in plan for edge in rings.edges(ring)))
+
+
+def sections_of(top, plan, depth, mesh):
     """The sections, as apertures."""
-    sections, text = top.sub_if("sections"), ""
+    sections, text, base = top.sub_if("sections"), "", mesh.base
     for name in sections.entries:
         patch_name(sections, name)
         ends = [sections.numbers(value, 2, key, "a point (x y)") for value, key in sections.items(name)]
@@ -340,6 +348,10 @@ def sections_of(top, plan, depth, base):
         area = depth*rings.length_between(plan, *ends)
         if not area > 0:
             sections.fail(f"'{sections.name}{name}' lies nowhere in the fluid")
+        for end in ends:
+            if in_fluid(plan, end, mesh.finest()):
+                print(f"makeGeometry: warning: {PARAMETERS}: '{sections.name}{name}' ends at {at(end)}, in the "
+                      "fluid: what passes beyond is not counted")
         # Across the line up to mesh cells on either side, over the depth beyond floor and ceiling
         low, high = ([end(*pair) for pair in zip(*ends)] for end in (min, max))
         low[same[0]] -= base
@@ -362,7 +374,7 @@ def make_mask(resolution):
     narrowest = check_gaps(top, plan, mesh)
     inside = inside_point(top, plan, mesh)
     depth, pressure = top.number("depth"), top.number("inletPressure")
-    sections = sections_of(top, plan, depth, mesh.base)
+    sections = sections_of(top, plan, depth, mesh)
     area = abs(rings.area(plan[0].points)) - sum(abs(rings.area(ring.points)) for ring in plan[1:])
 
     out = Output(PARAMETERS)

@@ -28,6 +28,7 @@ from .files import CaseError
 MARGIN = 9.0        # shown about the sieve, in micrometres
 LONG = 60.0         # of a sieve at most
 WIDEST = 8000       # pixels
+NARROWEST = 760     # of them, so that the keys have room
 LINES = 1080        # of the MP4 at least; the WebP has half as many
 LEFT, RIGHT, BELOW, ABOVE = 116, 156, 232, 64   # pixels about the window
 STEP = 0.5e-3       # s between frames
@@ -288,6 +289,8 @@ def draw(case, sieve=None, device=False, begin=None, end=None, frames=None):
 def film_of(case, sieve, window, times, actors, caption):
     """The frames of actors in a window, and their data."""
     scale = min(-(-(LINES - BELOW - ABOVE + 1) // np.ptp(window[1])), WIDEST / np.ptp(window[0]))
+    beside = max(0, NARROWEST / scale - np.ptp(window[0])) / 2
+    window = ((window[0][0] - beside, window[0][1] + beside), window[1])
     stage = draw_stage(case, sieve, window, scale, caption)
     font = ImageFont.truetype(font_manager.findfont("DejaVu Sans"), 30)
 

@@ -10,7 +10,6 @@
 #include "inletFlux.H"
 #include "narrowestGaps.H"
 #include "surfaceFields.H"
-#include "Time.H"
 #include "volFields.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -147,7 +146,7 @@ void Foam::reportSize
 void Foam::reportCapture
 (
     const fvMesh& mesh,
-    const Time& clock,
+    const scalar deltaT,
     const domainImages& images,
     const scalar width,
     const captureCriterion& criterion
@@ -155,8 +154,6 @@ void Foam::reportCapture
 {
     reportSieves(mesh, criterion, images, width);
 
-    const scalar deltaT = clock.deltaTValue();
-    const scalar end = clock.endTime().value();
     const scalar holdTime = criterion.holdTime();
 
     if (deltaT > holdTime)
@@ -164,12 +161,6 @@ void Foam::reportCapture
         Warning
             << "deltaT " << deltaT << " s is longer than holdTime " << holdTime
             << " s: cells are judged once a deltaT" << nl << endl;
-    }
-    if (holdTime > end)
-    {
-        Warning
-            << "holdTime " << holdTime << " s is longer than the run: no cell"
-            << " can be caught until " << end << " s" << nl << endl;
     }
 }
 

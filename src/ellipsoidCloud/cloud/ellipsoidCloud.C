@@ -235,7 +235,14 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
             {
                 reportSize(whole.nCells(), whole.bounds(), population_);
             }
-            reportCapture(whole, mesh.time(), images, width, criterion_);
+            reportCapture
+            (
+                whole,
+                mesh.time().deltaTValue(),
+                images,
+                width,
+                criterion_
+            );
         }
     }
     reportApertures(false);

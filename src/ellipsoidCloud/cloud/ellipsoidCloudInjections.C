@@ -111,12 +111,21 @@ void Foam::ellipsoidCloud::reportCells(const scalar inflow) const
 {
     const scalarList all(entries(-VGREAT, VGREAT));
     const scalar end = mesh_.time().endTime().value();
+    const scalarList now(entries(time_, end));
 
     Info<< "ellipsoidCloud: " << all.size() << " cells to enter by "
         << flatOutput(properties_.subDict("injection").toc()) << nl
-        << "case: " << entries(time_, end).size()
-        << " cells enter in the run from " << time_ << " to " << end << " s"
-        << endl;
+        << "case: " << now.size() << " cells enter in the run from " << time_
+        << " to " << end << " s" << endl;
+
+    const scalar first = earlier_.found() ? readScalar(firstTime_) : min(now);
+    if (criterion_.holdTime() > end - first)
+    {
+        Warning
+            << "holdTime " << criterion_.holdTime() << " s is longer than from"
+            << " the first cell, at " << first << " s, to the end: no cell can"
+            << " be caught until " << end << " s" << nl << endl;
+    }
 
     // What comes with them, or what is there if they come faster than it leaves
     const scalar there = gSum(mesh_.V().field());
