@@ -13,6 +13,7 @@
 #include "masterGate.H"
 #include "processorCyclicFvPatchField.H"
 #include "PstreamReduceOps.H"
+#include "undecomposedFlow.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -57,26 +58,6 @@ namespace Foam
         }
     }
 
-
-//- End the run if a field is not of the dimensions that the solver has it in
-template<class Field>
-static void checkDimensions
-(
-    const Field& field,
-    const dimensionSet& dimensions,
-    const char* hint
-)
-{
-    if (field.dimensions() != dimensions)
-    {
-        const masterGate once;
-        FatalErrorInFunction
-            << "The dimensions " << field.dimensions() << " of " << field.name()
-            << " are not " << dimensions << hint << nl
-            << "    " << field.objectPath() << exit(FatalError);
-    }
-}
-
 } // End namespace Foam
 
 
@@ -94,19 +75,7 @@ Foam::IOobject Foam::flowFields::fieldIO
 
 void Foam::flowFields::check() const
 {
-    checkDimensions(U_, dimVelocity, ": a velocity in m/s");
-    checkDimensions
-    (
-        p_,
-        sqr(dimVelocity),
-        ": the kinematic pressure, that is, Pa by kg/m3"
-    );
-    checkDimensions
-    (
-        phi_,
-        dimVelocity*dimArea,
-        ": the flux of volume, that is, one of mass by kg/m3"
-    );
+    caseFiles::checkDimensions({U_, p_, phi_});
     checkFinite(U_, mesh_.C(), "mesh cell");
     checkFinite(p_, mesh_.C(), "mesh cell");
     checkFinite(phi_, mesh_.Cf(), "mesh face");

@@ -11,7 +11,9 @@ import os
 import re
 import subprocess
 
-TOKENS = re.compile(r'"[^"]*"|#\{.*?#\}|[{}();]|\[[^\]]*\]|\$\{[^}]*\}|[^\s{}();"]+', re.S)
+# A word, not a number, may have brackets in it that are closed
+WORD = r"""(?![\d.+-])[^\s{}();"]+(?:\([^\s{}();"]*\)[^\s{}();"]*)*|[^\s{}();"]+"""
+TOKENS = re.compile(r'"[^"]*"|#\{.*?#\}|[{}();]|\[[^\]]*\]|\$\{[^}]*\}|' + WORD, re.S)
 HEADER = re.compile(r"\bFoamFile\s*\{[^}]*\}")
 # Directives without which a dictionary has the same entries of our programs
 PASSED_OVER = ("#includeFunc", "#includeEtc", "#inputMode", "#message")

@@ -21,8 +21,9 @@ from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkCleanPolyData, vtkCu
 from vtkmodules.vtkIOParallel import vtkPOpenFOAMReader
 from vtkmodules.vtkParallelCore import vtkDummyController
 
+from ..geometry.foamDictionary import WORD
 from .files import (
-    CaseError, number, number_folders, read_csv, read_dictionary, read_text, without_comments,
+    CaseError, number, number_folders, read_csv, read_dictionary, read_text, spelled, without_comments,
 )
 from .plane import Plane, coincide
 from .shares import PUSHING_DISPERSION, in_words, wilson
@@ -131,7 +132,7 @@ class Case:
             axes = np.empty(0)
         if axes.shape != (3,) or not (axes > 0).all():
             file = self.path("constant", "ellipsoidCloudProperties")
-            raise CaseError(f"{file}: cell/semiAxes are not three positive numbers")
+            raise CaseError(f"{file}: cell/semiAxes are not three positive numbers: {spelled(words)}")
         return axes * MICRO
 
     @cached_property
@@ -190,7 +191,7 @@ class Case:
         """Patch name to type, in the order of the mesh."""
         file = self.path("constant", "polyMesh", "boundary")
         text = without_comments(read_text(file))
-        found = re.findall(r"([^\s(){};]+)\s*\{[^{}]*?\btype\s+(\w+)\s*;", text)
+        found = re.findall(rf"({WORD})\s*\{{[^{{}}]*?\btype\s+(\w+)\s*;", text)
         if not found:
             raise CaseError(f"{file}: no patches found")
         return dict(found)
@@ -316,10 +317,10 @@ class Case:
         conditions = text[text.rfind("boundaryField"):]
         given = {
             name: (0, 0, 0)
-            for name in re.findall(r"([^\s(){};]+)\s*\{\s*type\s+noSlip\s*;", conditions)
+            for name in re.findall(rf"({WORD})\s*\{{\s*type\s+noSlip\s*;", conditions)
         }
         fixed = re.findall(
-            r"([^\s(){};]+)\s*\{\s*type\s+fixedValue\s*;\s*value\s+uniform\s*\(([^)]*)\)",
+            rf"({WORD})\s*\{{\s*type\s+fixedValue\s*;\s*value\s+uniform\s*\(([^)]*)\)",
             conditions,
         )
         for name, words in fixed:

@@ -19,7 +19,7 @@ from ..geometry.foamDictionary import spelled, without_comments  # noqa: F401  (
 def read_text(file):
     """The text of a file, gzipped or not."""
     try:
-        with (gzip.open if file.endswith(".gz") else open)(file, "rt", encoding="latin-1") as f:
+        with (gzip.open if file.endswith(".gz") else open)(file, "rt", encoding="utf-8", errors="replace") as f:
             return f.read()
     except OSError as error:
         raise CaseError(f"{file}: {error.strerror or error}") from None
@@ -66,7 +66,7 @@ def read_csv(file, types):
     """The named columns of a CSV file with a header, as a structured array."""
     if not os.path.isfile(file):
         raise CaseError(f"{file}: not there")
-    with open(file, newline="", encoding="latin-1") as f:
+    with open(file, newline="", encoding="utf-8") as f:
         table = csv.reader(f)
         header = next(table, [])
         missing = [name for name, _ in types if name not in header]

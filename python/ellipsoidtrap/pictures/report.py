@@ -166,7 +166,7 @@ def title_of(case):
     """First line of the case's README, or the name of its folder."""
     file = case.path("README.md")
     if os.path.isfile(file):
-        first = read_text(file).encode("latin-1").decode("utf-8").split("\n", 1)[0]
+        first = read_text(file).split("\n", 1)[0]
         if first.startswith("# "):
             return first[2:]
     return os.path.basename(case.folder)

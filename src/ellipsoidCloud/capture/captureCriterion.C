@@ -159,8 +159,10 @@ Foam::captureCriterion::captureCriterion
             if (!isA<wallPolyPatch>(patches[patchi]))
             {
                 FatalIOErrorInFunction(dict)
-                    << "sieve " << patches[patchi].name()
-                    << " is not a wall" << exit(FatalIOError);
+                    << "sieve " << patches[patchi].name() << " is not a wall"
+                    << nl << "    It is of type " << patches[patchi].type()
+                    << ": name another, or set type wall in"
+                    << " constant/polyMesh/boundary" << exit(FatalIOError);
             }
             if (!sieves_.found(patchi))
             {

@@ -12,7 +12,9 @@
 #include "polyBoundaryMeshEntries.H"
 #include "polyMesh.H"
 #include "PstreamReduceOps.H"
+#include "surfaceFields.H"
 #include "Time.H"
+#include "undecomposedFlow.H"
 #include "volFields.H"
 
 #include <algorithm>
@@ -64,6 +66,25 @@ namespace Foam
                 << path << " is missing"
                 << (Pstream::parRun() ? ", or that of another processor" : "")
                 << nl << "    " << step.c_str() << exit(FatalError);
+        }
+    }
+
+    //- End the run if a field is not of the dimensions that the solver has it in
+    template<class Field>
+    static void needDimensions
+    (
+        const Field& field,
+        const dimensionSet& dimensions,
+        const char* hint
+    )
+    {
+        if (field.dimensions() != dimensions)
+        {
+            const masterGate once;
+            FatalErrorInFunction
+                << "The dimensions " << field.dimensions() << " of "
+                << field.name() << " are not " << dimensions << hint << nl
+                << "    " << field.objectPath() << exit(FatalError);
         }
     }
 
@@ -310,8 +331,9 @@ void Foam::caseFiles::checkCase(const argList& args, const fileNameList& files)
         {
             FatalErrorInFunction
                 << "the case " << whole << " lacks" << missing.c_str() << nl
-                << "    Copy what it lacks from a case that runs, as the"
-                << " tutorial singleSieve, and change it" << exit(FatalError);
+                << "    Copy what it lacks from a tutorial that has it,"
+                << " singleSieve or circularTrap, and change it"
+                << exit(FatalError);
         }
     }
 
@@ -415,4 +437,22 @@ Foam::word Foam::caseFiles::flowInstance(const fvMesh& mesh)
     }
 
     return U.instance();
+}
+
+
+void Foam::caseFiles::checkDimensions(const solverFields& flow)
+{
+    needDimensions(flow.U, dimVelocity, ": a velocity in m/s");
+    needDimensions
+    (
+        flow.p,
+        sqr(dimVelocity),
+        ": the kinematic pressure, that is, Pa by kg/m3"
+    );
+    needDimensions
+    (
+        flow.phi,
+        dimVelocity*dimArea,
+        ": the flux of volume, that is, one of mass by kg/m3"
+    );
 }

@@ -276,6 +276,16 @@ std::string Foam::checkpoint::wayBack(const Time& time)
     }
     if (earlier.empty())
     {
+        if
+        (
+            Pstream::parRun()
+         && !isFile(now/"U") && !isFile(sharedTime(now)/"U")
+        )
+        {
+            return
+                "Run decomposePar -force -time 0,T, by a time T that is whole"
+                " and the 0 of the flow";
+        }
         return
             "Remove " + now.name()/fieldName + " and " + now.name()/stateFile
           + " to begin anew from the flow";

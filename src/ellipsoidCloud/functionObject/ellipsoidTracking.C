@@ -178,12 +178,15 @@ Foam::solverFields Foam::functionObjects::ellipsoidTracking::flow() const
             << " function object" << exit(FatalError);
     }
 
-    return solverFields
+    const solverFields fields
     {
         mesh_.lookupObject<volVectorField>(U_),
         mesh_.lookupObject<volScalarField>(p_),
         mesh_.lookupObject<surfaceScalarField>(phi_)
     };
+    caseFiles::checkDimensions(fields);
+
+    return fields;
 }
 
 
@@ -248,6 +251,10 @@ Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
     // Mistakes are told before the solver takes its time
     if (steady_)
     {
+        if (hasFlow())
+        {
+            flow();
+        }
         check(mesh_);
     }
     else

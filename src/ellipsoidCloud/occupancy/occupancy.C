@@ -247,7 +247,8 @@ Foam::scalar Foam::occupancy::aperture::area(const fvMesh& mesh) const
         FatalError
             << nl << "    Correct min, max and normal"
             << (given ? " or area: " : ": ")
-            << "the box must reach across it, from wall to wall"
+            << "the box must reach across it, from wall to wall, and be a few"
+            << " mesh cells thick"
             << exit(FatalError);
     }
 
