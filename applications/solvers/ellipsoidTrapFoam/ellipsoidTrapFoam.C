@@ -73,7 +73,8 @@ static void lockCase(const argList& args)
             FatalErrorInFunction
                 << "another run of ellipsoidTrapFoam is at work in " << path
                 << nl << "    Both would write the same tables: wait for its"
-                << " end, or copy the case" << exit(FatalError);
+                << " end, or copy the case. One run of mpirun has the option"
+                << " -parallel" << exit(FatalError);
         }
     }
 }
