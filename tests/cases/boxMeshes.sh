@@ -69,16 +69,18 @@ dual()          { mv 0 0.start && polyDualMesh 60 -overwrite > log.polyDualMesh 
 polyhedra()     { hexahedra "$@" && dual; }
 # Of which many faces have five corners and more
 duals()         { tetrahedra "$@" && dual; }
-# Each cube in six, the inner corners moved off their places
-tetrahedra()
+# Each cube in six or, by planes along z, in two, the inner corners moved off their places
+tetrahedra()    { cut_cubes tetrahedra "$@"; }
+prisms()        { cut_cubes prisms "$@"; }
+cut_cubes()     # tetrahedra|prisms CASE N
 {
-    box_mesh "$@" && "${ELLIPSOID_PYTHON:-python3}" - "$2" << 'EOT' && gmshToFoam box.msh > log.gmshToFoam \
+    box_mesh "${@:2}" && "${ELLIPSOID_PYTHON:-python3}" - "$1" "$3" << 'EOT' && gmshToFoam box.msh > log.gmshToFoam \
         && sed -i '/^ *walls$/,/}/s/type .*/type wall;/' constant/polyMesh/boundary
 import itertools
 import math
 import sys
 
-n = int(sys.argv[1])
+n = int(sys.argv[2])
 size = 8e-6, 10e-6, 6e-6
 nodes = list(itertools.product(range(n + 1), repeat=3))
 number = {node: i + 1 for i, node in enumerate(nodes)}
@@ -87,24 +89,70 @@ lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "3", '2 1
 for i, node in enumerate(nodes):
     x = [size[k]*(node[k] + (0.2*math.sin(12.9898*i + 78.233*k) if 0 < node[k] < n else 0))/n for k in range(3)]
     lines.append(f"{i + 1} {x[0]!r} {x[1]!r} {x[2]!r}")
+
+
+def along(corner, axes):
+    """Corners of the cube that are passed along the axes, from one on."""
+    passed = [corner]
+    for axis in axes:
+        passed.append(tuple(c + (k == axis) for k, c in enumerate(passed[-1])))
+    return passed
+
+
+# Right-handed, as gmsh has them: kind, nodes, and which of them are a face
+cells = []
+for corner in itertools.product(range(n), repeat=3):
+    if sys.argv[1] == "prisms":
+        for axes in (0, 1), (1, 0):
+            base = along(corner, axes)[::1 if axes[0] == 0 else -1]
+            cells.append((6, base + [along(x, [2])[1] for x in base],
+                          [(0, 1, 2), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)]))
+        continue
+    for order in itertools.permutations(range(3)):
+        tet = along(corner, order)
+        even = order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
+        cells.append((4, tet if even else [tet[1], tet[0]] + tet[2:], itertools.combinations(range(4), 3)))
 elements = []
 faces = {}
-for corner in itertools.product(range(n), repeat=3):
-    for order in itertools.permutations(range(3)):
-        tet = [corner]
-        for axis in order:
-            tet.append(tuple(c + (k == axis) for k, c in enumerate(tet[-1])))
-        even = order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
-        elements.append("4 2 3 3 " + " ".join(str(number[t]) for t in (tet if even else [tet[1], tet[0]] + tet[2:])))
-        for left in range(4):
-            face = frozenset(tet[:left] + tet[left + 1:])
-            faces[face] = faces.get(face, 0) + 1
-for face, count in faces.items():
-    if count == 1:
-        wall = any(all(t[1] == y for t in face) for y in (0, n))
-        elements.append(f"2 2 {1 if wall else 2} 1 " + " ".join(str(number[t]) for t in sorted(face)))
+for kind, cell, sides in cells:
+    elements.append(f"{kind} 2 3 3 " + " ".join(str(number[x]) for x in cell))
+    for side in sides:
+        face = [cell[k] for k in side]
+        faces.setdefault(frozenset(face), []).append(face)
+for face in (found[0] for found in faces.values() if len(found) == 1):
+    wall = any(all(x[1] == y for x in face) for y in (0, n))
+    elements.append(f"{len(face) - 1} 2 {1 if wall else 2} 1 " + " ".join(str(number[x]) for x in face))
 lines += ["$EndNodes", "$Elements", str(len(elements))]
 lines += [f"{i + 1} {e}" for i, e in enumerate(elements)] + ["$EndElements", ""]
 open("box.msh", "w", encoding="ascii").write("\n".join(lines))
 EOT
+}
+# Cells of the same box cut about a sphere, as fine again inside, and moved to its surface
+snapped()
+{
+    hexahedra "$@" && {
+        dictionary_head snappyHexMeshDict
+        cat << 'EOT'
+castellatedMesh true; snap true; addLayers false;
+geometry { ball { type searchableSphere; centre (5.3e-6 3.6e-6 3e-6); radius 1.7e-6; } }
+castellatedMeshControls
+{
+    maxLocalCells 4000000; maxGlobalCells 8000000; minRefinementCells 0; nCellsBetweenLevels 2;
+    resolveFeatureAngle 30; allowFreeStandingZoneFaces true; locationInMesh (0.711e-6 9.613e-6 0.931e-6);
+    features (); refinementRegions {}
+    refinementSurfaces { ball { level (1 1); faceZone ball; cellZone ball; cellZoneInside inside; } }
+}
+snapControls { nSmoothPatch 3; tolerance 2; nSolveIter 30; nRelaxIter 5; }
+addLayersControls
+{
+    relativeSizes true; layers {} expansionRatio 1; finalLayerThickness 0.5; minThickness 0.1; nGrow 0;
+    featureAngle 60; nRelaxIter 3; nSmoothSurfaceNormals 1; nSmoothNormals 3; nSmoothThickness 10;
+    maxFaceThicknessRatio 0.5; maxThicknessToMedialRatio 0.3; minMedianAxisAngle 90;
+    nBufferCellsNoExtrude 0; nLayerIter 50;
+}
+meshQualityControls { #includeEtc "caseDicts/meshQualityDict" nSmoothScale 4; errorReduction 0.75; minVol 1e-30; }
+mergeTolerance 1e-6;
+EOT
+    } > system/snappyHexMeshDict && mv 0 0.start && snappyHexMesh -overwrite > log.snappyHexMesh \
+        && rm -rf 0 && mv 0.start 0
 }

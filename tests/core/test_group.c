@@ -250,7 +250,7 @@ static void test_jacobian(void **unused)
 }
 
 /* Stages solve (I/(gamma h) - J) k = r with J of all 26 unknowns. Of the terms
-   that cancel in a row 1e-9 may be left, as for a wall (test_rosenbrock.c). */
+   that cancel in a row 1e-9 may be left, as for a wall (test_rosenbrockSteps.c). */
 static void test_coupled_system(void **unused)
 {
     const ellipsoid_options o = touching_cell();

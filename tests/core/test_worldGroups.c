@@ -191,7 +191,41 @@ static void test_room(void **state)
     }
 }
 
-/* A group of which cells enter later is cut when the first of them does */
+/* Of three that would enter, one on the other, the second has no room, so that
+   the third has */
+static void test_room_in_a_row(void **state)
+{
+    const double gap[3] = {0, -0.01, -0.01};
+    road r = row_of(3, gap);
+
+    (void)state;
+    for (int n = 0; n < 3; n++)
+    {
+        r.cell[n].phase = ELLIPSOID_WAITING;
+    }
+    run(&r, 3);
+    assert_int_equal(r.cell[0].phase, ELLIPSOID_PRESENT);
+    assert_int_equal(r.cell[1].phase, ELLIPSOID_WAITING);
+    assert_int_equal(r.cell[2].phase, ELLIPSOID_PRESENT);
+}
+
+/* One that finds no room between two others does not make them a group */
+static void test_no_bond_by_one_that_waits(void **state)
+{
+    const double gap[3] = {0, 0, 0};
+    road r = row_of(3, gap);
+
+    (void)state;
+    r.cell[1].state.x[0] = 3.99 * radius;
+    r.cell[2].phase = ELLIPSOID_WAITING;
+    r.cell[2].state.x[0] = 0.5 * r.cell[1].state.x[0];
+    run(&r, 3);
+    assert_int_equal(r.cell[2].phase, ELLIPSOID_WAITING);
+    assert_int_equal(r.calls, 2);
+    assert_int_equal(r.count[0], 1);
+}
+
+/* A group of which cells enter later is cut whenever one of them does */
 static void test_entries(void **state)
 {
     (void)state;
@@ -199,7 +233,7 @@ static void test_entries(void **state)
     {
         const double gap[3] = {0, 0.1, 0.1};
         road r = row_of(3, gap);
-        int first = 0;
+        int first = 0, second = 0;
 
         for (int n = 1; n < 3; n++)
         {
@@ -216,6 +250,11 @@ static void test_entries(void **state)
         }
         assert_int_equal(first, 3);
         assert_true(r.end[first] == 0.25);
+        while (second < r.calls && r.end[second] != 0.75)
+        {
+            second++;
+        }
+        assert_true(second > first && second < r.calls);
         assert_int_equal(r.count[r.calls - 1], 3);
         assert_true(r.end[r.calls - 1] == 1);
     }
@@ -224,9 +263,14 @@ static void test_entries(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_gap),    cmocka_unit_test(test_fixed),
-        cmocka_unit_test(test_travel), cmocka_unit_test(test_travel_of_a_chain),
-        cmocka_unit_test(test_room),   cmocka_unit_test(test_entries),
+        cmocka_unit_test(test_gap),
+        cmocka_unit_test(test_fixed),
+        cmocka_unit_test(test_travel),
+        cmocka_unit_test(test_travel_of_a_chain),
+        cmocka_unit_test(test_room),
+        cmocka_unit_test(test_room_in_a_row),
+        cmocka_unit_test(test_no_bond_by_one_that_waits),
+        cmocka_unit_test(test_entries),
     };
 
     return cmocka_run_group_tests_name("worldGroups", tests, NULL, NULL);
