@@ -230,13 +230,13 @@ bool Foam::coupledStokes::isSteady()
     const volScalarField p(p_);
     const surfaceScalarField phi(phi_);
 
+    criterion_->restart();
     iterate(momentum_(), false);
     const bool steady = criterion_->sound() && criterion_->reachedBefore();
 
     U_ == U;
     p_ == p;
     phi_ == phi;
-    criterion_->restart();
 
     return steady;
 }

@@ -2,8 +2,8 @@
    Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
 /*
-    test_ellipsoidContact.c - the walls' force on the ellipsoid itself: against the force
-    on a bead where it is a sphere, and against geometry.
+    test_ellipsoidContact.c - the walls' force on the ellipsoid itself: against
+    that on a bead where it is a sphere, and against geometry.
 */
 #include "exactContactTest.h"
 #include "contact/contact.h"

@@ -70,12 +70,18 @@ namespace Foam
             {
                 cell.fate = cellState::caught;
             }
+            return stillHeld(pulls) == cells.size();
+        }
+
+        //- How many are held after those that are caught are pulled like this
+        label stillHeld(const List<heldWrench>& pulls)
+        {
             events.clear();
             held.update(cells, events);
             held.take(pulls, cells);
             held.letGo(cells, true, events);
 
-            return held.held().size() == cells.size();
+            return held.held().size();
         }
 
         bool stays(const heldWrench& pull)
@@ -141,6 +147,9 @@ namespace Foam
         holding afterRestart(at, cell, pulled.notes());
         holds("a restart knows it", afterRestart.staysAt(3.2));
 
+        holding barely(at, cell);
+        holds("hardly more than a slow one is enough", !barely.staysAt(1.008));
+
         // Off the place where it was let go
         pulled.cells[0].body.x[1] += 0.06e-6;
         holds("elsewhere it has withstood nothing", !pulled.staysAt(2.3));
@@ -183,6 +192,36 @@ namespace Foam
         (
             "but then it is",
             two.events.size() == 1 && two.events[0].cell.id == 3
+        );
+    }
+
+    //- A cell that is held, and another beside it that is not
+    static void checkBeside(const layer& still)
+    {
+        const layer at(still.mesh, vector(1e-5, 0, 0));
+        const cellState cell(at.cellAt(point(10e-6, 10e-6, 5e-6), 3));
+        const auto isLeft =
+            [&](const scalar distance, const cellState::fateType fate)
+            {
+                holding one(at, cell);
+                one.cells.append(at.cellAt(cell.centre(), 4));
+                one.cells[0].fate = cellState::caught;
+                one.cells[1].fate = fate;
+                one.cells[1].body.x[0] -= distance;
+                return one.stillHeld({one.pullOf(0)}) == 1;
+            };
+
+        holds
+        (
+            "one that comes to it, later than in the first part of a trial,"
+            " pushes it off",
+            !isLeft(1.1e-6, cellState::inFlight)
+        );
+        holds("one farther off does not", isLeft(1.2e-6, cellState::inFlight));
+        holds
+        (
+            "nor does one that waits to enter there",
+            isLeft(0.9e-6, cellState::waiting)
         );
     }
 
@@ -351,6 +390,7 @@ void Foam::checkHeld(const layer& at)
 {
     checkPulls(at);
     checkTwo(at);
+    checkBeside(at);
     checkTorques(at);
     checkNotes(at);
     checkState(at);

@@ -143,6 +143,7 @@ namespace Foam
         holds("an interval has its start and not its end", cells.empty());
         listed->append(3.5, 4, cells);
         bool each = cells.size() == 3;
+        bool starts = each;
         const scalar lengths[] = {4e-6, 5e-6, 3e-6};
         const scalar quaternions[] = {1, 0.8, 0};
         forAll(cells, i)
@@ -152,8 +153,16 @@ namespace Foam
              && mag(cell.body.x[0] - (10e-6 + 2e-6*i)) < 1e-15
              && cell.size.length == lengths[i] && cell.size.density == 1001 + i
              && mag(cell.body.q[3] - quaternions[i]) < 1e-12;
+            starts = starts
+             && mag(pointOf(cell.body.u) - vector(1e-3, 2e-3, -1e-3)) < 1e-12
+             && cell.nextRow < -1e12;
         }
         holds("each cell of a list has what stands with it", each);
+        holds
+        (
+            "each enters as fast as the flow, at any time with a row",
+            starts
+        );
     }
 }
 

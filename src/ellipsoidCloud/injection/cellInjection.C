@@ -331,6 +331,7 @@ void Foam::cellInjection::wait
 {
     cell.time = time;
     cell.planned = time;
+    cell.nextRow = -GREAT;
     cell.fate = cellState::waiting;
     cell.patch = -1;
 

@@ -239,8 +239,6 @@ void Foam::groupAdvance::enter
         cellSweep& cell = cells[group[i]];
         const label id = cell.state.id;
 
-        // Also one that entered in an earlier part of the interval
-        const bool entering = !(cell.state.nextRow > 0);
         if (cell.state.fate == cellState::waiting)
         {
             cell.state.fate = cellState::inFlight;
@@ -252,8 +250,8 @@ void Foam::groupAdvance::enter
         }
 
         // What unfolds the way follows from all steps
-        const bool all = entering || !domain_.flow.images().empty();
-        const scalar nextRow = all ? -GREAT : cell.state.nextRow;
+        const scalar nextRow =
+            domain_.flow.images().empty() ? cell.state.nextRow : -GREAT;
 
         const ellipsoid_model& model = population_.model(id);
         const bool isTried = tried && id == tried->cell;

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
+
+/*---------------------------------------------------------------------------*\
+Description
+    What happens at the ends of the domain: a plane of symmetry, x = 20 um, and
+    open patches at both ends of y.
+
+\*---------------------------------------------------------------------------*/
+
+#include "inletFlux.H"
+#include "layerParts.H"
+#include "patchInflow.H"
+#include "wildFields.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- A cell that slides on the floor through the plane of symmetry in its
+    //  last step: friction is against its motion, as that is in the image
+    static void checkMirror(const layer& at)
+    {
+        struct seen : public contactObserver
+        {
+            mutable vector force;
+            mutable vector moved;
+
+            virtual void ended
+            (
+                cellSweep& cell, const ellipsoid_contact& contact,
+                const point& from, const scalar, const ellipsoid_model&,
+                const cellDomain&
+            ) const
+            {
+                force = pointOf(contact.force);
+                moved = cell.state.centre() - from;
+            }
+        } observer;
+
+        cellState cell(at.cellAt(point(20e-6 - 0.83e-10, 10e-6, 0.499e-6)));
+        cell.body.u[0] = 1e-3;
+        cell.controller.step = 1e-7;
+        List<cellState> cells(1, cell);
+        groupScheduler scheduler(at.population, at.domain, nullptr, &observer);
+        const List<cellSweep> moved(scheduler.advanceInterval(cells, 0, 1e-7));
+
+        OStringStream os;
+        os << moved[0].state.centre() << ' ' << moved[0].state.unfolded()
+            << ' ' << observer.force << ' ' << observer.moved;
+        holds
+        (
+            "a cell passes a plane of symmetry",
+            moved[0].state.unfolded().x() > 20e-6
+         && moved[0].state.centre().x() < 20e-6,
+            os.str()
+        );
+        holds
+        (
+            "what a wall does to it is mirrored with it",
+            observer.force.z() > 0 && observer.force.x()*observer.moved.x() < 0,
+            os.str()
+        );
+    }
+
+    //- When and where a cell leaves; it starts at rest, and so is late by its
+    //  relaxation time, 1.4e-7 s
+    static void checkLeaving(const layer& at)
+    {
+        const point x(10e-6, 19.7e-6, 5e-6);
+        const cellState cell(at.cellAt(x));
+        List<cellState> cells(1, cell);
+        groupScheduler scheduler(at.population, at.domain, nullptr, nullptr);
+        const List<cellSweep> moved(scheduler.advanceInterval(cells, 0, 1e-3));
+        const cellState& gone = moved[0].state;
+
+        OStringStream os;
+        os << gone.time << ' ' << gone.centre();
+        holds
+        (
+            "a cell leaves when its centre passes an open patch",
+            gone.fate == cellState::escaped && mag(gone.time - 1.5e-4) < 2e-7
+         && mag(gone.centre().y() - 20e-6) < 1e-12
+         && gone.patch == at.mesh.boundaryMesh().findPatchID("back"),
+            os.str()
+        );
+    }
+
+    //- What flows out through a part of an inlet carries no cell in, and is no
+    //  inflow
+    static void checkInlet(const fvMesh& mesh)
+    {
+        // At y = 0 from -3 to 5 mm/s across x, 1 mm/s on average
+        const tensor gradient(0, 0, 0, 400, 0, 0, 0, 0, 0);
+        const layer at(mesh, vector(0, 1e-3, 0), gradient);
+        const volVectorField& U = at.undecomposed.U();
+        const inletFlux through(U, at.undecomposed.phi());
+
+        OStringStream os;
+        os << through.inflow << ' ' << through.speed;
+        holds
+        (
+            "what comes in is what comes in more than goes out",
+            mag(through.inflow/2e-13 - 1) < 1e-9
+         && mag(through.speed/1e-3 - 1) < 1e-9,
+            os.str()
+        );
+
+        // Each face is two triangles
+        const label front = mesh.boundaryMesh().findPatchID("front");
+        const patchInflow inflow
+        (
+            entries("patch front;"), at.undecomposed, false
+        );
+        scalar in = 0;
+        bool alike = inflow.upTo.size() == inflow.corners.size()/3;
+        forAll(inflow.upTo, i)
+        {
+            const point* x = &inflow.corners[3*i];
+            const scalar speed = U.boundaryField()[front][i/2].y();
+            in +=
+                0.5*mag((x[1] - x[0]) ^ (x[2] - x[0]))*max(speed, scalar(0));
+            alike = alike && mag(inflow.upTo[i] - in) < 1e-9*2e-13;
+        }
+        os.rewind();
+        os << inflow.upTo;
+        holds("where it goes out no cell comes in", alike, os.str());
+    }
+
+    //- What is sampled somewhere: seven vectors and tensors, and what of their
+    //  derivatives by place is told
+    struct sampled
+    {
+        flowSample flow;
+        vector field;
+        tensor fieldDerivatives;
+
+        sampled
+        (
+            const meshFlow& of,
+            meshFlow::probe from,
+            const point& x,
+            const scalar t
+        )
+        {
+            tetCoordinates c;
+            if (!of.reach(x, from, c))
+            {
+                FatalErrorInFunction << x << " is not reached" << exit(FatalError);
+            }
+            of.sample(t, c, true, flow);
+            field = of.field(c, &fieldDerivatives);
+
+            // The velocity alone is the same
+            tensor derivatives;
+            const vector u(of.velocity(t, c, &derivatives));
+            if
+            (
+                !same(u, flow.velocity)
+             || mag(derivatives - flow.derivatives) > 1e-12*mag(derivatives)
+            )
+            {
+                flow.velocity = Zero;
+            }
+        }
+
+        //- Change along an axis, as told
+        sampled along(const direction k) const
+        {
+            sampled d(*this);
+            vector unit(Zero);
+            unit[k] = 1;
+            d.flow.velocity = flow.derivatives & unit;
+            d.flow.acceleration = flow.accelerationDerivatives & unit;
+            d.flow.pressureGradient = flow.pressureDerivatives & unit;
+            d.field = fieldDerivatives & unit;
+            for (direction ij = 0; ij < 9; ++ij)
+            {
+                d.flow.gradient[ij] = flow.gradientDerivatives[3*ij + k];
+            }
+            return d;
+        }
+
+        //- As seen in a mirror
+        sampled in(const tensor& T) const
+        {
+            sampled d(*this);
+            d.flow.velocity = T & flow.velocity;
+            d.flow.acceleration = T & flow.acceleration;
+            d.flow.pressureGradient = T & flow.pressureGradient;
+            d.flow.gradient = T & flow.gradient & T;
+            d.field = T & field;
+            return d;
+        }
+
+        //- (This less another)/h
+        sampled less(const sampled& other, const scalar h) const
+        {
+            sampled d(*this);
+            d.flow.velocity = (flow.velocity - other.flow.velocity)/h;
+            d.flow.acceleration =
+                (flow.acceleration - other.flow.acceleration)/h;
+            d.flow.pressureGradient =
+                (flow.pressureGradient - other.flow.pressureGradient)/h;
+            d.flow.gradient = (flow.gradient - other.flow.gradient)/h;
+            d.field = (field - other.field)/h;
+            return d;
+        }
+
+        bool is(const sampled& other, const scalar tolerance) const
+        {
+            const sampled d(less(other, 1));
+            return
+                mag(d.flow.velocity) < tolerance*mag(flow.velocity)
+             && mag(d.flow.acceleration) < tolerance*mag(flow.acceleration)
+             && mag(d.flow.pressureGradient)
+              < tolerance*mag(flow.pressureGradient)
+             && mag(d.flow.gradient) < tolerance*mag(flow.gradient)
+             && mag(d.field) < tolerance*mag(field);
+        }
+    };
+
+    //- Derivatives are what differences say, on both sides of the plane of
+    //  symmetry, and there all is the mirror image
+    static void checkSamples(const fvMesh& mesh)
+    {
+        const point inside(19.62e-6, 10.31e-6, 4.73e-6);
+        const isometry mirror(isometry::mirror(point(20e-6, 0, 0), {1, 0, 0}));
+        const scalar h = 1e-11, t = 0.7;
+        wildFields fields(mesh);
+        bool differences = true, rates = true, images = true;
+
+        for (const auto scheme : {meshFlow::stCellPoint, meshFlow::stDivergenceFree})
+        {
+            fields.change();
+            meshFlow flow
+            (
+                fields.whole, scheme, labelHashSet(), fields.ofE, true, true
+            );
+            flow.renew(fields.whole, 1000);
+            fields.change();
+            flow.advance(fields.whole, 1000, 0, 2);
+
+            meshFlow::probe at;
+            flow.find(inside, at);
+            const sampled own(flow, at, inside, t);
+            images = images
+             && sampled(flow, at, mirror(inside), t).is
+                (
+                    own.in(mirror.turn()), 1e-11
+                );
+
+            for (const point& x : {inside, mirror(inside)})
+            {
+                const sampled here(flow, at, x, t);
+                for (direction k = 0; k < 3; ++k)
+                {
+                    vector step(Zero);
+                    step[k] = h;
+                    const sampled a(flow, at, x - step, t);
+                    const sampled b(flow, at, x + step, t);
+                    differences =
+                        differences && b.less(a, 2*h).is(here.along(k), 1e-5);
+                }
+                const sampled a(flow, at, x, t - 0.1);
+                const sampled b(flow, at, x, t + 0.1);
+                const sampled rate(b.less(a, 0.2));
+                rates = rates
+                 && mag(rate.flow.velocity - here.flow.acceleration)
+                  < 1e-9*mag(here.flow.acceleration)
+                 && mag(rate.flow.gradient) > 0
+                 && mag(rate.flow.pressureGradient) > 0;
+            }
+        }
+        holds("derivatives by place are differences of what is sampled", differences);
+        holds("and by time, in a flow that changes", rates);
+        holds("beyond a plane of symmetry all is the mirror image", images);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Shared Functions  * * * * * * * * * * * * * //
+
+void Foam::checkBoundaries(const fvMesh& mesh)
+{
+    const layer at(mesh, vector(1e-3, 2e-3, -1e-3));
+
+    checkMirror(at);
+    checkLeaving(at);
+    if (!Pstream::parRun())
+    {
+        checkInlet(mesh);
+        checkSamples(mesh);
+        checkForces(mesh);
+    }
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the ellipsoidTrapFoam authors
+
+/*---------------------------------------------------------------------------*\
+Description
+    What captureStatistics makes of events.
+
+\*---------------------------------------------------------------------------*/
+
+#include "atomicWrite.H"
+#include "captureStatistics.H"
+#include "layerParts.H"
+#include "stringOps.H"
+
+// * * * * * * * * * * * * * * * Shared Functions  * * * * * * * * * * * * * //
+
+void Foam::checkStatistics(const layer& at)
+{
+    const polyBoundaryMesh& patches = at.mesh.boundaryMesh();
+    const label post = patches.findPatchID("post");
+    const label plates = patches.findPatchID("plates");
+    const tableSet set
+    {
+        patches.names(), at.population, at.mesh.time().path()/"statistics",
+        false, dictionary(), []() { return ""; }, 0.1
+    };
+    captureStatistics statistics(set, labelList({post, plates}));
+    statistics.log.open();
+
+    // Half as wide, so that its beads are, too
+    cellState cell(at.cellAt(point(10e-6, 10e-6, 5e-6), 7));
+    cell.size.width *= 0.5;
+    DynamicList<cellEvent> events;
+    const auto tell = [&]
+    (
+        const char* type, const cellState::fateType fate, const label patchi,
+        const scalar time
+    )
+    {
+        cell.fate = fate;
+        cell.patch = patchi;
+        cell.time = time;
+        events.append(cellEvent{type, cell});
+    };
+    tell("waiting", cellState::waiting, -1, 0.25);
+    tell("injected", cellState::inFlight, -1, 0.5);
+    tell("caught", cellState::caught, post, 1);
+    tell("released", cellState::inFlight, -1, 2);
+    tell("caught", cellState::caught, plates, 3);
+    statistics.add(std::move(events));
+
+    cell.time = 4;
+    cell.deepest = 1e-9;
+    cell.imbalance = 0.02;
+    OStringStream os;
+    statistics.finish(List<cellState>(1, cell), os);
+
+    // By the names of columns
+    const std::string table(textOf(set.folder/"cells.csv"));
+    const auto lines(stringOps::split(table, '\n'));
+    const auto names(stringOps::split(lines[0].str(), ','));
+    const auto fields(stringOps::split(lines[1].str(), ','));
+    const auto is = [&](const char* name, const char* text)
+    {
+        for (std::size_t i = 0; i < names.size(); ++i)
+        {
+            if (names[i].str() == name)
+            {
+                return fields[i].str() == text;
+            }
+        }
+        return false;
+    };
+    holds
+    (
+        "a cell is caught first where it was first, and last where it is",
+        is("firstSieve", "post") && is("tFirstCatch", "1")
+     && is("patch", "plates"),
+        table
+    );
+    holds("its fate is of when it came to it", is("tFate", "3"), table);
+
+    const auto says = [&](const std::string& text)
+    {
+        return os.str().find(text) != std::string::npos;
+    };
+    const scalar part =
+        100*1e-9/(0.5*at.population.median().options.bead_radius);
+    OStringStream percent;
+    percent << part << " % of its radius";
+    holds
+    (
+        "overlaps are parts of the cell's own beads",
+        says(percent.str()),
+        os.str()
+    );
+    holds
+    (
+        "what pulls by more than 1 % is not balanced",
+        says("held: 0 of 1 caught cells balanced to 1 %, worst 2 % (cell 7)"),
+        os.str()
+    );
+    holds
+    (
+        "and how long cells waited to enter is told",
+        says("waited to enter: 1 cells, 0.25 s in all"),
+        os.str()
+    );
+}
