@@ -8,9 +8,13 @@ Description
 
 \*---------------------------------------------------------------------------*/
 
+#include "baffleSides.H"
 #include "inletFlux.H"
 #include "layerParts.H"
 #include "patchInflow.H"
+#include "pointImages.H"
+#include "vertexFit.H"
+#include "wallsAtVertices.H"
 #include "wildFields.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -276,6 +280,57 @@ namespace Foam
         holds("and by time, in a flow that changes", rates);
         holds("beyond a plane of symmetry all is the mirror image", images);
     }
+
+    //- Of a flow that is quadratic mesh cells have the mean: what is fitted to
+    //  them is the flow itself
+    static void checkFit(const fvMesh& mesh)
+    {
+        const scalar width = 2e-6, k = 2e7;
+        volVectorField U
+        (
+            wildFields::named("quadratic", mesh),
+            mesh,
+            dimensionedVector(dimVelocity)
+        );
+        const auto mean = [&](const point& x)
+        {
+            return vector(0.5*k*(sqr(x.y()) + sqr(width)/12), 0, 0);
+        };
+        forAll(U, celli)
+        {
+            U[celli] = mean(mesh.C()[celli]);
+        }
+        for (fvPatchVectorField& Up : U.boundaryFieldRef())
+        {
+            forAll(Up, i)
+            {
+                Up[i] = mean(Up.patch().Cf()[i]);
+            }
+        }
+
+        const point centre(15e-6, 13e-6, 6.25e-6);
+        const baffleSides baffles(mesh);
+        const quadratic fit
+        (
+            cellFits
+            (
+                U, baffles,
+                pointImages(mesh, domainImages(mesh, labelHashSet())),
+                wallsAtVertices(U, baffles)
+            )[mesh.findCell(centre)]
+        );
+        const scalar y = centre.y();
+        OStringStream os;
+        os << fit.value << fit.gradient << fit.curvature[0];
+        holds
+        (
+            "what is fitted to means is the flow that they are of",
+            mag(fit.value.x() - 0.5*k*sqr(y)) < 1e-9*k*sqr(y)
+         && mag(fit.gradient.xy() - k*y) < 1e-9*k*y
+         && mag(fit.curvature[0].yy() - k) < 1e-6*k,
+            os.str()
+        );
+    }
 }
 
 
@@ -291,6 +346,7 @@ void Foam::checkBoundaries(const fvMesh& mesh)
     {
         checkInlet(mesh);
         checkSamples(mesh);
+        checkFit(mesh);
         checkForces(mesh);
     }
 }
