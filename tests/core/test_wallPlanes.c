@@ -230,8 +230,7 @@ static void test_round_wall(void **unused)
         "Reynolds' equation, S^3/(R1 + R2) of the reduced radii",
         "A",
         "15 %: terms of lower order are left out there, and here it is a sum "
-        "of "
-        "planes",
+        "of planes",
         0};
     const double radius = 1e-6, gap = 0.06e-6;
     const double x[3] = {0, 0, radius + gap}, q[4] = {0, 0, 0, 1};
