@@ -23,8 +23,8 @@ from sideBySideCases import OursCase, StockCase, first_cells
 
 # Errors are those of the position so long after cells have entered [s]
 FLIGHT = 0.03
-# Ours: name, interpolation, motion, the tolerance in use. The first is the default; the velocity of the
-# stock tool between mesh points is that of cellPoint
+# Ours: name, interpolation, motion, the tolerance where it does not vary. But for that the first is the
+# default; the velocity of the stock tool between mesh points is that of cellPoint
 WAYS = (
     ("thirteen equations, `divergenceFree`", "divergenceFree", "inertial", "1e-5"),
     ("thirteen equations, `cellPoint`", "cellPoint", "inertial", "1e-5"),
