@@ -66,7 +66,7 @@ def read_csv(file, types):
     """The named columns of a CSV file with a header, as a structured array."""
     if not os.path.isfile(file):
         raise CaseError(f"{file}: not there")
-    with open(file, newline="", encoding="utf-8") as f:
+    with open(file, newline="", encoding="utf-8", errors="replace") as f:
         table = csv.reader(f)
         header = next(table, [])
         missing = [name for name, _ in types if name not in header]
