@@ -180,9 +180,13 @@ void Foam::atomicWrite
     const fileName part(partOf(file));
 
     mkDir(file.path());
+    errno = 0;
     std::ofstream os(part);
-    write(os);
-    os.close();
+    if (os)
+    {
+        write(os);
+        os.close();
+    }
 
     if (!os)
     {

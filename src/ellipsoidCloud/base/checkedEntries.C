@@ -7,6 +7,7 @@
 #include "foamVersions.H"
 #include "IFstream.H"
 #include "masterGate.H"
+#include "OSspecific.H"
 #include "regExp.H"
 
 #include <functional>

@@ -113,7 +113,10 @@ namespace Foam
             rules[] =
             {
                 {"startFace", start, ", after the faces that come before"},
-                {"nFaces", end - start, ", up to the next patch or the last face"},
+                {
+                    "nFaces", max(end - start, label(0)),
+                    ", up to the next patch or the last face"
+                },
                 {
                     "myProcNo", Pstream::myProcNo(),
                     ". The folder is another processor's: put it back, or"

@@ -283,8 +283,8 @@ std::string Foam::checkpoint::wayBack(const Time& time)
         )
         {
             return
-                "Run decomposePar -force -time 0,T, by a time T that is whole"
-                " and the 0 of the flow";
+                "Run decomposePar -force -time 0,T, T a time that is whole: the"
+                " flow is in 0";
         }
         return
             "Remove " + now.name()/fieldName + " and " + now.name()/stateFile

@@ -139,11 +139,7 @@ void Foam::ellipsoidCloud::checkImages(const domainImages& images) const
 {
     for (const domainImages::seam& seam : images.seams())
     {
-        if
-        (
-            !seam.mirrors()
-         && blocking_.active
-        )
+        if (!seam.mirrors() && blocking_.active)
         {
             const word& name = mesh_.boundaryMesh()[seam.patch].name();
 

@@ -14,6 +14,7 @@ Description
 #include "masterGate.H"
 #include "atomicWrite.H"
 #include "cpuTime.H"
+#include "fvMesh.H"
 #include "memInfo.H"
 #include "StringStream.H"
 

@@ -18,8 +18,8 @@ const Foam::Enum<Foam::occupancy::flowType> Foam::occupancy::flowNames
 
 namespace Foam
 {
-    //- What a state calls the ids of a map, and so many vectors of each value,
-    //  which are its first
+    //- The entries of a state that keep a map: its ids, and of each value the
+    //  vectors with which it begins, so many
     struct mapNotes
     {
         const char* ids;

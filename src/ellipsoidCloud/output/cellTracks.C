@@ -56,7 +56,8 @@ namespace Foam
     }
 
     //- Write the numbers of the rows in that order, a part at a time: all would
-    //  take more memory than the cells
+    //  take more memory than the cells. Each part reads the file again, so that
+    //  of a long one there are no more than some sixteen
     static void writeInLines
     (
         std::ostream& os,
@@ -66,7 +67,7 @@ namespace Foam
     )
     {
         const label nPoints = ends.size() ? ends.last() : 0;
-        labelList part(min(nPoints, label(1 << 20)));
+        labelList part(min(nPoints, max(label(1 << 20), nPoints/16)));
 
         for (label first = 0; first < nPoints; first += part.size())
         {
