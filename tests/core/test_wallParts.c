@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+   Copyright (C) 2026 the ellipsoidTrapFoam authors */
+
+/*
+    test_wallParts.c - what part of its plane a wall counts by: however it is cut,
+    where it ends, where it bends.
+*/
+#include "wallResistanceTest.h"
+#include "drag/drag.h"
+
+/* However the wall is cut; what rounding leaves. */
+static void test_cuts(void **unused)
+{
+    const ellipsoid_options o = near_walls();
+    const ellipsoid_model model = test_model(&o);
+    wall_mesh whole, cut;
+    uint64_t seed = 22;
+
+    (void)unused;
+    wall_mesh_init(&whole);
+    wall_mesh_init(&cut);
+    add_floor(&whole, 0, 1, 1);
+    add_floor(&cut, 0, 40, 37);
+    wall_mesh_finish(&whole);
+    wall_mesh_finish(&cut);
+    for (int n = 0; n < 200; n++)
+    {
+        /* some right above vertices and edges */
+        const double step[2] = {1e-4 / 40, 1e-4 / 37};
+        double x[3] = {0, -5e-5 + 18 * step[1], 3e-6}, q[4];
+        double a[6][6], b[6][6];
+
+        if (n % 4 > 0)
+        {
+            x[0] = 1e-6 * test_signed(&seed);
+        }
+        if (n % 4 > 1)
+        {
+            x[1] = 1e-6 * test_signed(&seed);
+        }
+        x[2] = 1e-6 + 6e-6 * test_uniform(&seed);
+        test_orientation(&seed, q);
+        ellipsoid_facet_cache_clear(&cache);
+        lab_resistance(&model, &whole, x, q, a);
+        ellipsoid_facet_cache_clear(&cache);
+        lab_resistance(&model, &cut, x, q, b);
+        assert_true(difference(a, b) < 1e-11);
+    }
+    wall_mesh_free(&whole);
+    wall_mesh_free(&cut);
+}
+
+/*
+    A sphere whose nearest point is beside the rim of a half-plane, inside it by
+    so many widths sqrt(2 g R) of squeezing: how much of it is left, beside what
+    Reynolds' equation gives, solved by differences in 121 x 121 points.
+*/
+static void test_wall_that_ends(void **unused)
+{
+    static const double known[][2] = {{-1, 0.055},  {-0.5, 0.127}, {0, 0.289},
+                                      {0.5, 0.529}, {1, 0.725},    {2.5, 0.94}};
+    const double radius = 0.5e-6, gap = 0.05e-6;
+    const double corner[3] = {0, -5e-5, 0}, along[3] = {5e-5, 0, 0},
+                 across[3] = {0, 1e-4, 0};
+    ellipsoid_options o = near_walls();
+    ellipsoid_model model;
+    wall_mesh mesh;
+
+    (void)unused;
+    ellipsoid_set(o.semi_axes, radius, radius, radius);
+    model = test_model(&o);
+    wall_mesh_init(&mesh);
+    wall_mesh_plane(&mesh, corner, along, across, 1, 1, 0, 0);
+    wall_mesh_finish(&mesh);
+    ellipsoid_facet_cache_clear(&cache);
+    for (size_t n = 0; n < sizeof(known) / sizeof(*known); n++)
+    {
+        test_quadratic rest = {.answer = 0};
+        const ellipsoid_surroundings s = around(&mesh, &rest);
+        const ellipsoid_state state = {
+            .x = {known[n][0] * sqrt(2 * gap * radius), 0, radius + gap},
+            .q = {0, 0, 0, 1}};
+        ellipsoid_frame frame = {.axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+        ellipsoid_planes planes;
+
+        assert_ok(
+            ellipsoid_find_planes(&model, &s, &state, &frame, &cache, &planes));
+        assert_int_equal(planes.count, 1);
+        assert_near(planes.at[0].weight[ELLIPSOID_PLANE_NEAR], known[n][1],
+                    0.07);
+    }
+    wall_mesh_free(&mesh);
+}
+
+/*
+    A sphere by a round post or in a tunnel: squeezing is that of a sphere of
+    radii R1 = 1/(1/a +- 1/R) and a at a plane, and alike however finely the wall
+    is cut, above a facet and above an edge.
+*/
+static void test_round_wall(void **unused)
+{
+    static const test_row row = {
+        "walls",
+        "squeezing of a sphere at a round wall over that known",
+        "posts and tunnels of 4 and 8 radii in 96 and 192 facets, gap 0.06 "
+        "radii",
+        "Reynolds' equation, S^3/(R1 + R2) of the reduced radii",
+        "A",
+        "15 %: terms of lower order are left out there, and here it is a sum "
+        "of planes",
+        0};
+    const double radius = 1e-6, gap = 0.06e-6;
+    const double x[3] = {0, 0, radius + gap}, q[4] = {0, 0, 0, 1};
+    ellipsoid_options o = near_walls();
+    ellipsoid_model model;
+    double flat[6][6], free;
+    wall_mesh floor;
+
+    (void)unused;
+    ellipsoid_set(o.semi_axes, radius, radius, radius);
+    model = test_model(&o);
+    free = 1e-9 * 6 * test_pi * model.viscosity * radius;
+    wall_mesh_init(&floor);
+    add_floor(&floor, 0, 1, 1);
+    wall_mesh_finish(&floor);
+    ellipsoid_facet_cache_clear(&cache);
+    lab_resistance(&model, &floor, x, q, flat);
+    wall_mesh_free(&floor);
+    for (int n = 0; n < 16; n++)
+    {
+        arc shape = {n % 2 ? 1 : -1, (n & 2 ? 4 : 8) * radius};
+        const int facets = (n & 4 ? 96 : 192) + (n & 8 ? 1 : 0);
+        const double bent =
+            1 / (1 / radius - shape.sign / shape.radius) / radius;
+        const double known = 2 * pow(bent, 1.5) / (bent + 1);
+        double found[6][6], ratio;
+        wall_mesh mesh;
+
+        wall_mesh_init(&mesh);
+        wall_mesh_grid(&mesh, facets, 3, bend, &shape, 2, 0);
+        wall_mesh_finish(&mesh);
+        ellipsoid_facet_cache_clear(&cache);
+        lab_resistance(&model, &mesh, x, q, found);
+        ratio = (found[2][2] - free) / (flat[2][2] - free) / known;
+        print_message("%s of %g in %d: %.3f, %.3f of it\n",
+                      n % 2 ? "tunnel" : "post", shape.radius, facets,
+                      ratio * known, ratio);
+        assert_row(&row, ratio, 1, 0.15);
+        wall_mesh_free(&mesh);
+    }
+}
+
+/* One face of a ridge along x2, which falls by an angle to the one side (1) or
+   the other (-1). */
+static void add_face(wall_mesh *mesh, int side, double angle)
+{
+    const double far = 5e-5, x = side * far * cos(angle), z = -far * sin(angle);
+    const double ridge[2][3] = {{0, -far, 0}, {0, far, 0}};
+    const double foot[2][3] = {{x, -far, z}, {x, far, z}};
+
+    wall_mesh_quad(mesh, ridge[side < 0], foot[side < 0], foot[side > 0],
+                   ridge[side > 0], 0, 0);
+}
+
+/* Over a ridge a face counts by s (s + c): c is what the other one goes on with,
+   s and that one's are found where each face is alone, and counts by its square.
+   A bend of 30 degrees is as good as none, one of 90 is a rim. */
+static void test_ridge(void **unused)
+{
+    static const double bend_of[] = {0.1, test_pi / 6, test_pi / 3,
+                                     test_pi / 2};
+    const double radius = 1e-6;
+    ellipsoid_options o = near_walls();
+    ellipsoid_model model;
+
+    (void)unused;
+    ellipsoid_set(o.semi_axes, radius, radius, radius);
+    model = test_model(&o);
+    for (int n = 0; n < 4; n++)
+    {
+        const double cosine = cos(bend_of[n]);
+        double near[3], s[2], rest, t;
+
+        for (int faces = 1; faces < 4; faces++)
+        {
+            test_quadratic still = {.answer = 0};
+            ellipsoid_frame frame = {.axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+            const ellipsoid_state state = {.x = {0.05e-6, 0, 1.7e-6},
+                                           .q = {0, 0, 0, 1}};
+            ellipsoid_planes planes;
+            wall_mesh mesh;
+
+            wall_mesh_init(&mesh);
+            if (faces & 1)
+            {
+                add_face(&mesh, 1, bend_of[n] / 2);
+            }
+            if (faces & 2)
+            {
+                add_face(&mesh, -1, bend_of[n] / 2);
+            }
+            wall_mesh_finish(&mesh);
+            ellipsoid_facet_cache_clear(&cache);
+
+            const ellipsoid_surroundings around_it = around(&mesh, &still);
+
+            assert_ok(ellipsoid_find_planes(&model, &around_it, &state, &frame,
+                                            &cache, &planes));
+            assert_int_equal(planes.count, faces < 3 ? 1 : 2);
+            near[faces - 1] = planes.at[0].weight[ELLIPSOID_PLANE_NEAR];
+            wall_mesh_free(&mesh);
+        }
+        s[0] = sqrt(near[0]);
+        s[1] = sqrt(near[1]);
+        rest = 1 - s[0];
+        t = fmin(cosine * cosine * s[1] / rest, 1);
+        print_message("%.0f degrees: %.3f by itself, %.3f\n",
+                      bend_of[n] * 180 / test_pi, near[0], near[2]);
+        /* the gap to the face that is farther counts a little less */
+        assert_near(near[2], s[0] * (s[0] + rest * t * (2 - t)),
+                    0.01 * near[2]);
+        assert_true(near[2] < s[0]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_cuts),
+        cmocka_unit_test(test_wall_that_ends),
+        cmocka_unit_test(test_round_wall),
+        cmocka_unit_test(test_ridge),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
