@@ -18,6 +18,20 @@ static const double scale = 0.2e-6;       /* [m] kT/weight of the sphere */
 static wall_mesh wall;
 static ellipsoid_facet_cache cache;
 
+static inline test_walk walk_over_wall(const ellipsoid_options *options,
+                                       uint64_t seed, uint32_t id,
+                                       double height)
+{
+    test_walk w = test_walk_of(options, seed, id);
+
+    w.around.walls = wall_mesh_list;
+    w.around.walls_context = &wall;
+    w.cache = &cache;
+    w.state.x[2] = height;
+    ellipsoid_facet_cache_clear(&cache);
+    return w;
+}
+
 static int build_wall(void **unused)
 {
     const double corner[3] = {-1e-3, -1e-3, 0};

@@ -36,20 +36,6 @@ static inline ellipsoid_options over_wall(ellipsoid_motion motion, int beads,
     return o;
 }
 
-static inline test_walk walk_over_wall(const ellipsoid_options *options,
-                                       uint64_t seed, uint32_t id,
-                                       double height)
-{
-    test_walk w = test_walk_of(options, seed, id);
-
-    w.around.walls = wall_mesh_list;
-    w.around.walls_context = &wall;
-    w.cache = &cache;
-    w.state.x[2] = height;
-    ellipsoid_facet_cache_clear(&cache);
-    return w;
-}
-
 /* Interval after which a sphere has moved by `way` [m], rms along an axis. */
 static inline double interval_of(double way)
 {

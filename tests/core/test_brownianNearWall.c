@@ -17,19 +17,6 @@ static ellipsoid_options near_wall(ellipsoid_motion motion, double interval)
     return o;
 }
 
-static test_walk walk(const ellipsoid_options *options, uint64_t seed,
-                      uint32_t id, double height)
-{
-    test_walk w = test_walk_of(options, seed, id);
-
-    w.around.walls = wall_mesh_list;
-    w.around.walls_context = &wall;
-    w.cache = &cache;
-    w.state.x[2] = height;
-    ellipsoid_facet_cache_clear(&cache);
-    return w;
-}
-
 /* The mobility [s/kg, ...] in the body frame. */
 static void mobility_at(test_walk *w, double matrix[6][6])
 {
@@ -129,7 +116,7 @@ static void check_interval(ellipsoid_motion motion, long count)
     double matrix[6][6], drift, square = 0;
     test_sample off = {0};
     double dt = 0;
-    test_walk w = walk(&o, 1, 0, height);
+    test_walk w = walk_over_wall(&o, 1, 0, height);
 
     mobility_at(&w, matrix);
     drift = drift_of(w);
@@ -138,7 +125,7 @@ static void check_interval(ellipsoid_motion motion, long count)
         ellipsoid_noise noise;
         double rates[6] = {0}, action[6];
 
-        w = walk(&o, 1, (uint32_t)id, height);
+        w = walk_over_wall(&o, 1, (uint32_t)id, height);
         assert_ok(ellipsoid_noise_at(&w.model, &w.around, 0, &noise));
         assert_ok(ellipsoid_wall_noise_begin(&w.model, &w.around, &w.state,
                                              &cache, 0, &noise));
@@ -184,7 +171,7 @@ static void test_interval(void **unused)
 static void test_numbers(void **unused)
 {
     const ellipsoid_options o = near_wall(ELLIPSOID_MOTION_INERTIALESS, 1e-3);
-    test_walk w = walk(&o, 1, 7, 11e-6);
+    test_walk w = walk_over_wall(&o, 1, 7, 11e-6);
     ellipsoid_noise far, near;
 
     (void)unused;
@@ -234,7 +221,7 @@ static void test_past_rims(void **unused)
         test_walk w;
 
         ellipsoid_set(o.semi_axes, 0.5e-6, 0.5e-6 * ratio[n % 5], 0.5e-6);
-        w = walk(&o, 1, (uint32_t)n, 0);
+        w = walk_over_wall(&o, 1, (uint32_t)n, 0);
         w.around.walls_context = &walls[n / 5 % 4];
         test_orientation(&seed, w.state.q);
         ellipsoid_rotation(w.state.q, r);
@@ -268,7 +255,7 @@ static void test_interval_past_a_rim(void **unused)
     for (int n = 0; n < 2; n++)
     {
         const double high[3] = {n ? 1e-4 : 0, 1e-4, 0};
-        test_walk w = walk(&o, 1, 1, 0);
+        test_walk w = walk_over_wall(&o, 1, 1, 0);
         ellipsoid_noise noise;
         wall_mesh block;
 
@@ -304,7 +291,7 @@ static int not_asked(void *context, double t, const double centre[3],
 static void test_no_place(void **unused)
 {
     const ellipsoid_options o = near_wall(ELLIPSOID_MOTION_INERTIALESS, 1e-3);
-    test_walk w = walk(&o, 1, 1, NAN);
+    test_walk w = walk_over_wall(&o, 1, 1, NAN);
     int asked = 0;
 
     (void)unused;
@@ -366,8 +353,8 @@ static void check_profile(ellipsoid_motion motion, int cells)
         {
             n++;
         }
-        w = walk(&o, 3, (uint32_t)id,
-                 p.low + p.width * (n + test_uniform(&seed)));
+        w = walk_over_wall(&o, 3, (uint32_t)id,
+                           p.low + p.width * (n + test_uniform(&seed)));
         while (w.n < 125)
         {
             test_walk_on(&w);

@@ -30,6 +30,12 @@ Foam::flowFields::solveTypeNames_
 
 namespace Foam
 {
+    //- The dictionary flow, or an empty one
+    static const dictionary& controlsOf(const fvMesh& mesh)
+    {
+        return subDictOf(mesh.solutionDict(), "flow");
+    }
+
     //- Set a field at cyclic patches that are divided between ranks, where
     //  decomposePar does not write the values of the other side
     template<class Type>
@@ -119,7 +125,7 @@ Foam::flowFields::flowFields(const fvMesh& mesh)
 
 Foam::flowFields::solveType Foam::flowFields::solveOf(const fvMesh& mesh)
 {
-    const dictionary& dict = subDictOf(mesh.solutionDict(), "flow");
+    const dictionary& dict = controlsOf(mesh);
     const masterGate once;
 
     checkKeywords
@@ -144,7 +150,7 @@ bool Foam::flowFields::accept()
 
     scalar continuityTolerance, fluxTolerance;
     {
-        const dictionary& dict = subDictOf(mesh_.solutionDict(), "flow");
+        const dictionary& dict = controlsOf(mesh_);
         const masterGate once;
         continuityTolerance =
             checkedNumber(dict, "continuityTolerance", above(0), 1e-3);
@@ -210,8 +216,7 @@ void Foam::flowFields::checkPatches() const
     const masterGate once;
     const scalar tolerance = checkedNumber
     (
-        subDictOf(mesh_.solutionDict(), "flow"), "fluxTolerance", above(0),
-        scalar(0.1)
+        controlsOf(mesh_), "fluxTolerance", above(0), scalar(0.1)
     );
 
     forAll(ofU, i)

@@ -194,15 +194,17 @@ static void set_whole(const wall *walls, int count, const wall *w, int sloped,
     {
         const double cosine =
             fmax(ellipsoid_dot(w->facet->normal, o->facet->normal), 0);
-        const double ratio = w->gap / o->gap, square = ratio * ratio;
-        double level_slope, part;
-        const double level = saturated(square, &level_slope);
 
         if (o == w || !(cosine * o->fade > 0))
         {
             continue;
         }
-        part = cosine * cosine * o->part[NEAR];
+
+        const double ratio = w->gap / o->gap, square = ratio * ratio;
+        const double part = cosine * cosine * o->part[NEAR];
+        double level_slope;
+        const double level = saturated(square, &level_slope);
+
         others += o->fade * level * part;
         for (int n = 0; sloped && n < POSE; n++)
         {
