@@ -161,23 +161,24 @@ bool Foam::isVariable(const dictionary& dict, const word& keyword)
     }
 
     // Variables have no other characters
-    if (!regExp("[A-Za-z0-9_]+").match(keyword))
+    if (!regExp("[A-Za-z0-9_-]+").match(keyword))
     {
         return false;
     }
     const std::string text(fileTextOf(dict));
     const auto has =
-        [&](const std::string& before)
+        [&](const std::string& before, const std::string& after)
         {
-            return regExp(before + keyword + "([^A-Za-z0-9_]|$)").search(text);
+            return regExp(before + keyword + after).search(text);
         };
 
     // $NAME, ${NAME}, $.NAME, $:OTHER.NAME; or one that a file which is included
     // sets, for other dictionaries
     return
-        has("\\$([A-Za-z0-9_{.:^]*[{.:^])?")
+        has("\\$([A-Za-z0-9_{.:^]*[{.:^])?", "([^A-Za-z0-9_]|$)")
      || (
-            !text.empty() && !has("(^|[^A-Za-z0-9_])")
+            !text.empty()
+         && !has("(^|[^A-Za-z0-9_-])", "([^A-Za-z0-9_-]|$)")
          && &dict == &dict.topDict() && !dict.isDict(keyword)
         );
 }

@@ -141,10 +141,7 @@ Foam::captureCriterion::captureCriterion
 
     for (const wordRe& name : patternsOf(dict, "sieves"))
     {
-        const labelHashSet matched
-        (
-            patches.patchSet(wordRes({name}), false, false)
-        );
+        const labelHashSet matched(patches.patchSet(wordRes({name}), false));
 
         if (matched.empty())
         {

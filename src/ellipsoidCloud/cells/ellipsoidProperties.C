@@ -17,7 +17,7 @@ void Foam::ellipsoidProperties::readUnreached(const polyBoundaryMesh& patches)
 {
     const wordRes names(patternsOf(*this, "unreached"));
     labelHashSet constrained;
-    unreached_ = patches.patchSet(names, false, false);
+    unreached_ = patches.patchSet(names, false);
 
     for (const polyPatch& pp : patches)
     {
@@ -50,7 +50,7 @@ void Foam::ellipsoidProperties::readUnreached(const polyBoundaryMesh& patches)
 
     for (const wordRe& name : names)
     {
-        labelHashSet named(patches.patchSet(wordRes({name}), false, false));
+        labelHashSet named(patches.patchSet(wordRes({name}), false));
         named &= constrained;
 
         if (named.empty())

@@ -5,6 +5,8 @@
 #include "argList.H"
 #include "atomicWrite.H"
 #include "checkedEntries.H"
+#include "fvcFlux.H"
+#include "fvcSurfaceIntegrate.H"
 #include "labelIOList.H"
 #include "masterGate.H"
 #include "plainLists.H"
@@ -458,4 +460,40 @@ void Foam::caseFiles::checkDimensions(const solverFields& flow)
         dimVelocity*dimArea,
         ": the flux of volume, that is, one of mass by kg/m3"
     );
+}
+
+
+Foam::scalar Foam::caseFiles::fluxDifference(const solverFields& flow)
+{
+    const surfaceScalarField& phi = flow.phi;
+    const scalarField apart
+    (
+        fvc::surfaceSum(mag(phi - fvc::flux(flow.U)))().primitiveField()
+    );
+
+    return
+        gSum(apart)/(gSum(fvc::surfaceSum(mag(phi))().primitiveField()) + VSMALL);
+}
+
+
+void Foam::caseFiles::checkFluxDifference
+(
+    const scalar difference,
+    const fvMesh& mesh
+)
+{
+    const masterGate once;
+    const scalar tolerance = checkedNumber
+    (
+        subDictOf(mesh.solutionDict(), "flow"), "fluxTolerance", above(0), 0.1
+    );
+
+    if (!(difference <= tolerance))
+    {
+        FatalErrorInFunction
+            << "phi and U are not of one flow: they differ by "
+            << shortText(difference).c_str() << ", above fluxTolerance "
+            << shortText(tolerance).c_str() << " (dictionary flow of"
+            << " system/fvSolution)" << exit(FatalError);
+    }
 }

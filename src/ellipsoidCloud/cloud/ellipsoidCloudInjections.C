@@ -118,7 +118,12 @@ void Foam::ellipsoidCloud::reportCells(const scalar inflow) const
         << "case: " << now.size() << " cells enter in the run from " << time_
         << " to " << end << " s" << endl;
 
-    const scalar first = earlier_.found() ? readScalar(firstTime_) : min(now);
+    // Of those that are there and those to come
+    scalar first = min(now);
+    for (const cellState& cell : cells_)
+    {
+        first = min(first, cell.planned);
+    }
     if (criterion_.holdTime() > end - first)
     {
         Warning

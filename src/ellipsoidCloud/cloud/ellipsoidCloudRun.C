@@ -19,6 +19,23 @@ Description
 void Foam::ellipsoidCloud::begin()
 {
     const fileName folder(statistics_->log.name().path());
+    const fileName copy(folder + ".part");
+
+    // What a run left that was killed while it wrote them
+    if (Pstream::master())
+    {
+        rmDir(copy, true);
+        for (const fileName& within : {folder, fileName(folder/"poses")})
+        {
+            for (const fileName& file : readDir(within, fileName::FILE))
+            {
+                if (file.hasExt("part"))
+                {
+                    rm(within/file);
+                }
+            }
+        }
+    }
 
     // Tables that reach beyond the start are cut there
     const bool goesOn = earlier_.found();
@@ -27,8 +44,6 @@ void Foam::ellipsoidCloud::begin()
 
     if (Pstream::master() && isDir(folder) && (cut || !goesOn))
     {
-        const fileName copy(folder + ".part");
-
         if
         (
             (goesOn && !cp(folder, copy))

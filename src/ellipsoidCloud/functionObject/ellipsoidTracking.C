@@ -197,6 +197,7 @@ bool Foam::functionObjects::ellipsoidTracking::begin()
         return false;
     }
 
+    checkFlux();
     cells_.reset(new ellipsoidCloud(mesh_, ellipsoidCloud::UNSTEADY));
     cells_->setFlow(flow());
 
@@ -204,8 +205,15 @@ bool Foam::functionObjects::ellipsoidTracking::begin()
 }
 
 
+void Foam::functionObjects::ellipsoidTracking::checkFlux() const
+{
+    caseFiles::checkFluxDifference(caseFiles::fluxDifference(flow()), mesh_);
+}
+
+
 void Foam::functionObjects::ellipsoidTracking::trackThroughEnd() const
 {
+    checkFlux();
     ownClock clock(clockEntries(), time_);
     ellipsoidCloud cells(clock.mesh, ellipsoidCloud::STEADY);
 
