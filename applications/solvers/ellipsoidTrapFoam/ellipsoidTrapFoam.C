@@ -137,7 +137,6 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
     cells->setFlow({flow->U(), flow->p(), flow->phi()});
     if (dryRun)
     {
-        cells->forecast();
         return;
     }
 

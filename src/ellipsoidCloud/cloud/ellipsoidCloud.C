@@ -282,8 +282,6 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow)
     domain_->flow.renew(*undecomposed_, fluidDensity());
     criterion_.setInletSpeed(inletFlux::speedOf(*undecomposed_));
 
-    passage_ =
-        through.closed() ? VGREAT : gSum(mesh_.V())/through.inflow;
     reportFlow
     (
         through,
@@ -396,17 +394,19 @@ void Foam::ellipsoidCloud::advance(const solverFields& flow)
 }
 
 
-Foam::List<Foam::cellSweep> Foam::ellipsoidCloud::move
-(
-    const scalar end,
-    DynamicList<cellEvent>& events
-)
+void Foam::ellipsoidCloud::evolve()
 {
+    const clockTime timer;
+
+    const scalar end = presentTime(mesh_.time());
+
     addNew(time_, end);
 
     List<cellSweep> moves(interval_->advanceInterval(cells_, time_, end));
+    DynamicList<cellEvent> events;
     criterion_.judge(cells_, moves, end, events);
 
+    // Those that have gone are taken out
     label nLeft = 0;
     for (const cellSweep& cell : moves)
     {
@@ -421,17 +421,6 @@ Foam::List<Foam::cellSweep> Foam::ellipsoidCloud::move
     }
     cells_.setSize(nLeft);
     time_ = end;
-
-    return moves;
-}
-
-
-void Foam::ellipsoidCloud::evolve()
-{
-    const clockTime timer;
-
-    DynamicList<cellEvent> events;
-    const List<cellSweep> moves(move(presentTime(mesh_.time()), events));
 
     if (occupancy_.valid())
     {

@@ -13,9 +13,7 @@ Description
 #include "inletFlux.H"
 #include "masterGate.H"
 #include "atomicWrite.H"
-#include "cpuTime.H"
 #include "fvMesh.H"
-#include "memInfo.H"
 #include "StringStream.H"
 
 #include <cmath>
@@ -201,59 +199,4 @@ void Foam::ellipsoidCloud::write()
     writeStates(cells_, os);
     os.endBlock();
     checkpoint::end(time, os.str());
-}
-
-
-void Foam::ellipsoidCloud::forecast()
-{
-    // Processor time [s] that a dry run may take
-    const scalar trial = 1;
-
-    const scalar deltaT = mesh_.time().deltaTValue();
-    const scalar start = time_;
-    const scalar end = mesh_.time().endTime().value();
-
-    const label nCells = cells_.size();
-
-    // What cells are on their way until a time, in all [s]: each as long as the
-    // fluid takes to pass
-    const auto onTheWay =
-        [&](const scalar until)
-        {
-            scalar sum = nCells*min(until - start, passage_);
-
-            for (const scalar t : entries(start, until))
-            {
-                sum += min(until - t, passage_);
-            }
-            return sum;
-        };
-
-    const cpuTime timer;
-    DynamicList<cellEvent> events;
-    scalar spent = 0;
-
-    while (spent < trial && time_ < end - 0.5*deltaT)
-    {
-        move(time_ + deltaT, events);
-        spent = returnReduce(timer.elapsedCpuTime(), maxOp<scalar>());
-    }
-
-    const groupAdvance::account& done = interval_->done();
-    const scalar steps = returnReduce
-    (
-        scalar(done.steps.accepted + done.steps.rejected), sumOp<scalar>()
-    );
-    const scalar memory =
-        returnReduce(scalar(memInfo().peak()), maxOp<scalar>());
-    const scalar part = onTheWay(time_)/max(onTheWay(end), VSMALL);
-    const scalar factor = 1/max(part, VSMALL);
-
-    Info<< "case: a trial to t = " << shortText(time_).c_str() << " s made "
-        << word::printf("%.2g", 100*part) << " % of the cells' way, in "
-        << word::printf("%.2g", spent) << " s and "
-        << word::printf("%.2g", memory/1024) << " MB; all of it: at least "
-        << word::printf("%.1g", steps*factor) << " steps, "
-        << word::printf("%.1g", spent*factor) << " s, more where cells pile up"
-        << endl;
 }
