@@ -52,7 +52,7 @@ namespace Foam
                 {
                     at.mesh.boundaryMesh().names(), at.population,
                     at.mesh.time().path()/"tables", false, dictionary(),
-                    []() { return ""; }, 1
+                    1
                 },
                 notes
             ),

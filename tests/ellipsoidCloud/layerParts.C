@@ -13,9 +13,7 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "fvCFD.H"
-#include "atomicWrite.H"
 #include "layerParts.H"
-#include "OSspecific.H"
 #include "groupSharing.H"
 
 #include <cmath>
@@ -218,49 +216,6 @@ static void checkMeshNotes(const polyMesh& mesh)
 }
 
 
-// Which time a run that cannot go on from the latest one is sent back to
-static void checkWayBack(Time& time)
-{
-    const scalar start = time.value();
-    const fileName folder(time.path()/"postProcessing/ellipsoidCloud/0");
-    mkDir(folder);
-    durableWrite(folder/"tracks.csv", "t,id", IOstream::UNCOMPRESSED);
-
-    // Good, damaged, and with a table that is another since
-    const char* states[] =
-    {
-        "folder \"0\"; tables { }",
-        "folder \"0\"; tables { }",
-        "folder \"0\"; tables { tracks { bytes 4; digest \"of another\"; } }"
-    };
-    for (label i = 0; i < 3; ++i)
-    {
-        time.setTime(0.1*(i + 1), i + 1);
-        mkDir(time.timePath()/"uniform");
-        checkpoint::end(time, states[i]);
-        if (i == 1)
-        {
-            const fileName file(time.timePath()/"uniform/ellipsoidCloudRestart");
-            const std::string text(textOf(file));
-            durableWrite(file, ' ' + text, IOstream::UNCOMPRESSED);
-        }
-    }
-    time.setTime(0.4, 4);
-    const std::string way(checkpoint::wayBack(time));
-    holds
-    (
-        "a run is sent back to a time that is whole, as its tables are",
-        way == "Remove the directory 0.4, 0.3, 0.2 to go on from 0.1",
-        way
-    );
-    for (const char* name : {"0.1", "0.2", "0.3"})
-    {
-        rmDir(time.path()/name);
-    }
-    time.setTime(start, 0);
-}
-
-
 // Ranks give one another what they have advanced
 static void checkSharing()
 {
@@ -357,7 +312,6 @@ int main(int argc, char *argv[])
         if (!Pstream::parRun())
         {
             checkMeshNotes(mesh);
-            checkWayBack(runTime);
             checkHeld(still);
             checkCaptures(stream);
             checkStatistics(still);

@@ -22,7 +22,7 @@ void Foam::checkStatistics(const layer& at)
     const tableSet set
     {
         patches.names(), at.population, at.mesh.time().path()/"statistics",
-        false, dictionary(), []() { return ""; }, 0.1
+        false, dictionary(), 0.1
     };
     captureStatistics statistics(set, labelList({post, plates}));
     statistics.log.open();

@@ -15,7 +15,6 @@
 #include "Time.H"
 #include "volFields.H"
 
-#include <functional>
 #include <set>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -155,36 +154,6 @@ namespace Foam
     }
 
 
-    //- Are the tables of a case what a state says?
-    static bool hasTables(const dictionary& notes, const fileName& whole)
-    {
-        const dictionary& tables = notes.subDict("tables");
-        const fileName folder
-        (
-            whole/"postProcessing"/"ellipsoidCloud"
-           /fileName(notes.get<string>("folder"))
-        );
-
-        for (const entry& table : tables)
-        {
-            const dictionary& of = table.dict();
-            const SHA1 digest
-            (
-                digestOf
-                (
-                    folder/(table.keyword() + ".csv"), of.get<scalar>("bytes")
-                )
-            );
-            if (digest.str() != of.get<string>("digest"))
-            {
-                return false;
-            }
-        }
-
-        return true;
-    }
-
-
     //- End the run if there is a state of the present time under another name
     static void checkNames(const Time& time)
     {
@@ -237,8 +206,11 @@ Foam::checkpoint::checkpoint(const Time& time)
           : "time " + time.timeName() + " was not written to its end"
         );
         FatalErrorInFunction
-            << complaint.c_str() << nl << "    " << wayBack(time).c_str()
-            << exit(FatalError);
+            << complaint.c_str() << nl
+            << "    Go on from an earlier time, by startFrom startTime and"
+            << " startTime in system/controlDict; or remove "
+            << fieldName << " and " << stateFile << " of this one, on every"
+            << " processor, to begin anew from its flow" << exit(FatalError);
     }
     else
     {
@@ -252,88 +224,6 @@ Foam::checkpoint::checkpoint(const Time& time)
 Foam::fileName Foam::checkpoint::unfinishedFlow(const fileName& path)
 {
     return path/"U.unfinished";
-}
-
-
-std::string Foam::checkpoint::wayBack(const Time& time)
-{
-    std::set<namedTime, std::greater<namedTime>> earlier;
-    const fileName now(time.path()/time.timeName());
-    for (const fileName& path : {now, sharedTime(now)})
-    {
-        for (const fileName& folder : readDir(path.path(), fileName::DIRECTORY))
-        {
-            scalar t;
-            if
-            (
-                readScalar(folder, t)
-             && t < time.value() && folder != now.name()
-            )
-            {
-                earlier.insert({t, folder});
-            }
-        }
-    }
-    if (earlier.empty())
-    {
-        if
-        (
-            Pstream::parRun()
-         && !isFile(now/"U") && !isFile(sharedTime(now)/"U")
-        )
-        {
-            return
-                "Run decomposePar -force -time 0,T, T a time that is whole: the"
-                " flow is in 0";
-        }
-        return
-            "Remove " + now.name()/fieldName + " and " + now.name()/stateFile
-          + " to begin anew from the flow";
-    }
-
-    // A flow or a mesh is not to be lost
-    bool removable =
-        time.controlDict().getOrDefault<word>("startFrom", "latestTime")
-     == "latestTime";
-    std::string names;
-    fileName path(now);
-    const auto pass = [&]()
-    {
-        names += (names.empty() ? "" : ", ") + path.name();
-        removable = removable && !isFile(path/"U") && !isDir(path/"polyMesh");
-    };
-    const auto leadsTo = [&](const word& name)
-    {
-        return
-            removable
-          ? "Remove the directory " + names
-          + (Pstream::parRun() ? " of every processor" : "")
-          : "Set startFrom startTime and startTime " + name
-          + " in system/controlDict";
-    };
-
-    pass();
-    for (const namedTime& of : earlier)
-    {
-        path = now.path()/of.second;
-        const std::string text(textOf(stateIn(path)));
-
-        if
-        (
-            isWhole(text)
-         && hasTables(dictionaryOf(text, path), time.globalPath())
-        )
-        {
-            return leadsTo(of.second) + " to go on from " + of.second;
-        }
-        if (std::next(earlier.find(of)) != earlier.end())
-        {
-            pass();
-        }
-    }
-    const word& first = earlier.rbegin()->second;
-
-    return leadsTo(first) + " to begin anew from " + first;
 }
 
 

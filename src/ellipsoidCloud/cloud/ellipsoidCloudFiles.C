@@ -44,7 +44,6 @@ void Foam::ellipsoidCloud::makeTables()
         folder,
         domainImages::any(mesh_.boundaryMesh(), properties_.unreached()),
         tables,
-        [this]() { return checkpoint::wayBack(mesh_.time()); },
         min
         (
             mesh_.time().deltaTValue(),

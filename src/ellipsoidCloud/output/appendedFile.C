@@ -64,8 +64,8 @@ Foam::appendedFile::appendedFile
         FatalErrorInFunction
             << "cannot go on with " << name_ << ": its first "
             << int64_t(size_) << " bytes are not what was written" << nl
-            << "    Put it back, or:" << nl
-            << "    " << set.wayBack().c_str()
+            << "    Put it back, or go on from an earlier time, by startFrom"
+            << " startTime and startTime in system/controlDict"
             << exit(FatalError);
     }
 }
