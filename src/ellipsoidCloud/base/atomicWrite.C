@@ -211,22 +211,8 @@ void Foam::durableWrite
 }
 
 
-void Foam::atomicWrite(regIOobject& object, const bool valid)
+void Foam::atomicWrite(regIOobject& object)
 {
-    if (fileHandler().type() == "uncollated")
-    {
-        if (valid)
-        {
-            writePart(object);
-            renamePart(object.objectPath());
-        }
-        return;
-    }
-
-    const exactDigits exact;
-    object.instance() = object.time().timeName();
-    if (!object.write(valid))
-    {
-        cannotWrite(object.objectPath());
-    }
+    writePart(object);
+    renamePart(object.objectPath());
 }

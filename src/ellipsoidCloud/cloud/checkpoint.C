@@ -30,12 +30,6 @@ namespace Foam
         returnReduce(true, andOp<bool>());
     }
 
-    //- Do ranks share files?
-    static bool sharedFiles()
-    {
-        return Pstream::parRun() && fileHandler().type() == "collated";
-    }
-
     //- Take the bytes of a list into a digest
     template<class Type>
     static void addTo(SHA1& digest, const UList<Type>& list)
@@ -109,27 +103,6 @@ namespace Foam
     static const fileName stateFile("uniform/ellipsoidCloudRestart");
     static const word fieldName("ellipsoidCloudState");
 
-    //- Where ranks that share their files have a time directory
-    static fileName sharedTime(const fileName& path)
-    {
-        if (!Pstream::parRun())
-        {
-            return path;
-        }
-        const word parts("processors" + Foam::name(Pstream::nProcs()));
-        return path.path().path()/parts/path.name();
-    }
-
-
-    //- The state in a time directory, whether or not ranks shared their files
-    //  when it was written
-    static fileName stateIn(const fileName& path)
-    {
-        const fileName shared(sharedTime(path)/stateFile);
-        return isFile(shared) ? shared : path/stateFile;
-    }
-
-
     //- The entry that ends a state of this text
     static std::string digestEntry(const std::string& text)
     {
@@ -150,7 +123,7 @@ namespace Foam
     //- Was a state begun in a time directory, be it complete or not?
     static bool begun(const fileName& path)
     {
-        return isFile(path/fieldName) || isFile(stateIn(path));
+        return isFile(path/fieldName) || isFile(path/stateFile);
     }
 
 
@@ -184,13 +157,11 @@ Foam::checkpoint::checkpoint(const Time& time)
 :
     path_(time.path()/time.timeName())
 {
-    const fileName file(stateIn(path_));
+    const fileName file(path_/stateFile);
     string text(textOf(file));
     broadcast(text);
 
-    // Where ranks share a file the folder is another, and asking is collective
-    const bool shared = isFile(fileHandler().filePath(path_/fieldName));
-    const bool some = returnReduce(shared || begun(path_), orOp<bool>());
+    const bool some = returnReduce(begun(path_), orOp<bool>());
 
     const masterGate once;
     if (isWhole(text))
@@ -287,8 +258,7 @@ Foam::word Foam::checkpoint::setAsideIncomplete
     const bool dryRun
 )
 {
-    // Where ranks share files, times without their end are refused, not moved
-    if (!fromLatestTime(args) || sharedFiles())
+    if (!fromLatestTime(args))
     {
         return word::null;
     }
@@ -311,7 +281,6 @@ Foam::word Foam::checkpoint::setAsideIncomplete
         const word& name = time->second;
         const fileName path(args.path()/name);
         const bool other = isFile(path/"U") || isDir(path/"polyMesh");
-        const bool kept = Pstream::parRun() && isDir(sharedTime(path));
         const bool complete =
             isDir(path) && (isFile(path/stateFile) || !Pstream::master());
 
@@ -319,8 +288,7 @@ Foam::word Foam::checkpoint::setAsideIncomplete
         // from, or another program's
         if
         (
-            returnReduce(kept, orOp<bool>())
-         || returnReduce(complete, andOp<bool>())
+            returnReduce(complete, andOp<bool>())
          || (
                 !returnReduce(begun(path), orOp<bool>())
              && (!tracked || returnReduce(other, orOp<bool>()))
@@ -358,13 +326,10 @@ void Foam::checkpoint::begin(const fvMesh& mesh)
     const fileName path(mesh.time().path()/mesh.time().timeName());
 
     // A link of decomposePar leads into the undecomposed case: its state stays
-    for (const fileName& time : {path, sharedTime(path)})
+    const fileName folder((path/stateFile).path());
+    if (Foam::type(folder, false) == fileName::LINK)
     {
-        const fileName folder((time/stateFile).path());
-        if (Foam::type(folder, false) == fileName::LINK)
-        {
-            rm(folder);
-        }
+        rm(folder);
     }
 
     volScalarField::Internal field
@@ -376,7 +341,6 @@ void Foam::checkpoint::begin(const fvMesh& mesh)
     atomicWrite(field);
     meet();
     rm(path/stateFile);
-    rm(sharedTime(path)/stateFile);
     rmDir(path/cloud::prefix/"ellipsoidCloud", true);
 }
 
@@ -387,10 +351,9 @@ void Foam::checkpoint::end(const Time& time, const std::string& text)
     meet();
     if (Pstream::master())
     {
-        const fileName path(time.path()/time.timeName());
         durableWrite
         (
-            (sharedFiles() ? sharedTime(path) : path)/stateFile,
+            time.path()/time.timeName()/stateFile,
             text + digestEntry(text),
             time.writeCompression()
         );
