@@ -10,87 +10,74 @@
 
 const Foam::label Foam::captureMap::anySieve_;
 const Foam::label Foam::captureMap::noRoom_;
-const Foam::label Foam::captureMap::mostFirst_;
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- The orientations of a dictionary
+    static List<captureMap::pose> readPoses
+    (
+        const dictionary& dict,
+        const label seed
+    )
+    {
+        const dictionary& given =
+            dict.found("orientations")
+          ? subDictOf(dict, "orientations")
+          : dict.subDict("orientations");
+        DynamicList<captureMap::pose> poses;
+        label nDrawn = 0;
+
+        for (const entry& e : given)
+        {
+            if (!e.isDict())
+            {
+                FatalIOErrorInFunction(given)
+                    << e.keyword() << " is not a dictionary of an orientation"
+                    << exit(FatalIOError);
+            }
+
+            const dictionary& one = e.dict();
+            const cellOrientation orientation(one);
+
+            checkKeywords
+            (
+                one,
+                orientation.random()
+              ? wordList({"orientation", "number"})
+              : wordList({"orientation", "axis", "quaternion", "eulerAngles"})
+            );
+
+            const label n = checkedNumber(one, "number", within(1, 1000), 1);
+
+            for (label i = 0; i < n; ++i)
+            {
+                captureMap::pose p;
+                p.name = word(e.keyword());
+                if (n > 1)
+                {
+                    p.name += Foam::name(i + 1);
+                }
+                orientation.draw(seed, nDrawn, p.q);
+                nDrawn += orientation.random();
+                poses.append(p);
+            }
+        }
+
+        if (poses.empty())
+        {
+            FatalIOErrorInFunction(given)
+                << "no orientation is given" << exit(FatalIOError);
+        }
+
+        return List<captureMap::pose>(std::move(poses));
+    }
+}
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-Foam::label Foam::captureMap::readSquares(const dictionary& dict)
-{
-    return checkedNumber(dict, "squares", within(1, 1000), 64);
-}
-
-
-Foam::label Foam::captureMap::readLevels(const dictionary& dict)
-{
-    return checkedNumber(dict, "levels", within(0, 10), 3);
-}
-
-
-Foam::label Foam::captureMap::readMostCells(const dictionary& dict)
-{
-    return checkedNumber(dict, "mostCells", within(1, 10000000), 20000);
-}
-
-
-Foam::List<Foam::captureMap::pose> Foam::captureMap::readPoses
-(
-    const dictionary& dict,
-    const label seed
-)
-{
-    const dictionary& given =
-        dict.found("orientations")
-      ? subDictOf(dict, "orientations")
-      : dict.subDict("orientations");
-    DynamicList<pose> poses;
-    label nDrawn = 0;
-
-    for (const entry& e : given)
-    {
-        if (!e.isDict())
-        {
-            FatalIOErrorInFunction(given)
-                << e.keyword() << " is not a dictionary of an orientation"
-                << exit(FatalIOError);
-        }
-
-        const dictionary& one = e.dict();
-        const cellOrientation orientation(one);
-
-        checkKeywords
-        (
-            one,
-            orientation.random()
-          ? wordList({"orientation", "number"})
-          : wordList({"orientation", "axis", "quaternion", "eulerAngles"})
-        );
-
-        const label n = checkedNumber(one, "number", within(1, 1000), 1);
-
-        for (label i = 0; i < n; ++i)
-        {
-            pose p;
-            p.name = word(e.keyword());
-            if (n > 1)
-            {
-                p.name += Foam::name(i + 1);
-            }
-            orientation.draw(seed, nDrawn, p.q);
-            nDrawn += orientation.random();
-            poses.append(p);
-        }
-    }
-
-    if (poses.empty())
-    {
-        FatalIOErrorInFunction(given)
-            << "no orientation is given" << exit(FatalIOError);
-    }
-
-    return List<pose>(std::move(poses));
-}
-
 
 Foam::inletPlane::window Foam::captureMap::windowOf(const square& one) const
 {
@@ -109,7 +96,7 @@ void Foam::captureMap::begin(const node& at, const label level)
 {
     const label id = starts_.size();
 
-    if (!startAt_[at.pose].insert(key(at), id))
+    if (!startAt_[at.pose].insert(labelPair(at.i, at.j), id))
     {
         return;
     }
@@ -126,7 +113,7 @@ void Foam::captureMap::begin(const node& at, const label level)
     cellState cell = cellState();
     cell.id = id;
     std::copy_n(x.v_, 3, cell.body.x);
-    std::copy_n(poses_[at.pose].q, 4, cell.body.q);
+    std::copy_n(from_.poses[at.pose].q, 4, cell.body.q);
 
     if (cells_.fits(cell))
     {
@@ -142,7 +129,7 @@ void Foam::captureMap::followWaiting()
 {
     const List<independentCells::ending> endings
     (
-        cells_.follow(waiting_, deltaT_, endTime_)
+        cells_.follow(waiting_, deltaT_, from_.endTime)
     );
 
     forAll(waiting_, i)
@@ -249,7 +236,7 @@ bool Foam::captureMap::divide()
 {
     // The largest first
     DynamicList<label> due;
-    for (label level = 0; level < levels_; ++level)
+    for (label level = 0; level < from_.levels; ++level)
     {
         forAll(squares_, i)
         {
@@ -263,7 +250,7 @@ bool Foam::captureMap::divide()
     labelHashSet divided;
     for (const label i : due)
     {
-        if (nFollowed_ + 5 > mostCells_)
+        if (nFollowed_ + 5 > from_.mostCells)
         {
             bounded_ = true;
             break;
@@ -314,38 +301,68 @@ bool Foam::captureMap::divide()
 }
 
 
-void Foam::captureMap::checkLattice(const dictionary& dict) const
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::captureMap::setting::setting
+(
+    const dictionary& dict,
+    const polyBoundaryMesh& patches,
+    const label seed
+)
+:
+    nSquares(checkedNumber(dict, "squares", within(1, 1000), 64)),
+    levels(checkedNumber(dict, "levels", within(0, 10), 3)),
+    mostCells(checkedNumber(dict, "mostCells", within(1, 10000000), 20000)),
+    endTime(checkedNumber<scalar>(dict, "endTime", above(0))),
+    poses(readPoses(dict, seed))
 {
-    const masterGate once;
-
-    if (scalar(nNodes(0))*nNodes(1) > scalar(labelMax))
-    {
-        FatalIOErrorInFunction(dict)
-            << "squares and levels make a lattice of " << nNodes(0)
-            << " x " << nNodes(1) << " nodes" << nl
-            << "    allowed: " << labelMax << " in all"
-            << exit(FatalIOError);
-    }
-
-    const scalar nStarts =
-        scalar(nFirst_[0] + 1)*(nFirst_[1] + 1)*poses_.size();
-
-    if (nStarts > mostFirst_)
-    {
-        FatalIOErrorInFunction(dict)
-            << "squares and orientations make " << nStarts
-            << " first starts" << nl
-            << "    allowed: " << mostFirst_ << " in all"
-            << exit(FatalIOError);
-    }
+    checkKeywords
+    (
+        dict,
+        {
+            "patch", "squares", "levels", "mostCells", "endTime", "orientations"
+        },
+        {"orientations"}
+    );
+    cellInjection::findPatch(dict, patches);
 }
 
 
-void Foam::captureMap::beginFirst()
+Foam::captureMap::captureMap
+(
+    const setting& from,
+    const inletPlane& plane,
+    const independentCells& cells,
+    const scalar deltaT
+)
+:
+    cells_(cells),
+    plane_(plane),
+    from_(from),
+    deltaT_(deltaT),
+    startAt_(from.poses.size()),
+    nFollowed_(0),
+    bounded_(false)
 {
-    const label n = 1 << levels_;
+    const scalar side = max(plane.width(), plane.height())/from.nSquares;
 
-    forAll(poses_, p)
+    nFirst_[0] = max(label(plane.width()/side + 0.5), label(1));
+    nFirst_[1] = max(label(plane.height()/side + 0.5), label(1));
+
+    const int64_t nStarts =
+        int64_t(nFirst_[0] + 1)*(nFirst_[1] + 1)*from.poses.size();
+    if (nStarts > from.mostCells)
+    {
+        const masterGate once;
+        FatalErrorInFunction
+            << "mostCells " << from.mostCells << " of captureMapDict is out of"
+            << " range" << nl << "    allowed: " << nStarts
+            << " or more, as many as start on the corners of the first squares"
+            << exit(FatalError);
+    }
+
+    const label n = 1 << from.levels;
+    forAll(from.poses, p)
     {
         for (label j = 0; j <= nFirst_[1]; ++j)
         {
@@ -363,79 +380,7 @@ void Foam::captureMap::beginFirst()
 }
 
 
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
-
-Foam::captureMap::captureMap
-(
-    const dictionary& dict,
-    const independentCells& cells,
-    const undecomposedFlow& undecomposed,
-    const label seed,
-    const scalar deltaT
-)
-:
-    cells_(cells),
-    plane_(dict, undecomposed),
-    levels_(readLevels(dict)),
-    mostCells_(readMostCells(dict)),
-    deltaT_(deltaT),
-    endTime_(dict.get<scalar>("endTime")),
-    poses_(readPoses(dict, seed)),
-    starts_(),
-    startAt_(poses_.size()),
-    squares_(),
-    shares_(),
-    waiting_(),
-    nFollowed_(0),
-    bounded_(false)
-{
-    const scalar side =
-        max(plane_.width(), plane_.height())/readSquares(dict);
-
-    nFirst_[0] = max(label(plane_.width()/side + 0.5), label(1));
-    nFirst_[1] = max(label(plane_.height()/side + 0.5), label(1));
-
-    checkLattice(dict);
-    beginFirst();
-
-    const masterGate once;
-
-    if (nFollowed_ > mostCells_)
-    {
-        FatalIOErrorInFunction(dict)
-            << "mostCells " << mostCells_ << " is out of range" << nl
-            << "    allowed: " << nFollowed_ << " or more, as many as start on"
-            << " the corners of the first squares" << exit(FatalIOError);
-    }
-}
-
-
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-void Foam::captureMap::check
-(
-    const dictionary& dict,
-    const polyBoundaryMesh& patches,
-    const label seed
-)
-{
-    checkKeywords
-    (
-        dict,
-        {
-            "patch", "squares", "levels", "mostCells", "endTime", "orientations"
-        },
-        {"orientations"}
-    );
-
-    cellInjection::findPatch(dict, patches);
-    readSquares(dict);
-    readLevels(dict);
-    readMostCells(dict);
-    checkedNumber<scalar>(dict, "endTime", above(0));
-    readPoses(dict, seed);
-}
-
 
 void Foam::captureMap::make()
 {

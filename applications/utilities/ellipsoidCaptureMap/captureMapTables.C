@@ -2,10 +2,8 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "captureMap.H"
-#include "OFstream.H"
-#include "csvFields.H"
+#include "appendedFile.H"
 #include "IOmanip.H"
-#include "OSspecific.H"
 #include "atomicWrite.H"
 
 #include <algorithm>
@@ -111,52 +109,43 @@ Foam::captureMap::part Foam::captureMap::partOf
 }
 
 
-void Foam::captureMap::writeStarts(Ostream& os) const
+void Foam::captureMap::writeStarts(std::ostream& os) const
 {
-    os << "id,level,x1,x2,x3,orientation,fate,touched" << nl;
+    os << "id,level,x1,x2,x3,orientation,fate,touched" << '\n';
 
     forAll(starts_, id)
     {
         const start& one = starts_[id];
         const label touched = one.end.touched;
 
-        os  << id << ',' << one.level;
-        for (const scalar x : one.x.v_)
-        {
-            os << ',' << x;
-        }
+        os  << id << ',' << one.level << commas{one.x.v_, 3};
         const word name
         (
             touched < 0 ? word("-") : cells_.patchNames()[touched]
         );
         os  << ',' << one.at.pose << ','
-            << csvField(kindName(kindOf(id))).c_str() << ','
-            << csvField(name).c_str() << nl;
+            << csvField(kindName(kindOf(id))) << ','
+            << csvField(name) << '\n';
     }
 }
 
 
-void Foam::captureMap::writePoses(Ostream& os) const
+void Foam::captureMap::writePoses(std::ostream& os) const
 {
-    os << "orientation,name,eps1,eps2,eps3,eta,O1,O2,O3" << nl;
+    os << "orientation,name,eps1,eps2,eps3,eta,O1,O2,O3" << '\n';
 
-    forAll(poses_, p)
+    forAll(from_.poses, p)
     {
-        os << p << ',' << csvField(poses_[p].name).c_str();
-        for (const scalar q : poses_[p].q)
-        {
-            os << ',' << q;
-        }
-
-        const vector O(longAxis(poses_[p].q));
-        os << ',' << O.x() << ',' << O.y() << ',' << O.z() << nl;
+        const scalar* q = from_.poses[p].q;
+        os  << p << ',' << csvField(from_.poses[p].name) << commas{q, 4}
+            << commas{longAxis(q).v_, 3} << '\n';
     }
 }
 
 
-void Foam::captureMap::writeSquares(Ostream& os) const
+void Foam::captureMap::writeSquares(std::ostream& os) const
 {
-    os << "orientation,level,x1,x2,x3,width,height,area,inflow,fate" << nl;
+    os << "orientation,level,x1,x2,x3,width,height,area,inflow,fate" << '\n';
 
     forAll(squares_, i)
     {
@@ -169,34 +158,30 @@ void Foam::captureMap::writeSquares(Ostream& os) const
             found.size() > 1 ? word("mixed") : kindName(*found.begin())
         );
 
-        os << one.at.pose << ',' << one.level;
-        for (const scalar component : x.v_)
-        {
-            os << ',' << component;
-        }
-        os  << ',' << w.s1 - w.s0 << ',' << w.t1 - w.t0
+        os  << one.at.pose << ',' << one.level << commas{x.v_, 3}
+            << ',' << w.s1 - w.s0 << ',' << w.t1 - w.t0
             << ',' << shares_[i].area << ',' << shares_[i].inflow << ','
-            << csvField(kind).c_str() << nl;
+            << csvField(kind) << '\n';
     }
 }
 
 
-void Foam::captureMap::writeSummary(Ostream& os) const
+void Foam::captureMap::writeSummary(std::ostream& os) const
 {
     labelList all(kinds());
     all.append(anySieve_);
     all.append(noRoom_);
 
     os << "orientation,fate,inflow,inflowLow,inflowHigh,area,areaLow,areaHigh"
-       << nl;
+       << '\n';
 
-    for (label p = -1; p < poses_.size(); ++p)
+    for (label p = -1; p < from_.poses.size(); ++p)
     {
         for (const label kind : all)
         {
-            const word name(p < 0 ? word("all") : poses_[p].name);
-            os  << csvField(name).c_str() << ','
-                << csvField(kindName(kind)).c_str();
+            const word name(p < 0 ? word("all") : from_.poses[p].name);
+            os  << csvField(name) << ','
+                << csvField(kindName(kind));
 
             for (const bool byInflow : {true, false})
             {
@@ -204,7 +189,7 @@ void Foam::captureMap::writeSummary(Ostream& os) const
                 os  << ',' << found.likely << ',' << found.low
                     << ',' << found.high;
             }
-            os << nl;
+            os << '\n';
         }
     }
 }
@@ -219,7 +204,7 @@ void Foam::captureMap::report(Ostream& os) const
     }
     const inletPlane::window w(windowOf(square{node{0, 0, 0}, finest}));
 
-    os  << nl << "capture map: " << poses_.size() << " orientations, "
+    os  << nl << "capture map: " << from_.poses.size() << " orientations, "
         << starts_.size() << " starts, " << nFollowed_ << " cells followed"
         << nl << squares_.size() << " squares, the smallest "
         << 1e6*w.s1 << " x " << 1e6*w.t1 << " um" << nl;
@@ -250,19 +235,18 @@ void Foam::captureMap::report(Ostream& os) const
 
 void Foam::captureMap::write(const fileName& folder) const
 {
-    mkDir(folder);
-
     const auto write =
-        [&](const word& name, void (captureMap::*contents)(Ostream&) const)
+        [&](const word& name, void (captureMap::*contents)(std::ostream&) const)
         {
-            OFstream os(folder/name);
-            os.precision(12);
-            (this->*contents)(os);
-
-            if (!os.stdStream().flush())
-            {
-                cannotWrite(os.name());
-            }
+            atomicWrite
+            (
+                folder/name,
+                [&](std::ostream& os)
+                {
+                    os.precision(12);
+                    (this->*contents)(os);
+                }
+            );
         };
 
     write("map.csv", &captureMap::writeStarts);

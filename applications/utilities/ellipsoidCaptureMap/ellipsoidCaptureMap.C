@@ -65,7 +65,6 @@ static void checkCase
 (
     const dictionary& dict,
     const fvMesh& mesh,
-    const label seed,
     const word& instance
 )
 {
@@ -84,7 +83,6 @@ static void checkCase
     {
         refuseRepeated(runTime.globalPath()/runTime.system()/dict.dictName());
     }
-    captureMap::check(dict, mesh.boundaryMesh(), seed);
     checkedNumber<scalar>(runTime.controlDict(), "deltaT", above(0));
 
     if (!solved)
@@ -106,7 +104,18 @@ void makeMap
 )
 {
     const word instance(caseFiles::flowInstance(mesh));
-    checkCase(dict, mesh, properties.seed(), instance);
+    checkCase(dict, mesh, instance);
+    autoPtr<captureMap::setting> from;
+    {
+        const masterGate once;
+        from.reset
+        (
+            new captureMap::setting
+            (
+                dict, mesh.boundaryMesh(), properties.seed()
+            )
+        );
+    }
 
     undecomposedFlow undecomposed(mesh);
     const volVectorField U(fieldOf("U", instance, mesh), mesh);
@@ -123,10 +132,8 @@ void makeMap
 
     const independentCells cells(properties, mesh, undecomposed);
 
-    captureMap map
-    (
-        dict, cells, undecomposed, properties.seed(), runTime.deltaTValue()
-    );
+    const inletPlane plane(dict, undecomposed);
+    captureMap map(*from, plane, cells, runTime.deltaTValue());
     map.make();
 
     if (Pstream::master())

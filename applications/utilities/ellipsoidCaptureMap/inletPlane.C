@@ -3,63 +3,8 @@
 
 #include "inletPlane.H"
 #include "masterGate.H"
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-    //- Corners of a convex polygon in the plane
-    struct corner
-    {
-        scalar s, t;
-    };
-    typedef DynamicList<corner, 8> polygon;
-
-    //- What of a polygon lies on one side of a line: where above(c) >= 0, which
-    //  is linear. Sutherland & Hodgman, Commun. ACM 17, 32 (1974).
-    template<class Distance>
-    static polygon cut(const polygon& full, const Distance& above)
-    {
-        polygon rest;
-
-        forAll(full, i)
-        {
-            const corner& a = full[i];
-            const corner& b = full[full.fcIndex(i)];
-            const scalar da = above(a);
-            const scalar db = above(b);
-
-            if (da >= 0)
-            {
-                rest.append(a);
-            }
-            if ((da >= 0) != (db >= 0))
-            {
-                const scalar part = da/(da - db);
-                rest.append
-                (
-                    corner{a.s + part*(b.s - a.s), a.t + part*(b.t - a.t)}
-                );
-            }
-        }
-
-        return rest;
-    }
-
-    static scalar areaOf(const polygon& p)
-    {
-        scalar twice = 0;
-        for (label i = 2; i < p.size(); ++i)
-        {
-            twice +=
-                (p[i - 1].s - p[0].s)*(p[i].t - p[0].t)
-              - (p[i].s - p[0].s)*(p[i - 1].t - p[0].t);
-        }
-
-        return 0.5*mag(twice);
-    }
-}
-
+#include "plane.H"
+#include "triPointRef.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -149,15 +94,8 @@ Foam::inletPlane::inletPlane
     forAll(triangles_, i)
     {
         triangle& tri = triangles_[i];
-        polygon full;
-
-        for (label k = 0; k < 3; ++k)
-        {
-            tri.s[k] = s[3*i + k] - min(s);
-            tri.t[k] = t[3*i + k] - min(t);
-            full.append(corner{tri.s[k], tri.t[k]});
-        }
-        tri.area = areaOf(full);
+        tri.corners =
+            triPoints(corners[3*i], corners[3*i + 1], corners[3*i + 2]);
         tri.inflow = patch.upTo[i] - (i ? patch.upTo[i - 1] : 0);
     }
 }
@@ -167,35 +105,37 @@ Foam::inletPlane::inletPlane
 
 Foam::inletPlane::share Foam::inletPlane::within(const window& w) const
 {
+    const plane sides[] =
+    {
+        plane(position(w.s0, 0), first_), plane(position(w.s1, 0), -first_),
+        plane(position(0, w.t0), second_), plane(position(0, w.t1), -second_)
+    };
+    const auto drop = [](const triPoints&) {};
     share sum{0, 0};
 
     for (const triangle& tri : triangles_)
     {
-        if
-        (
-            max(tri.s[0], max(tri.s[1], tri.s[2])) <= w.s0
-         || min(tri.s[0], min(tri.s[1], tri.s[2])) >= w.s1
-         || max(tri.t[0], max(tri.t[1], tri.t[2])) <= w.t0
-         || min(tri.t[0], min(tri.t[1], tri.t[2])) >= w.t1
-         || tri.area <= 0
-        )
+        DynamicList<triPoints, 8> parts(1, tri.corners);
+        for (const plane& side : sides)
         {
-            continue;
+            DynamicList<triPoints, 8> rest;
+            const auto keep = [&](const triPoints& part)
+            {
+                rest.append(part);
+            };
+            for (const triPoints& part : parts)
+            {
+                triPointRef(part).sliceWithPlane(side, keep, drop);
+            }
+            parts.transfer(rest);
         }
 
-        polygon part;
-        for (label k = 0; k < 3; ++k)
+        for (const triPoints& part : parts)
         {
-            part.append(corner{tri.s[k], tri.t[k]});
+            const scalar area = triPointRef(part).mag();
+            sum.area += area;
+            sum.inflow += tri.inflow*area/max(triPointRef(tri.corners).mag(), VSMALL);
         }
-        part = cut(part, [&](const corner& c) { return c.s - w.s0; });
-        part = cut(part, [&](const corner& c) { return w.s1 - c.s; });
-        part = cut(part, [&](const corner& c) { return c.t - w.t0; });
-        part = cut(part, [&](const corner& c) { return w.t1 - c.t; });
-
-        const scalar area = areaOf(part);
-        sum.area += area;
-        sum.inflow += tri.inflow*area/tri.area;
     }
 
     return sum;
