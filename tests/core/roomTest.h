@@ -27,6 +27,32 @@ evaluate_pose(const ellipsoid_model *model,
                                       jacobian);
 }
 
+/* Walls that count their calls and answer as told. */
+typedef struct counted_walls
+{
+    wall_mesh *mesh;
+    int calls, answer;
+    double farther; /* [m] reach of the list beyond that asked for */
+} counted_walls;
+
+static inline int counted(void *context, double t, const double centre[3],
+                          double reach, ellipsoid_facet_list *list)
+{
+    counted_walls *walls = context;
+
+    walls->calls++;
+    wall_mesh_list(walls->mesh, t, centre, reach + walls->farther, list);
+    return walls->answer;
+}
+
+static inline ellipsoid_surroundings around_counted(counted_walls *walls)
+{
+    const ellipsoid_surroundings surroundings = {.walls = counted,
+                                                 .walls_context = walls};
+
+    return surroundings;
+}
+
 /* A box of fluid with a ridge and a step on its floor: all kinds of edges. */
 static inline wall_mesh room_of(int diagonal)
 {

@@ -7,32 +7,6 @@
 */
 #include "roomTest.h"
 
-/* Walls that count their calls and answer as told. */
-typedef struct counted_walls
-{
-    wall_mesh *mesh;
-    int calls, answer;
-    double farther; /* [m] reach of the list beyond that asked for */
-} counted_walls;
-
-static int counted(void *context, double t, const double centre[3],
-                   double reach, ellipsoid_facet_list *list)
-{
-    counted_walls *walls = context;
-
-    walls->calls++;
-    wall_mesh_list(walls->mesh, t, centre, reach + walls->farther, list);
-    return walls->answer;
-}
-
-static ellipsoid_surroundings around(counted_walls *walls)
-{
-    const ellipsoid_surroundings surroundings = {.walls = counted,
-                                                 .walls_context = walls};
-
-    return surroundings;
-}
-
 static void lay(double q[4], double angle)
 {
     const double axis[3] = {cos(angle), sin(angle), 0};
@@ -49,7 +23,7 @@ static void test_sphere_on_a_plane(void **unused)
     ellipsoid_options options = ellipsoid_options_default();
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh};
-    const ellipsoid_surroundings surroundings = around(&walls);
+    const ellipsoid_surroundings surroundings = around_counted(&walls);
     const double q[4] = {0.1, -0.5, 0.3, sqrt(1 - 0.01 - 0.25 - 0.09)};
     static ellipsoid_facet_cache cache;
     ellipsoid_contact contact;
@@ -88,7 +62,7 @@ static void test_standing_and_lying(void **unused)
     const double up[3] = {0, 0, 1};
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh};
-    const ellipsoid_surroundings surroundings = around(&walls);
+    const ellipsoid_surroundings surroundings = around_counted(&walls);
     static ellipsoid_facet_cache cache;
     ellipsoid_contact contact;
     double x[3] = {-2 * um, 1 * um, 1.999 * um}, q[4];
@@ -156,7 +130,7 @@ static void test_sum_over_beads(void **unused)
     const ellipsoid_model model = test_model(&options);
     wall_mesh mesh = room_of(1);
     counted_walls walls = {.mesh = &mesh};
-    const ellipsoid_surroundings surroundings = around(&walls);
+    const ellipsoid_surroundings surroundings = around_counted(&walls);
     static ellipsoid_facet_cache cache;
     uint64_t seed = 1;
     int touched = 0;
@@ -188,8 +162,8 @@ static void test_cache_changes_nothing(void **unused)
     ellipsoid_options options = ellipsoid_options_default();
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh}, empty = {.mesh = &mesh};
-    const ellipsoid_surroundings surroundings = around(&walls);
-    const ellipsoid_surroundings emptied = around(&empty);
+    const ellipsoid_surroundings surroundings = around_counted(&walls);
+    const ellipsoid_surroundings emptied = around_counted(&empty);
     static ellipsoid_facet_cache kept, fresh;
     uint64_t seed = 2;
     int touched = 0;
@@ -248,7 +222,7 @@ static void test_jacobian_is_exact(void **unused)
     const ellipsoid_model model = test_model(&options);
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh};
-    const ellipsoid_surroundings surroundings = around(&walls);
+    const ellipsoid_surroundings surroundings = around_counted(&walls);
     static ellipsoid_facet_cache cache;
     uint64_t seed = 3;
     int checked = 0;
@@ -280,7 +254,7 @@ static void test_far_from_walls(void **unused)
     const double high[3] = {60 * um, 60 * um, 60 * um};
     wall_mesh mesh;
     counted_walls walls = {.mesh = &mesh};
-    const ellipsoid_surroundings surroundings = around(&walls);
+    const ellipsoid_surroundings surroundings = around_counted(&walls);
     static ellipsoid_facet_cache cache;
     double x[3] = {0, 0, 0};
     const double q[4] = {0, 0, 0, 1};
@@ -328,7 +302,7 @@ static void test_along_a_wall(void **unused)
     const double *a = options.semi_axes;
     wall_mesh mesh;
     counted_walls walls = {.mesh = &mesh};
-    const ellipsoid_surroundings surroundings = around(&walls);
+    const ellipsoid_surroundings surroundings = around_counted(&walls);
     static ellipsoid_facet_cache cache;
     const double across[3] = {0, 1, 0};
     const double height = fmin(a[0], fmin(a[1], a[2])) + 4 * radius;
@@ -363,7 +337,7 @@ static void test_shrunk_to_a_point(void **unused)
     const double x[3] = {-2 * um, 1 * um, 0.5 * radius};
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh};
-    const ellipsoid_surroundings surroundings = around(&walls);
+    const ellipsoid_surroundings surroundings = around_counted(&walls);
     static ellipsoid_facet_cache cache;
 
     (void)unused;
@@ -386,7 +360,7 @@ static void test_no_walls(void **unused)
     ellipsoid_options options = ellipsoid_options_default();
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh};
-    const ellipsoid_surroundings with = around(&walls), without = {0};
+    const ellipsoid_surroundings with = around_counted(&walls), without = {0};
     const double x[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1};
     ellipsoid_contact contact;
     ellipsoid_wrench_jacobian jacobian;
@@ -407,69 +381,6 @@ static void test_no_walls(void **unused)
     wall_mesh_free(&mesh);
 }
 
-static void test_failures_have_names(void **unused)
-{
-    const ellipsoid_options options = ellipsoid_options_default();
-    const ellipsoid_model model = test_model(&options);
-    const double u[3] = {4 * um, 0, 0}, v[3] = {0, 4 * um, 0};
-    const double corner[3] = {-2 * um, -2 * um, 0};
-    double x[3] = {0, 0, 0.5 * um}, q[4] = {0, 0, 0, 1};
-    wall_mesh mesh = room_of(0);
-    counted_walls walls = {.mesh = &mesh};
-    const ellipsoid_surroundings surroundings = around(&walls);
-    static ellipsoid_facet_cache cache;
-    ellipsoid_contact contact;
-
-    (void)unused;
-    ellipsoid_facet_cache_clear(&cache);
-    walls.answer = 1;
-    assert_int_equal(
-        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL),
-        ELLIPSOID_STEP_UNDERFLOW);
-    walls.answer = -1;
-    assert_int_equal(
-        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL),
-        ELLIPSOID_WALLS_FAILED);
-    walls.answer = 0;
-    x[1] = NAN;
-    assert_int_equal(
-        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL),
-        ELLIPSOID_NON_FINITE);
-    x[1] = 0;
-    mesh.facets[0].middle[2] = INFINITY;
-    walls.farther = 100 * um;
-    ellipsoid_facet_cache_clear(&cache);
-    assert_int_equal(
-        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL),
-        ELLIPSOID_NON_FINITE);
-    wall_mesh_free(&mesh);
-
-    /* facets of 10 nm: smaller margins, and then too many */
-    wall_mesh_init(&mesh);
-    wall_mesh_plane(&mesh, corner, u, v, 400, 400, 0, 0);
-    wall_mesh_finish(&mesh);
-    walls.farther = 0;
-    lay(q, 0.1);
-    ellipsoid_facet_cache_clear(&cache);
-    assert_ok(
-        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL));
-    /* nor does a cache that holds facets take it for a pose near its own */
-    x[1] = NAN;
-    assert_int_equal(
-        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL),
-        ELLIPSOID_NON_FINITE);
-    x[1] = 0;
-    wall_mesh_free(&mesh);
-    wall_mesh_init(&mesh);
-    wall_mesh_plane(&mesh, corner, u, v, 4, 40000, 0, 0);
-    wall_mesh_finish(&mesh);
-    ellipsoid_facet_cache_clear(&cache);
-    assert_int_equal(
-        evaluate_pose(&model, &surroundings, x, q, &cache, &contact, NULL),
-        ELLIPSOID_TOO_MANY_FACETS);
-    wall_mesh_free(&mesh);
-}
-
 /* In order of bead, then facet; each surface once. */
 static void test_touched_surfaces(void **unused)
 {
@@ -477,7 +388,7 @@ static void test_touched_surfaces(void **unused)
     const ellipsoid_model model = test_model(&options);
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh};
-    const ellipsoid_surroundings surroundings = around(&walls);
+    const ellipsoid_surroundings surroundings = around_counted(&walls);
     const double across[3] = {1, 0, 0};
     static ellipsoid_facet_cache cache;
     ellipsoid_contact contact;
@@ -509,7 +420,6 @@ int main(void)
         cmocka_unit_test(test_along_a_wall),
         cmocka_unit_test(test_shrunk_to_a_point),
         cmocka_unit_test(test_no_walls),
-        cmocka_unit_test(test_failures_have_names),
         cmocka_unit_test(test_touched_surfaces),
     };
 

@@ -454,39 +454,6 @@ static void test_statuses(void **unused)
                      ELLIPSOID_NON_FINITE);
 }
 
-/* The drag on a body held still is what it would be accelerated by, times its
-   mass: rounding. */
-static void test_held_drag(void **unused)
-{
-    ellipsoid_options o = test_free_cell();
-    uint64_t seed = 31;
-
-    (void)unused;
-    o.pressure_gradient = ELLIPSOID_PRESSURE_NONE;
-    for (int n = 0; n < 20; n++)
-    {
-        const ellipsoid_model model = test_model(&o);
-        test_quadratic flow = test_shear(100);
-        const ellipsoid_surroundings around = {.flow = test_quadratic_flow,
-                                               .flow_context = &flow};
-        ellipsoid_state state = {.u = {0}}, slope;
-        double drag[3];
-
-        for (int i = 0; i < 3; i++)
-        {
-            flow.u[i] = 1e-3 * test_signed(&seed);
-        }
-        test_orientation(&seed, state.q);
-        assert_ok(ellipsoid_rhs(&model, &around, &state, NULL, &slope));
-        ellipsoid_drag_at_rest(&model, state.q, flow.u, drag);
-        for (int i = 0; i < 3; i++)
-        {
-            assert_near(model.mass * slope.u[i], drag[i],
-                        1e-14 * ellipsoid_length(drag));
-        }
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -496,7 +463,6 @@ int main(void)
         cmocka_unit_test(test_written_out),
         cmocka_unit_test(test_rigid_rotation),
         cmocka_unit_test(test_statuses),
-        cmocka_unit_test(test_held_drag),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
