@@ -56,6 +56,7 @@ Description
 #include "cloud/ellipsoidCloudFiles.C"
 #include "cloud/ellipsoidCloudInjections.C"
 #include "cloud/ellipsoidCloudRun.C"
+#include "cloud/flowChecks.C"
 #include "cloud/inletFlux.C"
 
 #include "functionObject/ellipsoidTracking.C"

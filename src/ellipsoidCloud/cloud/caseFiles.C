@@ -6,8 +6,6 @@
 #include "atomicWrite.H"
 #include "checkedEntries.H"
 #include "fileOperation.H"
-#include "fvcFlux.H"
-#include "fvcSurfaceIntegrate.H"
 #include "labelIOList.H"
 #include "masterGate.H"
 #include "plainLists.H"
@@ -69,25 +67,6 @@ namespace Foam
                 << path << " is missing"
                 << (Pstream::parRun() ? ", or that of another processor" : "")
                 << nl << "    " << step.c_str() << exit(FatalError);
-        }
-    }
-
-    //- End the run if a field is not of the dimensions that the solver has it in
-    template<class Field>
-    static void needDimensions
-    (
-        const Field& field,
-        const dimensionSet& dimensions,
-        const char* hint
-    )
-    {
-        if (field.dimensions() != dimensions)
-        {
-            const masterGate once;
-            FatalErrorInFunction
-                << "The dimensions " << field.dimensions() << " of "
-                << field.name() << " are not " << dimensions << hint << nl
-                << "    " << field.objectPath() << exit(FatalError);
         }
     }
 
@@ -464,58 +443,4 @@ Foam::word Foam::caseFiles::flowInstance(const fvMesh& mesh)
     }
 
     return U.instance();
-}
-
-
-void Foam::caseFiles::checkDimensions(const solverFields& flow)
-{
-    needDimensions(flow.U, dimVelocity, ": a velocity in m/s");
-    needDimensions
-    (
-        flow.p,
-        sqr(dimVelocity),
-        ": the kinematic pressure, that is, Pa by kg/m3"
-    );
-    needDimensions
-    (
-        flow.phi,
-        dimVelocity*dimArea,
-        ": the flux of volume, that is, one of mass by kg/m3"
-    );
-}
-
-
-Foam::scalar Foam::caseFiles::fluxDifference(const solverFields& flow)
-{
-    const surfaceScalarField& phi = flow.phi;
-    const scalarField apart
-    (
-        fvc::surfaceSum(mag(phi - fvc::flux(flow.U)))().primitiveField()
-    );
-
-    return
-        gSum(apart)/(gSum(fvc::surfaceSum(mag(phi))().primitiveField()) + VSMALL);
-}
-
-
-void Foam::caseFiles::checkFluxDifference
-(
-    const scalar difference,
-    const fvMesh& mesh
-)
-{
-    const masterGate once;
-    const scalar tolerance = checkedNumber
-    (
-        subDictOf(mesh.solutionDict(), "flow"), "fluxTolerance", above(0), 0.1
-    );
-
-    if (!(difference <= tolerance))
-    {
-        FatalErrorInFunction
-            << "phi and U are not of one flow: they differ by "
-            << shortText(difference).c_str() << ", above fluxTolerance "
-            << shortText(tolerance).c_str() << " (dictionary flow of"
-            << " system/fvSolution)" << exit(FatalError);
-    }
 }
