@@ -71,6 +71,9 @@ void fuzz_scene_read(fuzz_scene *scene, fuzz_input *in,
                      const ellipsoid_options *options);
 void fuzz_scene_free(fuzz_scene *scene);
 
+/* Add walls over about this length to a mesh, or none: is it finished? */
+int fuzz_walls_read(wall_mesh *mesh, double length, fuzz_input *in);
+
 /* Do the walls answer whenever they are asked, and with numbers? */
 int fuzz_scene_has_faultless_walls(const fuzz_scene *scene);
 

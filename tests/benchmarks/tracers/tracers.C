@@ -58,6 +58,7 @@ Usage
 #include "surfaceFields.H"
 #include "surfaceInterpolate.H"
 #include "undecomposedFlow.H"
+#include "tracerRectangle.H"
 #include "velocityCheck.H"
 #include "volFields.H"
 
@@ -72,84 +73,12 @@ using namespace Foam;
 namespace
 {
 
-struct rectangle
-{
-    word name;
-    point low, high;
-
-    rectangle(const word& of, const dictionary& dict)
-    :
-        name(of),
-        low(dict.get<point>("min")),
-        high(dict.get<point>("max"))
-    {}
-
-    bool covers(const point& x) const
-    {
-        return
-            x.x() > low.x() && x.x() < high.x()
-         && x.z() > low.z() && x.z() < high.z();
-    }
-
-    point at(const scalar s, const scalar t) const
-    {
-        return point
-        (
-            low.x() + s*(high.x() - low.x()),
-            low.y(),
-            low.z() + t*(high.z() - low.z())
-        );
-    }
-
-    scalar area() const
-    {
-        return (high.x() - low.x())*(high.z() - low.z());
-    }
-};
-
-
-std::vector<rectangle> rectangles(const dictionary& dict)
-{
-    std::vector<rectangle> list;
-
-    for (const entry& e : dict)
-    {
-        list.push_back(rectangle(e.keyword(), e.dict()));
-    }
-
-    return list;
-}
-
-
 //- CPU time of this process [s]
 scalar seconds()
 {
     timespec now;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return now.tv_sec + 1e-9*now.tv_nsec;
-}
-
-
-//- Flux [m3/s] by phi through the mesh faces between what lies before and
-//  what lies behind a rectangle
-scalar fluxThrough(const rectangle& r, const surfaceScalarField& phi)
-{
-    const fvMesh& mesh = phi.mesh();
-    scalar sum = 0;
-
-    forAll(mesh.faceNeighbour(), facei)
-    {
-        const point& a = mesh.cellCentres()[mesh.faceOwner()[facei]];
-        const point& b = mesh.cellCentres()[mesh.faceNeighbour()[facei]];
-        const int side = (b.y() > r.low.y()) - (a.y() > r.low.y());
-
-        if (side && r.covers(mesh.faceCentres()[facei]))
-        {
-            sum += side*phi[facei];
-        }
-    }
-
-    return sum;
 }
 
 
