@@ -10,12 +10,13 @@
 #include "PstreamReduceOps.H"
 #include "readViscosity.H"
 #include "Time.H"
+#include "wordRes.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::ellipsoidProperties::readUnreached(const polyBoundaryMesh& patches)
 {
-    const wordRes names(patternsOf(*this, "unreached"));
+    const wordRes names(getOrDefault("unreached", wordRes()));
     labelHashSet constrained;
     unreached_ = patches.patchSet(names, false);
 
