@@ -360,7 +360,7 @@ ellipsoid_jacobian(const ellipsoid_model *model,
 /* What step control remembers between calls: part of a cell's state. */
 typedef struct ellipsoid_controller
 {
-    double step;           /* [s] proposed next step; 0: initial_step */
+    double step;           /* [s] proposed next step; 0: chosen */
     double previous_error; /* [-] of the last accepted step; 0: none */
 } ellipsoid_controller;
 

@@ -440,7 +440,7 @@ static void test_step_limits(void **unused)
 
     r = new_run();
     memset(&l, 0, sizeof(l));
-    r.model.options.initial_step = 3e-9;
+    r.controller.step = 3e-9;
     assert_ok(go(&r, 0.005, observe, &l));
     assert_true(l.t[0] == 3e-9);
 }

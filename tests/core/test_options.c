@@ -80,10 +80,6 @@ static void test_faults_are_named(void **unused)
     assert_needs_number(tolerance, "tolerance");
     assert_refused(tolerance, 0.9e-14, "tolerance");
     assert_refused(tolerance, 0.11, "tolerance");
-    assert_needs_number(initial_step, "initial_step");
-    assert_refused(initial_step, 2, "initial_step");
-    assert_needs_number(minimum_step, "minimum_step");
-    assert_refused(minimum_step, 0, "minimum_step");
     assert_needs_number(maximum_step, "maximum_step");
     assert_refused(maximum_step, 1e-19, "maximum_step");
     assert_refused(maximum_steps, 0, "maximum_steps");

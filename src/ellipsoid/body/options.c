@@ -211,12 +211,6 @@ static void check_relations(verdict *v, const ellipsoid_options *o)
                 || (o->adhesion_range >= 1e-6 * o->bead_radius
                     && o->adhesion_range <= o->bead_radius),
             INDEX_adhesion_range, NULL);
-    require(v, o->maximum_step >= o->minimum_step, INDEX_maximum_step, NULL);
-    require(v,
-            o->initial_step == 0
-                || (o->initial_step >= o->minimum_step
-                    && o->initial_step <= o->maximum_step),
-            INDEX_initial_step, NULL);
     if (!v->field && matters(o, INDEX_bead_count))
     {
         double bead[ELLIPSOID_MAX_BEADS][3];

@@ -13,6 +13,9 @@
 /* An error that shortens the step as far as one rejection may. */
 static const double far_too_large = 1e6;
 
+/* A body that needs a shorter step is given up [s]. */
+static const double smallest_step = 1e-18;
+
 /*
     Has a step that lets go of a wall or a cell been held back by it? The method
     takes the contact for a spring that also pulls, so that a long step ends
@@ -288,7 +291,7 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
 {
     const ellipsoid_options *o = &g->cell[0].model->options;
     const double shortest =
-        fmax(o->minimum_step, 4 * DBL_EPSILON * fmax(fabs(t), DBL_MIN));
+        fmax(smallest_step, 4 * DBL_EPSILON * fmax(fabs(t), DBL_MIN));
     double largest_factor = 5, proposal = controller->step, landing;
     ellipsoid_status status = propose_step(g, t, end, shortest, &proposal);
 

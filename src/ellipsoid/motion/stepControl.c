@@ -241,11 +241,6 @@ ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double t, double end,
     double pace = 0, ahead;
     ellipsoid_status status;
 
-    *step = o->initial_step;
-    if (*step > 0)
-    {
-        return ELLIPSOID_OK;
-    }
     *step = o->maximum_step;
     for (int cell = 0; g->inertial && cell < g->count; cell++)
     {
