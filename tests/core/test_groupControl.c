@@ -3,9 +3,10 @@
 
 /*
     test_groupControl.c - the steps of a group are those that each of its cells
-    allows, in whatever order they come.
+    allows, in whatever order they come; how large an error is.
 */
 #include "groupTest.h"
+#include "nearWallTest.h"
 
 /* Two cells far apart in shear, one of which turns end over end and one about
    its long axis; `first` is which comes first. Each has a step of its own from
@@ -51,10 +52,92 @@ static void test_order_does_not_matter(void **unused)
     assert_true(attempts[0] > 20);
 }
 
+/* A cell alone, and what it takes to judge a step of it. */
+typedef struct judged
+{
+    ellipsoid_cell cell;
+    ellipsoid_evaluation start, next;
+    ellipsoid_stages stages;
+} judged;
+
+static ellipsoid_group group_of(judged *j)
+{
+    return (ellipsoid_group){.count = 1,
+                             .cell = &j->cell,
+                             .start = &j->start,
+                             .next = &j->next,
+                             .stages = &j->stages};
+}
+
+/* Errors of x count by the length and of q as they are; those of u and omega by
+   what they do in a relaxation time or a step, whichever is shorter. */
+static void test_size_of_errors(void **unused)
+{
+    const ellipsoid_options o = test_free_cell();
+    const ellipsoid_model model = test_model(&o);
+    const double length = 2e-6, h[2] = {1e-9, 1e-3};
+    const double tau[2] = {3e-7, 2e-8};
+
+    (void)unused;
+    for (int n = 0; n < 2; n++)
+    {
+        const double each[4] = {length, length / fmin(tau[0], h[n]),
+                                1 / fmin(tau[1], h[n]), 1};
+        const int at[4] = {AT_X, AT_U, AT_OMEGA, AT_Q};
+
+        for (int kind = 0; kind < 4; kind++)
+        {
+            judged j = {.cell = {.model = &model,
+                                 .length = length,
+                                 .rate = 1 / tau[0],
+                                 .rotation_rate = 1 / tau[1],
+                                 .inertial = 1}};
+            const ellipsoid_group g = group_of(&j);
+            double error;
+
+            j.stages.error[at[kind] + 1] = -0.7 * each[kind] * o.tolerance;
+            assert_ok(ellipsoid_judge_step(&g, h[n], &error));
+            assert_relative(error, 0.7, 1e-12);
+        }
+    }
+}
+
+/* What the drag near walls is expanded wrong by: a third of it over the step,
+   by the length or half of the turn; of that of places, the cube of the step. */
+static void test_errors_near_walls(void **unused)
+{
+    const ellipsoid_options o = near_walls();
+    const ellipsoid_model model = test_model(&o);
+    const double h = 1e-3, per_h = 3 * o.tolerance / h;
+    test_quadratic rest = {.answer = 0};
+    wall_mesh mesh;
+
+    (void)unused;
+    for (int kind = 0; kind < 2; kind++)
+    {
+        judged j = {.cell = {.model = &model,
+                             .surroundings = around(&mesh, &rest),
+                             .length = 2e-6}};
+        const ellipsoid_group g = group_of(&j);
+        double error = 0;
+
+        j.stages.order = 4;
+        j.next.walls.planes = 1;
+        j.next.walls.action[kind ? 4 : 2] =
+            kind ? 2 * 0.7 * per_h * model.viscosity
+                       * model.rotation_resistance[1]
+                 : 0.7 * per_h * 2e-6 * model.viscosity * model.resistance[2];
+        assert_ok(ellipsoid_judge_expansions(&g, h, &error));
+        assert_relative(error, pow(0.7, 4 / 3.0), 1e-12);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_order_does_not_matter),
+        cmocka_unit_test(test_size_of_errors),
+        cmocka_unit_test(test_errors_near_walls),
     };
 
     return cmocka_run_group_tests_name("groupControl", tests, NULL, NULL);

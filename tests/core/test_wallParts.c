@@ -223,6 +223,51 @@ static void test_ridge(void **unused)
     }
 }
 
+/* What a wall goes on with fades as it goes out of range: where the floor beside
+   a terrace does, nothing jumps of the terrace. It would be by 50 nm. */
+static void test_floor_out_of_range(void **unused)
+{
+    const double far = 5e-5, step = 1e-10;
+    const double rim[2][3] = {{0, -far, 0}, {0, far, 0}};
+    const double back[2][3] = {{-far, -far, 0}, {-far, far, 0}};
+    ellipsoid_options o = near_walls();
+    ellipsoid_model model;
+    test_quadratic still = {.answer = 0};
+    double gap[2];
+    wall_mesh mesh;
+
+    (void)unused;
+    ellipsoid_set(o.semi_axes, 0.5e-6, 0.5e-6, 0.5e-6);
+    o.wall_range = 10e-6;
+    model = test_model(&o);
+    wall_mesh_init(&mesh);
+    wall_mesh_quad(&mesh, back[0], rim[0], rim[1], back[1], 0, 0);
+    add_floor(&mesh, -8.5e-6, 1, 1);
+    wall_mesh_finish(&mesh);
+    for (int n = 0; n < 2; n++)
+    {
+        const ellipsoid_surroundings s = around(&mesh, &still);
+        const double z = 1.5e-6 + (n ? step : -step);
+        const ellipsoid_state state = {.x = {0, 0, z}, .q = {0, 0, 0, 1}};
+        ellipsoid_frame frame = {.axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+        ellipsoid_planes planes;
+
+        ellipsoid_facet_cache_clear(&cache);
+        assert_ok(
+            ellipsoid_find_planes(&model, &s, &state, &frame, &cache, &planes));
+        assert_int_equal(planes.count, n ? 1 : 2);
+        for (int k = 0; k < planes.count; k++)
+        {
+            if (planes.at[k].gap[ELLIPSOID_PLANE_NEAR] < 2e-6)
+            {
+                gap[n] = planes.at[k].gap[ELLIPSOID_PLANE_FAR];
+            }
+        }
+    }
+    assert_near(gap[0], gap[1], 1e-9);
+    wall_mesh_free(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -230,6 +275,7 @@ int main(void)
         cmocka_unit_test(test_wall_that_ends),
         cmocka_unit_test(test_round_wall),
         cmocka_unit_test(test_ridge),
+        cmocka_unit_test(test_floor_out_of_range),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

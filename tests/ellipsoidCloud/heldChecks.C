@@ -4,11 +4,13 @@
 /*---------------------------------------------------------------------------*\
 Description
     What occupancy keeps of cells that are held and let go, in fluid at rest;
-    and what a restart has of it and of a cell.
+    what a restart has of it and of a cell; what the flow does to held bodies.
 
 \*---------------------------------------------------------------------------*/
 
 #include "layerParts.H"
+// Of the solver, which is no library
+#include "solidBodies.C"
 
 #include <cmath>
 
@@ -394,4 +396,61 @@ void Foam::checkHeld(const layer& at)
     checkTorques(at);
     checkNotes(at);
     checkState(at);
+}
+
+
+// Bodies that share a mesh cell share what it resists by their volumes: of
+// n alike, of a part f of its volume each, each by f/(1 - n f)
+void Foam::checkBodies(const layer& at)
+{
+    const volVectorField& U = at.undecomposed.U();
+    const label celli = at.mesh.findCell(point(10e-6, 10e-6, 6e-6));
+    const heldBody body
+    {
+        0, 0, at.mesh.C()[celli], tensor::I, vector::uniform(0.6e-6)
+    };
+    solidBodies solids(at.mesh, dimensionedScalar("nu", dimViscosity, 1e-6));
+    const auto drags = [&](const List<heldBody>& bodies)
+    {
+        solids.set(bodies);
+        return solids.wrenches(U, 1000);
+    };
+    scalar drag[3];
+    for (label n = 1; n < 4; ++n)
+    {
+        drag[n - 1] = mag(drags(List<heldBody>(n, body))[n - 1].force);
+    }
+    OStringStream os;
+    os << drag[0] << ' ' << drag[1] << ' ' << drag[2];
+    holds
+    (
+        "bodies in one mesh cell share what it resists",
+        drag[0] > 0
+     && mag(1/drag[0] - 2/drag[1] + 1/drag[2]) < 1e-5/drag[0]
+     && drag[1] > 1.01*drag[0],
+        os.str()
+    );
+
+    heldBody small(body);
+    small.semiAxes *= 0.8;
+    const List<heldWrench> pair(drags(List<heldBody>({body, small})));
+    const scalar ratio = mag(pair[1].force)/mag(pair[0].force);
+    holds
+    (
+        "each by its volume",
+        mag(ratio/pow3(0.8) - 1) < 0.05,
+        Foam::name(ratio)
+    );
+
+    // Beside the middle of the mesh cell
+    heldBody beside(body);
+    const vector off(0.1e-6, -0.05e-6, 0.2e-6);
+    beside.centre += off;
+    const heldWrench one(drags(List<heldBody>(1, beside))[0]);
+    holds
+    (
+        "its torque is about its own centre",
+        mag(one.torque - (-off ^ one.force)) < 1e-9*mag(one.torque)
+     && mag(one.torque) > 0
+    );
 }

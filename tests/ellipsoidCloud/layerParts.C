@@ -313,6 +313,7 @@ int main(int argc, char *argv[])
         {
             checkMeshNotes(mesh);
             checkHeld(still);
+            checkBodies(stream);
             checkCaptures(stream);
             checkStatistics(still);
         }

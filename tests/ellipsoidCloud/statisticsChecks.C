@@ -3,14 +3,93 @@
 
 /*---------------------------------------------------------------------------*\
 Description
-    What captureStatistics makes of events.
+    What captureStatistics makes of events, and cellTracks of steps.
 
 \*---------------------------------------------------------------------------*/
 
 #include "atomicWrite.H"
 #include "captureStatistics.H"
+#include "cellTracks.H"
 #include "layerParts.H"
 #include "stringOps.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    //- When the rows of a cell are that goes along evenly by so much [m/s] and
+    //  turns by so much [rad/s], for 0.3505 s
+    static scalarList rowTimes
+    (
+        const layer& at,
+        const cellTracks& tracks,
+        const cellState::fateType fate,
+        const scalar speed,
+        const scalar spin
+    )
+    {
+        const scalar end = 0.3505;
+        const vector axis(0, 0, 1);
+        DynamicList<cellTracks::row> rows;
+        cellState cell(at.cellAt(point(10e-6, 10e-6, 5e-6)));
+        tracks.start(cell, rows);
+        cell.fate = fate;
+
+        // In many steps, as a pose is linear within one
+        const label nSteps = 3500;
+        for (label i = 0; i < nSteps; ++i)
+        {
+            ellipsoid_step step = ellipsoid_step();
+            step.start = end*i/nSteps;
+            step.end = end*(i + 1)/nSteps;
+            step.before = cell.body;
+            cell.body.x[0] = 10e-6 + speed*step.end;
+            ellipsoid_quaternion_from_axis(axis.v_, 0, cell.body.q);
+            cell.body.q[2] = std::sin(0.5*spin*step.end);
+            cell.body.q[3] = std::cos(0.5*spin*step.end);
+            cell.body.q[0] = cell.body.q[1] = 0;
+            step.after = cell.body;
+            tracks.add(cell, step, at.domain.flow, cell.tet, rows);
+        }
+
+        scalarList times(rows.size());
+        forAll(rows, i)
+        {
+            times[i] = rows[i][0];
+        }
+        return times;
+    }
+
+    //- Rows are left out where hardly anything moves, and of held cells; by the
+    //  defaults, 1 ms, 0.1 s and a hundredth of 2 um or of a rad
+    static void checkTracks(const layer& at, const tableSet& set)
+    {
+        const cellTracks tracks(set);
+        const auto every = [&]
+        (
+            const char* name, const cellState::fateType fate,
+            const scalar speed, const scalar spin, const scalar interval
+        )
+        {
+            const scalarList times(rowTimes(at, tracks, fate, speed, spin));
+            bool all = times.size() == label(0.3505/interval) + 1;
+            forAll(times, i)
+            {
+                all = all && mag(times[i] - i*interval) < 1e-9;
+            }
+            OStringStream os;
+            os << times;
+            holds(name, all, os.str());
+        };
+
+        every("a cell has a row each interval", cellState::inFlight, 1e-4, 0, 1e-3);
+        every("a slow one when it has moved", cellState::inFlight, 0.97e-6, 0, 21e-3);
+        every("or turned", cellState::inFlight, 0, 0.48, 21e-3);
+        every("a caught one rarely", cellState::caught, 1e-6, 0, 0.1);
+        every("and none if it rests", cellState::caught, 0, 0, 1);
+    }
+}
+
 
 // * * * * * * * * * * * * * * * Shared Functions  * * * * * * * * * * * * * //
 
@@ -106,4 +185,5 @@ void Foam::checkStatistics(const layer& at)
         says("waited to enter: 1 cells, 0.25 s in all"),
         os.str()
     );
+    checkTracks(at, set);
 }

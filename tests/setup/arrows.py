@@ -31,7 +31,9 @@ ROOMS = {
 USES = {
     "src/ellipsoidCloud": {"src/ellipsoid": ["."], "src/meshFlow": []},
     "applications": {"src/ellipsoidCloud": [], "src/meshFlow": [], "src/coupledStokes": ["coupledStokes.H"]},
-    "tests": {"src/ellipsoid": [], "src/meshFlow": [], "src/coupledStokes": ["coupledStokes.H"], "src/ellipsoidCloud": []},
+    "tests": {
+        "src/ellipsoid": [], "src/meshFlow": [], "src/coupledStokes": ["coupledStokes.H"], "src/ellipsoidCloud": [], "applications": [],
+    },
 }
 # Not part of what is built of the folder's rooms
 APART = {"lnInclude", "Make", "build", "example"}

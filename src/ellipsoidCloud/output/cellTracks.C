@@ -55,9 +55,8 @@ namespace Foam
         return labelList(std::move(ends));
     }
 
-    //- Write the numbers of the rows in that order, a part at a time: all would
-    //  take more memory than the cells. Each part reads the file again, so that
-    //  of a long one there are no more than some sixteen
+    //- Write the numbers of the rows in that order, an eighth at a time: all
+    //  would take more memory than the cells. Each part reads the file again
     static void writeInLines
     (
         std::ostream& os,
@@ -67,7 +66,7 @@ namespace Foam
     )
     {
         const label nPoints = ends.size() ? ends.last() : 0;
-        labelList part(min(nPoints, max(label(1 << 20), nPoints/16)));
+        labelList part(nPoints/8 + 1);
 
         for (label first = 0; first < nPoints; first += part.size())
         {
