@@ -42,7 +42,7 @@ static void test_continuous(void **unused)
     uint64_t seed = 23;
 
     (void)unused;
-    for (int n = 0; n < test_count(4, 20, 20); n++)
+    for (int n = 0; n < test_count(4, 8, 20); n++)
     {
         const double ends[2][3] = {
             {2e-6 * test_signed(&seed), 3e-6 * test_signed(&seed), 2e-6},
@@ -95,7 +95,7 @@ static void test_continuous_over_edges(void **unused)
     wall_mesh_box(&mesh, block[0], block[1], 0, 8, 0);
     wall_mesh_finish(&mesh);
     ellipsoid_facet_cache_clear(&cache);
-    for (long n = test_count(3, 60, 60); n > 0; n--)
+    for (long n = test_count(3, 20, 60); n > 0; n--)
     {
         const double from[3] = {0.5e-6 * test_signed(&seed), 1.4e-6,
                                 1.2e-6 + 1e-6 * test_uniform(&seed)};
@@ -275,7 +275,7 @@ static void test_continuous_by_a_post(void **unused)
         add_post(&mesh, diagonal);
         wall_mesh_finish(&mesh);
         ellipsoid_facet_cache_clear(&cache);
-        for (long n = test_count(2, 40, 40); n > 0; n--)
+        for (long n = test_count(2, 12, 40); n > 0; n--)
         {
             const double from[3] = {(-3 + test_signed(&seed)) * 1e-6,
                                     (-2 + test_signed(&seed)) * 1e-6,

@@ -36,7 +36,7 @@ static long crowd_steps(const crowd *c)
    within it after 60 ms. */
 static void test_fifty(void **unused)
 {
-    const long milliseconds = test_count(60, 100, 100);
+    const long milliseconds = test_count(60, 60, 100);
     double t = 0, far = 0;
     crowd c;
 
