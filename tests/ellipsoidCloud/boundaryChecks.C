@@ -4,7 +4,7 @@
 /*---------------------------------------------------------------------------*\
 Description
     What happens at the ends of the domain: a plane of symmetry, x = 20 um, and
-    open patches at both ends of y.
+    open patches at both ends of y. Sizes of its cells are drawn.
 
 \*---------------------------------------------------------------------------*/
 
@@ -349,6 +349,15 @@ void Foam::checkBoundaries(fvMesh& mesh)
 {
     const layer at(mesh, vector(1e-3, 2e-3, -1e-3));
 
+    typedef const ellipsoid_options& options;
+    const auto longest = [](options o) { return o.semi_axes[1]; };
+    const auto perWidth = [](options o) { return 1/o.semi_axes[0]; };
+    holds
+    (
+        "the longest and the narrowest cell that may be drawn are known",
+        mag(at.population.largest(longest)/(2e-6*exp(0.4)) - 1) < 1e-12
+     && mag(at.population.largest(perWidth)*0.5e-6/exp(0.2) - 1) < 1e-12
+    );
     checkMirror(at);
     checkLeaving(at);
     if (!Pstream::parRun())

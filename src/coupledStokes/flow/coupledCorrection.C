@@ -36,24 +36,20 @@ Foam::tmp<Foam::surfaceScalarField> Foam::coupledCorrection::linearise
         (UEqn & U_)().primitiveField() + gradP.primitiveField()
     );
 
-    // As SIMPLE's HbyA where it has converged, and with its boundary values
+    // As SIMPLE's HbyA where it has converged, and with its boundary values;
+    // where U is fixed what grad(p) adds across a face goes by snGrad(p) again
     volVectorField velocity("HbyA", U_ + rAU*gradP);
     forAll(mesh.boundary(), patchi)
     {
         const fvPatch& patch = mesh.boundary()[patchi];
-        if (!patch.coupled() && !polyPatch::constraintType(patch.type()))
+        if
+        (
+            !patch.coupled() && !polyPatch::constraintType(patch.type())
+         && U_.boundaryField()[patchi].assignable()
+        )
         {
-            const fvPatchVectorField& Up = U_.boundaryField()[patchi];
             fvPatchVectorField& values = velocity.boundaryFieldRef()[patchi];
-
-            if (Up.assignable())
-            {
-                values == values.patchInternalField();
-            }
-            else
-            {
-                values == Up;
-            }
+            values == values.patchInternalField();
         }
     }
     tmp<surfaceScalarField> flux
