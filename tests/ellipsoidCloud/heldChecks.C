@@ -33,15 +33,12 @@ namespace Foam
         (
             const layer& at,
             const cellState& cell,
-            const dictionary& notes = dictionary()
+            const dictionary& notes = dictionary(),
+            const char* rests = "speed 1e-6; holdTime 0.05;"
         )
         :
             at(at),
-            criterion
-            (
-                entries("speed 1e-6; holdTime 0.05;"),
-                at.mesh.boundaryMesh()
-            ),
+            criterion(entries(rests), at.mesh.boundaryMesh()),
             held
             (
                 occupancy::setting
@@ -272,6 +269,23 @@ namespace Foam
         );
     }
 
+    //- One that is confined is held when what acts on it is balanced
+    static void checkBalance(const layer& at)
+    {
+        cellState cell(at.cellAt(point(10e-6, 10e-6, 5e-6), 3));
+        const auto isHeld = [&](const scalar imbalance)
+        {
+            cell.imbalance = imbalance;
+            holding one
+            (
+                at, cell, dictionary(), "displacement 1e-6; holdTime 0.05;"
+            );
+            return one.staysAt(0);
+        };
+        holds("one that is on its way is not held", !isHeld(0.011));
+        holds("one that is balanced to 1 % is", isHeld(0.009));
+    }
+
     //- What a restart has of held cells
     static void checkNotes(const layer& at)
     {
@@ -394,6 +408,7 @@ void Foam::checkHeld(const layer& at)
     checkTwo(at);
     checkBeside(at);
     checkTorques(at);
+    checkBalance(at);
     checkNotes(at);
     checkState(at);
 }
@@ -453,4 +468,30 @@ void Foam::checkBodies(const layer& at)
         mag(one.torque - (-off ^ one.force)) < 1e-9*mag(one.torque)
      && mag(one.torque) > 0
     );
+}
+
+
+// Sections at y = 10 um, where the flow goes along by 2 mm/s
+void Foam::checkApertures(const layer& at)
+{
+    const auto flux = [&](const char* max, const char* normal)
+    {
+        const occupancy::setting of
+        (
+            entries
+            (
+                "apertures { post { min (0 9e-6 0); max (" + string(max)
+              + " 11e-6 1e-5); normal (0 " + normal + " 0); } }"
+            ),
+            at.mesh.boundaryMesh()
+        );
+        return of.apertures[0].flux(at.undecomposed.phi());
+    };
+    const auto is = [](const scalar found, const scalar expected)
+    {
+        return mag(found - expected) < 1e-9*mag(expected);
+    };
+    holds("a section has the flux through it", is(flux("2e-5", "3"), 4e-13));
+    holds("of the other sign the other way", is(flux("2e-5", "-3"), -4e-13));
+    holds("and of a part of it that part", is(flux("1e-5", "3"), 2e-13));
 }

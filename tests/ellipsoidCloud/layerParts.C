@@ -314,6 +314,7 @@ int main(int argc, char *argv[])
             checkMeshNotes(mesh);
             checkHeld(still);
             checkBodies(stream);
+            checkApertures(stream);
             checkCaptures(stream);
             checkStatistics(still);
         }
