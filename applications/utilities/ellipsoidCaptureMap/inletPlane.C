@@ -35,17 +35,7 @@ void Foam::inletPlane::setDirections(const patchInflow& patch)
     first_ -= (first_ & inward_)*inward_;
     first_ /= mag(first_);
 
-    // So that its largest component counts upwards
     second_ = inward_ ^ first_;
-    direction largest = 0;
-    for (direction d = 1; d < 3; ++d)
-    {
-        if (mag(second_[d]) > mag(second_[largest]) + 1e-6)
-        {
-            largest = d;
-        }
-    }
-    second_ *= sign(second_[largest]);
 }
 
 
