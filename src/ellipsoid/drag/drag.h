@@ -196,7 +196,7 @@ typedef struct ellipsoid_wall_expansion
     double action[6];
     /* only where derivatives were asked for */
     double slip[6][6], squeeze[6][6];
-    double by_pose[ELLIPSOID_POSE_SIZE][6], by_gradient[6][9];
+    double by_pose[ELLIPSOID_POSE_SIZE][6], by_gradient[9][6];
 } ellipsoid_wall_expansion;
 
 /* Adds the drag to the wrench and, if wanted, to the blocks; tells what of it is

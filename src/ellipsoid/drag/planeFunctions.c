@@ -154,6 +154,48 @@ static void apply_functions(int k, const double *f, double nu,
     action[3 + k] = f[6] * w[k] + nu * f[7] * tw + f[11] * cu + f[16] * turn;
 }
 
+/* How the same changes with nu, with the functions kept, and with t. */
+static void normal_slopes(int k, const double *f, double nu, const double t[3],
+                          const double rates[6], const double shear[3],
+                          double by[3][6])
+{
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const double *u = rates, *w = rates + 3, *y = shear;
+    const double tu = t[i] * u[i] + t[j] * u[j], tw = t[i] * w[i] + t[j] * w[j];
+    const double cw = t[i] * w[j] - t[j] * w[i], ye = y[k];
+    const double along = f[3] * u[k] + f[10] * cw + f[14] * ye;
+    double *by_nu = by[k];
+
+    by_nu[i] = along * t[i] - f[9] * w[j];
+    by_nu[j] = along * t[j] + f[9] * w[i];
+    by_nu[k] = f[3] * tu;
+    by_nu[3 + i] =
+        f[7] * t[i] * w[k] + f[9] * u[j] - f[10] * t[j] * tu - f[15] * y[j];
+    by_nu[3 + j] =
+        f[7] * t[j] * w[k] - f[9] * u[i] + f[10] * t[i] * tu + f[15] * y[i];
+    by_nu[3 + k] = f[7] * tw;
+    for (int turn = 0; turn < 2; turn++)
+    {
+        /* once round e, i is j and j is -i: what turns changes its sign */
+        const int a = turn ? j : i, b = turn ? i : j;
+        const double s = turn ? -1 : 1;
+        double *by_t = by[a];
+
+        by_t[a] =
+            f[1] * (tu + t[a] * u[a]) + nu * (along + s * f[10] * t[a] * w[b]);
+        by_t[b] =
+            f[1] * t[b] * u[a] + s * (nu * f[10] * t[b] * w[b] + f[11] * w[k]);
+        by_t[k] = nu * f[3] * u[a] + s * f[8] * w[b];
+        by_t[3 + a] = f[5] * (tw + t[a] * w[a]) + nu * f[7] * w[k]
+                    - s * nu * f[10] * t[b] * u[a];
+        by_t[3 + b] = f[5] * t[b] * w[a]
+                    + s
+                          * (f[8] * u[k] + nu * f[10] * (tu + t[a] * u[a])
+                             + (f[17] - f[15]) * ye);
+        by_t[3 + k] = nu * f[7] * w[a] + s * (f[11] * u[b] + f[16] * y[b]);
+    }
+}
+
 void ellipsoid_plane_effect_set(const ellipsoid_plane_table *own,
                                 const double normal[3], const double gap[2],
                                 int slopes, ellipsoid_plane_effect *e)
@@ -194,7 +236,7 @@ void ellipsoid_plane_action(const ellipsoid_plane_effect *e,
     /* (c x n).w over the arm; of the nearest point, towards the wall */
     const double spin = n[i] * w[j] - n[j] * w[i];
     const double approach = -ellipsoid_dot(n, u) - v->arm[0] * spin;
-    double part[6], crossed[6] = {0};
+    double part[6], crossed[6] = {0}, by_normal[3][6];
 
     memset(action, 0, 2 * sizeof(*action));
     apply_functions(k, v->f, nu, n, scaled, sheared, part);
@@ -211,6 +253,7 @@ void ellipsoid_plane_action(const ellipsoid_plane_effect *e,
         return;
     }
     memset(change, 0, 4 * sizeof(*change));
+    normal_slopes(k, v->f, nu, n, scaled, sheared, by_normal);
     for (int by = 0; by < 4; by++)
     {
         const int to = by == k ? 1 : by == 3 ? 2 : 0; /* nu, gap or t */
@@ -227,19 +270,7 @@ void ellipsoid_plane_action(const ellipsoid_plane_effect *e,
         }
         if (by < 3)
         {
-            /* of the second degree in t and of the first in nu: such
-               differences are exact */
-            double there[3] = {n[0], n[1], n[2]}, more[6];
-
-            there[by] += 1;
-            apply_functions(k, v->f, there[k], there, scaled, sheared, part);
-            there[by] -= 2;
-            apply_functions(k, v->f, there[k], there, scaled, sheared, more);
-            for (int m = 0; m < 6; m++)
-            {
-                part[m] = 0.5 * (part[m] - more[m]);
-            }
-            add_scaled(part, a, a, change[by][0]);
+            add_scaled(by_normal[by], a, a, change[by][0]);
         }
         if (by == i)
         {

@@ -142,12 +142,18 @@ static void add_plane_derivatives(const ellipsoid_near_walls *near,
 {
     const double mu = near->model->viscosity, *n = plane->wall;
     double lab[3], shear[3], parts[2][6], by[4][2][6], driven[3][6];
+    double turned[3][6]; /* by the normal's components */
 
     set_shear(near, plane, lab, shear);
     ellipsoid_plane_action(&plane->effect, e->rates, e->velocity, shear, parts,
                            by);
     ellipsoid_plane_shear_columns(
         &plane->effect, mu * plane->weight[ELLIPSOID_PLANE_FAR], driven);
+    memset(turned, 0, sizeof(turned));
+    for (int c = 0; c < 3; c++)
+    {
+        add_weighted(plane->weight, mu, by[c], turned[c]);
+    }
     for (int l = 0; l < POSE; l++)
     {
         const double of_weight[2] = {plane->weight_slope[0][l],
@@ -156,14 +162,10 @@ static void add_plane_derivatives(const ellipsoid_near_walls *near,
                                   plane->weight[1] * plane->gap_slope[1][l]};
 
         add_weighted(of_weight, mu, parts, e->by_pose[l]);
-        for (int c = 0; c < 3; c++)
-        {
-            add_weighted(plane->weight, mu * plane->normal_slope[l][c], by[c],
-                         e->by_pose[l]);
-        }
         add_weighted(of_gap, mu, by[3], e->by_pose[l]);
         for (int c = 0; l >= 3 && c < 3; c++)
         {
+            add_part(plane->normal_slope[l][c], turned[c], e->by_pose[l]);
             add_part(ellipsoid_dot(near->frame->by_q[l - 3][c], lab), driven[c],
                      e->by_pose[l]);
         }
@@ -179,7 +181,7 @@ static void add_plane_derivatives(const ellipsoid_near_walls *near,
         {
             for (int j = 0; j < 3; j++)
             {
-                e->by_gradient[m][3 * i + j] += by_shear[i] * n[j];
+                e->by_gradient[3 * i + j][m] += by_shear[i] * n[j];
             }
         }
     }
@@ -254,16 +256,10 @@ static void add_place_blocks(const ellipsoid_near_walls *near,
         to_body(axis, u_x, omega_x, moved);
         apply(slip, moved, column);
         add_part(1, e->by_pose[l], column);
-        for (int m = 0; m < 6; m++)
+        for (int i = 0; i < 9; i++)
         {
-            for (int i = 0; i < 3; i++)
-            {
-                const double(*g)[3] = near->flow->gradient_jacobian[i];
-                const double *by = &e->by_gradient[m][3 * i];
-
-                column[m] +=
-                    by[0] * g[0][l] + by[1] * g[1][l] + by[2] * g[2][l];
-            }
+            add_part(near->flow->gradient_jacobian[i / 3][i % 3][l],
+                     e->by_gradient[i], column);
         }
         add_column(axis, column, &b->ux[0][l], &b->wx[0][l], 3);
     }
@@ -400,23 +396,19 @@ static void expand(const ellipsoid_wall_expansion *e, const double x[3],
         slip[m] = rates[m] - e->rates[m];
         moved[m] = velocity[m] - e->velocity[m];
     }
-    for (int m = 0; m < 6; m++)
+    memcpy(action, e->action, sizeof(e->action));
+    for (int l = 0; l < POSE; l++)
     {
-        double sum = e->action[m];
-
-        for (int l = 0; l < POSE; l++)
-        {
-            sum += e->by_pose[l][m] * pose[l];
-        }
-        for (int l = 0; l < 6; l++)
-        {
-            sum += e->slip[m][l] * slip[l] - e->squeeze[m][l] * moved[l];
-        }
-        for (int i = 0; i < 9; i++)
-        {
-            sum += e->by_gradient[m][i] * steeper[i];
-        }
-        action[m] = sum;
+        add_part(pose[l], e->by_pose[l], action);
+    }
+    for (int l = 0; l < 6; l++)
+    {
+        add_part(slip[l], e->slip[l], action);
+        add_part(-moved[l], e->squeeze[l], action);
+    }
+    for (int i = 0; i < 9; i++)
+    {
+        add_part(steeper[i], e->by_gradient[i], action);
     }
 }
 

@@ -77,7 +77,7 @@ void ellipsoid_wall_begin(view *s, const ellipsoid_facet *facet, double height,
     const double reach = ELLIPSOID_WALL_BESIDE * s->model->options.wall_range;
     const double longest = fmax(a[0], fmax(a[1], a[2]));
     kernel *far = &w->seen[FAR], *near = &w->seen[NEAR];
-    double n[3], stretched[3];
+    double n[3], stretched[3], foot[3];
 
     memset(w, 0, sizeof(*w));
     w->facet = facet;
@@ -110,8 +110,10 @@ void ellipsoid_wall_begin(view *s, const ellipsoid_facet *facet, double height,
         k->reach = k->cut / k->scale * (m == NEAR ? longest : 1);
         for (int i = 0; i < 3; i++)
         {
-            k->foot[i] = -k->shift[i] / k->shrink[i];
+            foot[i] = -k->shift[i] / k->shrink[i];
         }
+        ellipsoid_combination(s->axis, foot[0], foot[1], foot[2], k->foot);
+        ellipsoid_add(k->foot, s->x);
     }
 }
 
@@ -205,41 +207,64 @@ static void add_edge(const kernel *k, const double r1[3], const double r2[3],
     }
 }
 
+/* Is the foot on the left of edge k? Where rounding might tell, by side_of(). */
+static int is_left(view *s, const kernel *k, const ellipsoid_facet *facet,
+                   int edge, double side)
+{
+    const double *v1 = facet->vertex[edge];
+    const double *v2 = facet->vertex[(edge + 1) % 3];
+    double from[3], r1[3], r2[3];
+
+    if (fabs(side) > 1e-6 * k->reach)
+    {
+        return side > 0;
+    }
+    look(s, k, v1, from, r1);
+    look(s, k, v2, from, r2);
+    return !signbit(side_of(k, r1, r2, v1, v2));
+}
+
 void ellipsoid_wall_add(view *s, const ellipsoid_facet *facet, wall *w)
 {
-    const double rounding = 1 + 1e-9;
-    const int seam = ellipsoid_has_seam(facet);
-    double lab[3], middle[3];
+    double side[2][3]; /* [m] of the foot on the left of each edge */
 
-    ellipsoid_difference(facet->middle, s->x, lab);
-    ellipsoid_product(s->axis, lab, middle);
+    for (int i = 0; i < 3; i++)
+    {
+        const double *from = facet->vertex[i];
+        double along[3], across[3], off[3], per;
+
+        ellipsoid_difference(facet->vertex[(i + 1) % 3], from, along);
+        ellipsoid_cross(facet->normal, along, across);
+        per = 1 / ellipsoid_length(along);
+        for (int m = 0; m < 2; m++)
+        {
+            ellipsoid_difference(w->seen[m].foot, from, off);
+            side[m][i] = per * ellipsoid_dot(across, off);
+        }
+    }
     for (int m = 0; m < 2; m++)
     {
         const kernel *k = &w->seen[m];
-        const double width = facet->radius + (seam ? k->reach : 0);
-        double r[3][3], from[3][3], off[3];
+        const double most = k->reach * (1 + 1e-9);
         int left = 0;
 
-        ellipsoid_difference(middle, k->foot, off);
-        if (ellipsoid_dot(off, off) > width * width * rounding)
+        if (side[m][0] < -most || side[m][1] < -most || side[m][2] < -most)
         {
             continue;
         }
         for (int i = 0; i < 3; i++)
         {
-            look(s, k, facet->vertex[i], from[i], r[i]);
-        }
-        for (int i = 0; i < 3; i++)
-        {
-            const int next = (i + 1) % 3;
+            const double *v1 = facet->vertex[i];
+            const double *v2 = facet->vertex[(i + 1) % 3];
 
-            const double side = side_of(k, r[i], r[next], facet->vertex[i],
-                                        facet->vertex[next]);
-
-            left += !signbit(side);
-            if (facet->edge[i] != ELLIPSOID_EDGE_FLAT)
+            left += is_left(s, k, facet, i, side[m][i]);
+            if (facet->edge[i] != ELLIPSOID_EDGE_FLAT && side[m][i] < most)
             {
-                add_edge(k, r[i], r[next], from[i], from[next], side,
+                double r1[3], r2[3], from1[3], from2[3];
+
+                look(s, k, v1, from1, r1);
+                look(s, k, v2, from2, r2);
+                add_edge(k, r1, r2, from1, from2, side_of(k, r1, r2, v1, v2),
                          &w->sum[m]);
             }
         }

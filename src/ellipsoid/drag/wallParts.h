@@ -18,7 +18,7 @@
 typedef struct ellipsoid_wall_kernel
 {
     double scale, shrink[3], shift[3], normal[3];
-    double foot[3], reach; /* where r is 0; beyond which r is above c, [m] */
+    double foot[3], reach; /* [m] lab, where r is 0; beyond it r is above c */
     double cut, k, n;      /* c, k and N above */
     double cut_slope;      /* of ln c by ln scale */
 } ellipsoid_wall_kernel;
