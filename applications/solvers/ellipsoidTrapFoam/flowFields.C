@@ -139,6 +139,15 @@ Foam::flowFields::solveType Foam::flowFields::solveOf(const fvMesh& mesh)
 
 bool Foam::flowFields::accept()
 {
+    if (unfinished())
+    {
+        const masterGate once;
+        FatalErrorInFunction
+            << "The flow in " << instance_ << " was not all written: a run was"
+            << " interrupted, as the file U.unfinished says. Without solve no in the dictionary flow of"
+            << " system/fvSolution it is solved again." << exit(FatalError);
+    }
+
     scalar continuityTolerance;
     {
         const masterGate once;

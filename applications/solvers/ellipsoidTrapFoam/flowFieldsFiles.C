@@ -5,6 +5,7 @@
 #include "atomicWrite.H"
 #include "checkpoint.H"
 #include "dictionary.H"
+#include "fileOperation.H"
 #include "fvMesh.H"
 #include "PstreamReduceOps.H"
 #include "SHA1.H"
@@ -115,6 +116,17 @@ void Foam::flowFields::nameParts(const fileName& path)
 
 // * * * * * * * * * * * *  Protected Member Functions * * * * * * * * * * * //
 
+bool Foam::flowFields::unfinished() const
+{
+    const fileName path(mesh_.time().path()/instance_);
+
+    return returnReduce
+    (
+        isFile(checkpoint::unfinishedFlow(path)), orOp<bool>()
+    );
+}
+
+
 bool Foam::flowFields::foreign() const
 {
     // Digests that decomposePar links or reconstructPar copies are of the files
@@ -131,7 +143,7 @@ bool Foam::flowFields::foreign() const
 
     return returnReduce
     (
-        hasFlux_ && !copied && !isOwn(path, phi_.name()),
+        hasFlux_ && !unfinished() && !copied && !isOwn(path, phi_.name()),
         orOp<bool>()
     );
 }
@@ -162,17 +174,39 @@ void Foam::flowFields::write()
 {
     const word& instance = mesh_.time().timeName();
     const fileName path(mesh_.time().path()/instance);
+    const fileName unfinished(checkpoint::unfinishedFlow(path));
 
-    writePart(phi_);
-    writePart(p_);
-    writePart(U_);
-    for (const word& name : names_)
+    if (fileHandler().type() == "uncollated")
     {
-        toDisk(partOf(path/name));
+        writePart(phi_);
+        writePart(p_);
+        writePart(U_);
+        for (const word& name : names_)
+        {
+            toDisk(partOf(path/name));
+        }
+        // What was read stays until all ranks have come so far
+        meet();
+        durableWrite(unfinished, wholeParts);
     }
-    // What was read stays until all ranks have come so far
-    meet();
-    durableWrite(checkpoint::unfinishedFlow(path), wholeParts);
+    else if (hasFlux_)
+    {
+        FatalErrorInFunction
+            << "A flow in files that ranks share cannot be kept beside the new"
+            << " one: move U, p and phi of " << instance << " elsewhere, or"
+            << " solve with -fileHandler uncollated" << exit(FatalError);
+    }
+    else
+    {
+        for (const word& name : names_)
+        {
+            setAside(path, name);
+        }
+        atomicWrite(unfinished, "Not all of the flow is written\n");
+        atomicWrite(phi_);
+        atomicWrite(p_);
+        atomicWrite(U_);
+    }
     nameParts(path);
 
     Info<< "flow: written to " << instance << endl;

@@ -81,6 +81,12 @@ Foam::steadyFlow::steadyFlow(const fvMesh& mesh, const solveType solve)
 
 bool Foam::steadyFlow::converged()
 {
+    if (unfinished())
+    {
+        Info<< "flow: not all of it was written in " << instance_ << endl;
+        return false;
+    }
+
     const clockAt then(mesh_.time(), clock_);
     const bool steady = solver_.isSteady();
     if (steady)

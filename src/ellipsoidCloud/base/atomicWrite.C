@@ -211,8 +211,22 @@ void Foam::durableWrite
 }
 
 
-void Foam::atomicWrite(regIOobject& object)
+void Foam::atomicWrite(regIOobject& object, const bool valid)
 {
-    writePart(object);
-    renamePart(object.objectPath());
+    if (fileHandler().type() == "uncollated")
+    {
+        if (valid)
+        {
+            writePart(object);
+            renamePart(object.objectPath());
+        }
+        return;
+    }
+
+    const exactDigits exact;
+    object.instance() = object.time().timeName();
+    if (!object.write(valid))
+    {
+        cannotWrite(object.objectPath());
+    }
 }

@@ -5,7 +5,6 @@
 #include "argList.H"
 #include "atomicWrite.H"
 #include "checkedEntries.H"
-#include "fileOperation.H"
 #include "labelIOList.H"
 #include "masterGate.H"
 #include "plainLists.H"
@@ -289,7 +288,6 @@ void Foam::caseFiles::checkCase(const argList& args, const fileNameList& files)
 {
     const fileName whole(args.rootPath()/args.globalCaseName());
 
-    checkFileHandler(whole);
     if (!args.checkRootCase())
     {
         if (Pstream::parRun() && isDir(whole))
@@ -341,26 +339,6 @@ void Foam::caseFiles::checkCase(const argList& args, const fileNameList& files)
     if (control.getOrDefault<word>("writeControl", "timeStep") != "none")
     {
         checkedNumber(control, "writeInterval", above(0), 1.0);
-    }
-}
-
-
-void Foam::caseFiles::checkFileHandler(const fileName& whole)
-{
-    const word shared("processors" + Foam::name(Pstream::nProcs()));
-    const masterGate once;
-
-    if
-    (
-        Pstream::parRun()
-     && (fileHandler().type() != "uncollated" || isDir(whole/shared))
-    )
-    {
-        FatalErrorInFunction
-            << "processors share files, by -fileHandler, FOAM_FILEHANDLER or"
-            << " the folder " << shared << nl << "    Each must have its own: "
-            << "decomposePar and this program with -fileHandler uncollated"
-            << exit(FatalError);
     }
 }
 

@@ -115,12 +115,7 @@ void Foam::cellParticles::writeFiles() const
     const DynamicList<particle> cells(local());
     const label n = cells.size();
 
-    // Made by all ranks together, also by those without cells
     Cloud<passiveParticle> c(mesh_, name(), IDLList<passiveParticle>());
-    if (!n)
-    {
-        return;
-    }
     labelField& origId = createIOField<label>("origId", n, c);
     createIOField<label>("origProcId", n, c) = 0;
 
@@ -137,12 +132,12 @@ void Foam::cellParticles::writeFiles() const
     for (const auto type : {geometryType::COORDINATES, geometryType::POSITIONS})
     {
         IOPosition<Cloud<passiveParticle>> places(c, type);
-        atomicWrite(places);
+        atomicWrite(places, n > 0);
     }
 
     giveFields(cells, c);
     for (const word& name : c.sortedNames())
     {
-        atomicWrite(c.lookupObjectRef<regIOobject>(name));
+        atomicWrite(c.lookupObjectRef<regIOobject>(name), n > 0);
     }
 }

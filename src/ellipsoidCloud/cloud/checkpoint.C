@@ -30,6 +30,12 @@ namespace Foam
         returnReduce(true, andOp<bool>());
     }
 
+    //- Do ranks share files?
+    static bool sharedFiles()
+    {
+        return Pstream::parRun() && fileHandler().type() == "collated";
+    }
+
     //- Take the bytes of a list into a digest
     template<class Type>
     static void addTo(SHA1& digest, const UList<Type>& list)
@@ -103,6 +109,27 @@ namespace Foam
     static const fileName stateFile("uniform/ellipsoidCloudRestart");
     static const word fieldName("ellipsoidCloudState");
 
+    //- Where ranks that share their files have a time directory
+    static fileName sharedTime(const fileName& path)
+    {
+        if (!Pstream::parRun())
+        {
+            return path;
+        }
+        const word parts("processors" + Foam::name(Pstream::nProcs()));
+        return path.path().path()/parts/path.name();
+    }
+
+
+    //- The state in a time directory, whether or not ranks shared their files
+    //  when it was written
+    static fileName stateIn(const fileName& path)
+    {
+        const fileName shared(sharedTime(path)/stateFile);
+        return isFile(shared) ? shared : path/stateFile;
+    }
+
+
     //- The entry that ends a state of this text
     static std::string digestEntry(const std::string& text)
     {
@@ -123,7 +150,7 @@ namespace Foam
     //- Was a state begun in a time directory, be it complete or not?
     static bool begun(const fileName& path)
     {
-        return isFile(path/fieldName) || isFile(path/stateFile);
+        return isFile(path/fieldName) || isFile(stateIn(path));
     }
 
 
@@ -157,11 +184,13 @@ Foam::checkpoint::checkpoint(const Time& time)
 :
     path_(time.path()/time.timeName())
 {
-    const fileName file(path_/stateFile);
+    const fileName file(stateIn(path_));
     string text(textOf(file));
     broadcast(text);
 
-    const bool some = returnReduce(begun(path_), orOp<bool>());
+    // Where ranks share a file the folder is another, and asking is collective
+    const bool shared = isFile(fileHandler().filePath(path_/fieldName));
+    const bool some = returnReduce(shared || begun(path_), orOp<bool>());
 
     const masterGate once;
     if (isWhole(text))
@@ -258,7 +287,8 @@ Foam::word Foam::checkpoint::setAsideIncomplete
     const bool dryRun
 )
 {
-    if (!fromLatestTime(args))
+    // Where ranks share files, times without their end are refused, not moved
+    if (!fromLatestTime(args) || sharedFiles())
     {
         return word::null;
     }
@@ -281,6 +311,7 @@ Foam::word Foam::checkpoint::setAsideIncomplete
         const word& name = time->second;
         const fileName path(args.path()/name);
         const bool other = isFile(path/"U") || isDir(path/"polyMesh");
+        const bool kept = Pstream::parRun() && isDir(sharedTime(path));
         const bool complete =
             isDir(path) && (isFile(path/stateFile) || !Pstream::master());
 
@@ -288,7 +319,8 @@ Foam::word Foam::checkpoint::setAsideIncomplete
         // from, or another program's
         if
         (
-            returnReduce(complete, andOp<bool>())
+            returnReduce(kept, orOp<bool>())
+         || returnReduce(complete, andOp<bool>())
          || (
                 !returnReduce(begun(path), orOp<bool>())
              && (!tracked || returnReduce(other, orOp<bool>()))
@@ -326,10 +358,13 @@ void Foam::checkpoint::begin(const fvMesh& mesh)
     const fileName path(mesh.time().path()/mesh.time().timeName());
 
     // A link of decomposePar leads into the undecomposed case: its state stays
-    const fileName folder((path/stateFile).path());
-    if (Foam::type(folder, false) == fileName::LINK)
+    for (const fileName& time : {path, sharedTime(path)})
     {
-        rm(folder);
+        const fileName folder((time/stateFile).path());
+        if (Foam::type(folder, false) == fileName::LINK)
+        {
+            rm(folder);
+        }
     }
 
     volScalarField::Internal field
@@ -341,6 +376,7 @@ void Foam::checkpoint::begin(const fvMesh& mesh)
     atomicWrite(field);
     meet();
     rm(path/stateFile);
+    rm(sharedTime(path)/stateFile);
     rmDir(path/cloud::prefix/"ellipsoidCloud", true);
 }
 
@@ -351,9 +387,10 @@ void Foam::checkpoint::end(const Time& time, const std::string& text)
     meet();
     if (Pstream::master())
     {
+        const fileName path(time.path()/time.timeName());
         durableWrite
         (
-            time.path()/time.timeName()/stateFile,
+            (sharedFiles() ? sharedTime(path) : path)/stateFile,
             text + digestEntry(text),
             time.writeCompression()
         );

@@ -267,8 +267,6 @@ Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
     }
     else
     {
-        caseFiles::checkFileHandler(runTime.globalPath());
-
         // The flow of the start, which the first time step replaces; with
         // -postProcess it is read later
         if (hasFlow())
