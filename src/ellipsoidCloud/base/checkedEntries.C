@@ -4,10 +4,13 @@
 #include "checkedEntries.H"
 #include "atomicWrite.H"
 #include "dimensionedTypes.H"
+#include "foamVersions.H"
 #include "IFstream.H"
+#include "masterGate.H"
 #include "OSspecific.H"
 #include "regExp.H"
 
+#include <functional>
 #include <vector>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -30,6 +33,27 @@ static std::string fileTextOf(const dictionary& dict)
     return textOf(file);
 }
 
+
+//- What is said of an error that ends the run elsewhere; of a pattern it names
+//- neither file nor entry
+static string complaintOf(const std::function<void()>& act)
+{
+    string complaint;
+    const bool throwing = throwErrors(FatalError, true);
+    try
+    {
+        act();
+    }
+    catch (const Foam::IOerror&)
+    {}
+    catch (const Foam::error& error)
+    {
+        complaint = error.message();
+    }
+    throwErrors(FatalError, throwing);
+
+    return complaint;
+}
 
 } // End namespace Foam
 
@@ -64,6 +88,46 @@ void Foam::checkValues(const dictionary& dict, const wordList& keywords)
         {
             streamOf(dict, keyword);
         }
+    }
+}
+
+
+Foam::wordRes Foam::patternsOf(const dictionary& dict, const word& keyword)
+{
+    wordRes patterns;
+    const string complaint
+    (
+        complaintOf([&] { dict.readIfPresent(keyword, patterns); })
+    );
+
+    if (!complaint.empty())
+    {
+        FatalIOErrorInFunction(streamOf(dict, keyword))
+            << keyword << ": " << complaint.c_str() << exit(FatalIOError);
+    }
+
+    return patterns;
+}
+
+
+void Foam::checkPatterns(const std::string& text, const fileName& file)
+{
+    // What else is wrong is told where the file is read
+    const bool throwing = throwErrors(FatalIOError, true);
+    const string complaint
+    (
+        complaintOf
+        (
+            [&] { dictionaryOf(text, file); }
+        )
+    );
+    throwErrors(FatalIOError, throwing);
+
+    const masterGate once;
+    if (!complaint.empty())
+    {
+        FatalErrorInFunction
+            << file << ": " << complaint.c_str() << exit(FatalError);
     }
 }
 

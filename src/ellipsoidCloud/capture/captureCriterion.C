@@ -139,7 +139,7 @@ Foam::captureCriterion::captureCriterion
             << exit(FatalIOError);
     }
 
-    for (const wordRe& name : dict.getOrDefault("sieves", wordRes()))
+    for (const wordRe& name : patternsOf(dict, "sieves"))
     {
         const labelHashSet matched(patches.patchSet(wordRes({name}), false));
 

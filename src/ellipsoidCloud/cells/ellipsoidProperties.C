@@ -10,13 +10,12 @@
 #include "PstreamReduceOps.H"
 #include "readViscosity.H"
 #include "Time.H"
-#include "wordRes.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::ellipsoidProperties::readUnreached(const polyBoundaryMesh& patches)
 {
-    const wordRes names(getOrDefault("unreached", wordRes()));
+    const wordRes names(patternsOf(*this, "unreached"));
     labelHashSet constrained;
     unreached_ = patches.patchSet(names, false);
 

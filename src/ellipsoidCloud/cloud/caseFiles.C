@@ -321,6 +321,12 @@ void Foam::caseFiles::checkCase(const argList& args, const fileNameList& files)
         }
     }
 
+    for (const fileName& file : files)
+    {
+        string text(textOf(whole/file));
+        broadcast(text);
+        checkPatterns(text, whole/file);
+    }
     const dictionary control(controls(args));
     const masterGate once;
 
@@ -402,6 +408,17 @@ Foam::word Foam::caseFiles::flowInstance(const fvMesh& mesh)
     const fileName now(time.path()/time.timeName());
     need<volVectorField>(U, now/"U", stepToField("U", time));
     need<volScalarField>(p, p.objectPath(), stepToField("p", time));
+
+    // decomposePar has read those of a rank
+    for (const IOobject& field : {U, p})
+    {
+        const std::string text(textOf(field.objectPath()));
+        const std::size_t patches = text.find("boundaryField");
+        if (!Pstream::parRun() && patches != std::string::npos)
+        {
+            checkPatterns(text.substr(patches), field.objectPath());
+        }
+    }
 
     return U.instance();
 }
