@@ -96,8 +96,8 @@ def run(command, folder):
     return subprocess.run(command, shell=True, cwd=folder, check=True, capture_output=True, text=True).stdout
 
 
-def motions(case, folder, poses, forces):
-    """Velocity [m/s] and spin [rad/s, body] of every cell by the program, in its first microsecond."""
+def make_case(case, folder, poses, *entries):
+    """A copy of the device and its flow, with cells at poses and no others."""
     folder.mkdir()
     for name in ("constant", "system", "0"):
         shutil.copytree(case / name, folder / name)
@@ -107,12 +107,22 @@ def motions(case, folder, poses, forces):
             n, *(1e-6 * np.array(x)), *quaternion(axis)) for n, (_, x, axis) in enumerate(poses)
     )
     (folder / "constant/ellipsoidCloudProperties").write_text(
-        f"{HEADER}motion inertialess;\ninjection {{ {cells} }}\ncontact {{ cells off; }}\n"
-        f"tracks {{ interval 1e-7; minimumMove 1e-12; }}\nforces {{ {forces} }}\n", encoding="utf-8")
+        "\n".join((f"{HEADER}motion inertialess;", f"injection {{ {cells} }}", "contact { cells off; }", *entries)),
+        encoding="utf-8")
+
+
+def write_control(folder, **entries):
+    """Entries of controlDict that are there."""
     control = (folder / "system/controlDict").read_text(encoding="utf-8")
-    for name in ("endTime", "deltaT", "writeInterval"):
-        control = re.sub(rf"^{name} .*;", f"{name} 1e-6;", control, flags=re.M)
+    for name, value in entries.items():
+        control = re.sub(rf"^{name} .*;", f"{name} {value};", control, flags=re.M)
     (folder / "system/controlDict").write_text(control, encoding="utf-8")
+
+
+def motions(case, folder, poses, forces):
+    """Velocity [m/s] and spin [rad/s, body] of every cell by the program, in its first microsecond."""
+    make_case(case, folder, poses, f"forces {{ {forces} }}", "tracks { interval 1e-7; minimumMove 1e-12; }")
+    write_control(folder, endTime="1e-6", deltaT="1e-6", writeInterval="1e-6")
     run("ellipsoidTrapFoam -frozenFlow > log.ellipsoidTrapFoam 2>&1", folder)
     found = {}
     with open(folder / "postProcessing/ellipsoidCloud/0/tracks.csv", encoding="utf-8") as file:
