@@ -7,7 +7,7 @@ Description
 
 \*---------------------------------------------------------------------------*/
 #include "vertexFit.H"
-#include "numberRow.H"
+#include "curvatureFit.H"
 #include "wallsAtVertices.H"
 #include "symmTensorField.H"
 #include "symmTransform.H"
@@ -19,190 +19,6 @@ Description
 
 namespace Foam
 {
-    //- Least squares with columns for the three gradients, the six curvatures
-    //  and the three components of the velocity
-    class leastSquares
-    {
-        static const direction nUnknowns = 9;
-        static const direction nColumns = 12;
-
-        //- A row; also a number for each column
-        struct row
-        {
-            numberPair v[nColumns/2];
-
-            scalar operator[](const direction j) const
-            {
-                return v[j/2][j % 2];
-            }
-        };
-
-        DynamicList<row> rows_;
-
-        //- Of each row the part along a column
-        DynamicList<scalar> along_;
-
-    public:
-
-        void clear()
-        {
-            rows_.clear();
-        }
-
-        //- That the velocity differs by du where d is, and the second moments
-        //  by M; lengths by that of the mesh cell
-        void append(const vector& d, const symmTensor& M, const vector& du)
-        {
-            // Centres of overlapping mesh cells may be one
-            const scalar w = 1/max(mag(d), scalar(1e-6));
-            const symmTensor dd(sqr(d) + M);
-
-            rows_.append
-            (
-                row
-                {{
-                    numberPair{w*d.x(), w*d.y()}, numberPair{w*d.z(), w*dd.xx()/2},
-                    numberPair{w*dd.yy()/2, w*dd.zz()/2}, numberPair{w*dd.xy(), w*dd.xz()},
-                    numberPair{w*dd.yz(), w*du.x()}, numberPair{w*du.y(), w*du.z()}
-                }}
-            );
-        }
-
-        //- Solve by Gram and Schmidt. An unknown that the others determine
-        //  already is 0, and so is one that no row knows of but by rounding,
-        //  as across a mesh one cell thick: lengths are about 1.
-        void solve(quadratic& p)
-        {
-            along_.setSize(rows_.size());
-            row R[nUnknowns] = {};
-            bool kept[nUnknowns];
-
-            row before = {};
-            for (const row& r : rows_)
-            {
-                for (direction p = 0; p <= nUnknowns/2; ++p)
-                {
-                    before.v[p] += r.v[p]*r.v[p];
-                }
-            }
-
-            reduce
-            (
-                before, before[0], std::integral_constant<direction, 0>(), R,
-                kept
-            );
-
-            vector x[nUnknowns];
-            for (direction j = nUnknowns; j-- > 0;)
-            {
-                x[j] = Zero;
-                if (kept[j])
-                {
-                    x[j] = vector(R[j][9], R[j][10], R[j][11]);
-                    for (direction k = j + 1; k < nUnknowns; ++k)
-                    {
-                        x[j] -= kept[k] ? R[j][k]*x[k] : vector::zero;
-                    }
-                    x[j] *= R[j][j];
-                }
-            }
-
-            for (direction i = 0; i < 3; ++i)
-            {
-                for (direction j = 0; j < 3; ++j)
-                {
-                    p.gradient[3*i + j] = x[j][i];
-                }
-                p.curvature[i] = symmTensor
-                (
-                    x[3][i], x[6][i], x[7][i], x[4][i], x[8][i], x[5][i]
-                );
-            }
-        }
-
-    private:
-
-        //- All columns from one on, of that norm
-        template<direction j>
-        void reduce
-        (
-            const row& before,
-            const scalar norm,
-            const std::integral_constant<direction, j>,
-            row R[nUnknowns],
-            bool kept[nUnknowns]
-        )
-        {
-            scalar nextNorm = 0;
-            kept[j] = norm > 1e-4*before[j] && norm > 1e-16;
-            if (kept[j])
-            {
-                nextNorm = takeAlong<j>(1/Foam::sqrt(norm), R[j]);
-            }
-            else
-            {
-                for (const row& r : rows_)
-                {
-                    nextNorm += sqr(r[j + 1]);
-                }
-            }
-            reduce
-            (
-                before, nextNorm, std::integral_constant<direction, j + 1>(), R,
-                kept
-            );
-        }
-
-        void reduce
-        (
-            const row&,
-            const scalar,
-            const std::integral_constant<direction, nUnknowns>,
-            row*,
-            bool*
-        )
-        {}
-
-        //- Normalise a column and take the later ones' parts along it away.
-        //  In the place of a part along itself is the inverse norm. Returns the
-        //  norm of the next column. Of a pair that begins with the column itself
-        //  what becomes of that is not read again.
-        template<direction along>
-        scalar takeAlong(const scalar inverseNorm, row& to)
-        {
-            const direction first = (along + 1)/2;
-            row parts = {};
-
-            forAll(rows_, i)
-            {
-                const row& r = rows_[i];
-                const scalar f = r[along]*inverseNorm;
-                const numberPair by = {f, f};
-                along_[i] = f;
-                for (direction p = first; p < nColumns/2; ++p)
-                {
-                    parts.v[p] += by*r.v[p];
-                }
-            }
-
-            scalar nextNorm = 0;
-            forAll(rows_, i)
-            {
-                row& r = rows_[i];
-                const numberPair by = {along_[i], along_[i]};
-                for (direction p = first; p < nColumns/2; ++p)
-                {
-                    r.v[p] -= parts.v[p]*by;
-                }
-                nextNorm += sqr(r[along + 1]);
-            }
-
-            to = parts;
-            to.v[along/2][along % 2] = inverseNorm;
-            return nextNorm;
-        }
-    };
-
     //- What has been taken for a mesh cell already: in the mesh by labels, of
     //  images by where they are, too
     class takenOnce
@@ -318,7 +134,7 @@ namespace Foam
         //- For one mesh cell and its size [m]
         label celli_;
         scalar length_;
-        leastSquares equations_;
+        curvatureFit equations_;
         takenOnce cells_;
         takenOnce faces_;
 

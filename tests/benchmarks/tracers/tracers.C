@@ -28,7 +28,7 @@ Usage
 
       - \par -known \<name\>
         Put a velocity that is known in the place of U and phi: linear, parabola,
-        slit or shear (knownVelocity)
+        turned, slit or shear (knownVelocity)
 
       - \par -write
         Write that as the flow of the case, and no more
@@ -420,7 +420,7 @@ int main(int argc, char *argv[])
             );
         };
     const word known(args.getOrDefault<word>("known", "none"));
-    const knownVelocity exact(known, mesh.bounds().max().y());
+    const knownVelocity exact(known, mesh.points());
     const volScalarField p(io("p"), mesh);
     volVectorField U(io("U"), mesh);
     surfaceScalarField phi

@@ -123,8 +123,8 @@ Foam::tensor Foam::knownVelocity::gradient(const point& x) const
     return name == "linear"
       ? tensor(300, 700, -400, -250, 500, 600, 450, 350, -800)
       : name == "shear"
-      ? tensor(0, 100, 0, 0, 0, 0, 0, 0, 0)
-      : tensor(0, 4e-3/height*(1 - 2*x.y()/height), 0, 0, 0, 0, 0, 0, 0);
+      ? 100*along*across
+      : 4e-3/height*(1 - 2*(across & x)/height)*along*across;
 }
 
 
@@ -132,7 +132,7 @@ Foam::vector Foam::knownVelocity::velocity(const point& x) const
 {
     return name == "linear"
       ? vector(2e-3, -1e-3, 5e-4) + (gradient(x) & x)
-      : vector(speed(x.y()), 0, 0);
+      : speed(across & x)*along;
 }
 
 
