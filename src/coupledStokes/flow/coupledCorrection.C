@@ -36,20 +36,24 @@ Foam::tmp<Foam::surfaceScalarField> Foam::coupledCorrection::linearise
         (UEqn & U_)().primitiveField() + gradP.primitiveField()
     );
 
-    // As SIMPLE's HbyA where it has converged, and with its boundary values;
-    // where U is fixed what grad(p) adds across a face goes by snGrad(p) again
+    // As SIMPLE's HbyA where it has converged, and with its boundary values
     volVectorField velocity("HbyA", U_ + rAU*gradP);
     forAll(mesh.boundary(), patchi)
     {
         const fvPatch& patch = mesh.boundary()[patchi];
-        if
-        (
-            !patch.coupled() && !polyPatch::constraintType(patch.type())
-         && U_.boundaryField()[patchi].assignable()
-        )
+        if (!patch.coupled() && !polyPatch::constraintType(patch.type()))
         {
+            const fvPatchVectorField& Up = U_.boundaryField()[patchi];
             fvPatchVectorField& values = velocity.boundaryFieldRef()[patchi];
-            values == values.patchInternalField();
+
+            if (Up.assignable())
+            {
+                values == values.patchInternalField();
+            }
+            else
+            {
+                values == Up;
+            }
         }
     }
     tmp<surfaceScalarField> flux
