@@ -6,12 +6,12 @@ usage: trajectory.py PROGRAM CASE FOLDER [START [FINENESS]]
     PROGRAM     resolvedCell, built
     CASE        a singleSieve that has been run, in the environment of OpenFOAM
     FOLDER      is made; what is run is there
-    START       distance of the centre from the middle of the channel, in um [1]
+    START       distance of the centre from the middle of the channel, in um [1.2]
     FINENESS    of the panels [2]
 
 The resolved cell goes from pose to pose (midpoint rule, quasi-steady, without inertia). Prints where the
 cell is and how its axis is turned, in the plane of the device, at stations along the channel, and the least
-gap between it and the side of the post; the path ends where the gap is less than panels resolve.
+gap between it and the post; the path ends where the gap is less than panels resolve.
 """
 
 import csv
@@ -23,7 +23,7 @@ from poses import AXES, MODELS, X, make_case, quaternion, resolved, rotation, ru
 
 BEGIN, END = -10, 3         # um, along the channel
 STATIONS = (-6, -5, -4, -3, -1, 1, 2)
-SIDE, FRONT, BACK = 4, -4, 1     # of the post
+SIDE, FRONT, BACK = 4, -4, 1    # um, of the post
 STEP, NEAREST = 0.3, 0.03   # um: of the path at most, of gaps
 
 
@@ -34,8 +34,8 @@ def post_gap(x, axis):
     side /= max(np.linalg.norm(side), 1e-12)
     rims = [np.outer(np.cos(t) * AXES[1], axis) + np.outer(s * np.sin(t) * AXES[0], side) for s in (1, -1)]
     points = np.array(x) + np.concatenate(rims)
-    away = np.maximum(points[:, :2] - [SIDE, BACK], 0)        # beyond the side, past the back
-    before = np.maximum(FRONT - points[:, 1], 0)            # in front
+    away = np.maximum(points[:, :2] - [SIDE, BACK], 0)    # beyond the side, past the back
+    before = np.maximum(FRONT - points[:, 1], 0)        # in front
     inside = (points[:, 0] < SIDE) & (points[:, 1] > FRONT) & (points[:, 1] < BACK)
     gap = np.hypot(away[:, 0], np.maximum(away[:, 1], before))
     depth = np.minimum(SIDE - points[:, 0], points[:, 1] - FRONT)
@@ -94,7 +94,7 @@ def summary(rows):
     return [*found, f"{min(post_gap(x, axis) for _, x, axis in rows):.3f}"]
 
 
-def main(program, case, folder, start="1", fineness="2"):
+def main(program, case, folder, start="1.2", fineness="2"):
     """The table."""
     program, case, folder = str(Path(program).resolve()), Path(case), Path(folder)
     folder.mkdir()
