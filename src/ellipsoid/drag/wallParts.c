@@ -207,23 +207,6 @@ static void add_edge(const kernel *k, const double r1[3], const double r2[3],
     }
 }
 
-/* Is the foot on the left of edge k? Where rounding might tell, by side_of(). */
-static int is_left(view *s, const kernel *k, const ellipsoid_facet *facet,
-                   int edge, double side)
-{
-    const double *v1 = facet->vertex[edge];
-    const double *v2 = facet->vertex[(edge + 1) % 3];
-    double from[3], r1[3], r2[3];
-
-    if (fabs(side) > 1e-6 * k->reach)
-    {
-        return side > 0;
-    }
-    look(s, k, v1, from, r1);
-    look(s, k, v2, from, r2);
-    return !signbit(side_of(k, r1, r2, v1, v2));
-}
-
 void ellipsoid_wall_add(view *s, const ellipsoid_facet *facet, wall *w)
 {
     double side[2][3]; /* [m] of the foot on the left of each edge */
@@ -254,19 +237,27 @@ void ellipsoid_wall_add(view *s, const ellipsoid_facet *facet, wall *w)
         }
         for (int i = 0; i < 3; i++)
         {
-            const double *v1 = facet->vertex[i];
-            const double *v2 = facet->vertex[(i + 1) % 3];
+            const int seen =
+                facet->edge[i] != ELLIPSOID_EDGE_FLAT && side[m][i] < most;
+            int on_left = side[m][i] > 0;
 
-            left += is_left(s, k, facet, i, side[m][i]);
-            if (facet->edge[i] != ELLIPSOID_EDGE_FLAT && side[m][i] < most)
+            /* where rounding might tell, side_of() does */
+            if (seen || fabs(side[m][i]) <= 1e-6 * k->reach)
             {
-                double r1[3], r2[3], from1[3], from2[3];
+                const double *v1 = facet->vertex[i];
+                const double *v2 = facet->vertex[(i + 1) % 3];
+                double r1[3], r2[3], from1[3], from2[3], exact;
 
                 look(s, k, v1, from1, r1);
                 look(s, k, v2, from2, r2);
-                add_edge(k, r1, r2, from1, from2, side_of(k, r1, r2, v1, v2),
-                         &w->sum[m]);
+                exact = side_of(k, r1, r2, v1, v2);
+                on_left = !signbit(exact);
+                if (seen)
+                {
+                    add_edge(k, r1, r2, from1, from2, exact, &w->sum[m]);
+                }
             }
+            left += on_left;
         }
         w->sum[m].inside += left == 3;
     }
