@@ -47,6 +47,10 @@ typedef struct ellipsoid_facet
                     radius, half the modulus, twice the overlap), damping is of
                     twice the speed, and there is neither friction nor adhesion,
                     nor a wall's resistance. docs/theory/contact.md */
+    ptrdiff_t plane; /* [bytes] from the facet to double[2][3], a point of the
+                        plane that stands for it where walls add to the
+                        resistance, and the normal; 0: its own */
+    int within;      /* bit k: so it does for the facet across edge k */
 } ellipsoid_facet;
 
 /*
@@ -126,6 +130,10 @@ typedef struct ellipsoid_walls_options
     double longest_edge; /* [m] of triangles that come about where the wall is
                             flat and few may stand for many, as long as it stays
                             what it is; 0: none are merged */
+    double flat_depth;   /* [m] a part of the wall that is nowhere farther than
+                            this from the plane of one of its facets is one
+                            plane where walls add to the resistance; 0: only
+                            where it is flat */
     /* Where the walls go on beyond planes of symmetry or a period: what takes
        them to their images, the walls themselves (all zero) first */
     int image_count; /* 0: no images */

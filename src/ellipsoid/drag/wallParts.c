@@ -70,7 +70,7 @@ static void set_cut(kernel *k, double most)
     k->n = square * square * per * per;
 }
 
-void ellipsoid_wall_begin(view *s, const ellipsoid_facet *facet, double height,
+void ellipsoid_wall_begin(view *s, const double normal[3], double height,
                           wall *w)
 {
     const double *a = s->model->options.semi_axes;
@@ -80,9 +80,9 @@ void ellipsoid_wall_begin(view *s, const ellipsoid_facet *facet, double height,
     double n[3], stretched[3], foot[3];
 
     memset(w, 0, sizeof(*w));
-    w->facet = facet;
+    w->normal = normal;
     w->height = height;
-    ellipsoid_product(s->axis, facet->normal, n);
+    ellipsoid_product(s->axis, normal, n);
     for (int i = 0; i < 3; i++)
     {
         stretched[i] = a[i] * n[i];
@@ -217,7 +217,7 @@ void ellipsoid_wall_add(view *s, const ellipsoid_facet *facet, wall *w)
         double along[3], across[3], off[3], per;
 
         ellipsoid_difference(facet->vertex[(i + 1) % 3], from, along);
-        ellipsoid_cross(facet->normal, along, across);
+        ellipsoid_cross(w->normal, along, across);
         per = 1 / ellipsoid_length(along);
         for (int m = 0; m < 2; m++)
         {
@@ -237,8 +237,7 @@ void ellipsoid_wall_add(view *s, const ellipsoid_facet *facet, wall *w)
         }
         for (int i = 0; i < 3; i++)
         {
-            const int seen =
-                facet->edge[i] != ELLIPSOID_EDGE_FLAT && side[m][i] < most;
+            const int seen = !(facet->within & 1 << i) && side[m][i] < most;
             int on_left = side[m][i] > 0;
 
             /* where rounding might tell, side_of() does */
@@ -293,13 +292,12 @@ static void set_slopes(view *s, wall *w, int n, const double fade[2])
     const double *a = s->model->options.semi_axes;
     const double *axis = w->seen[FAR].normal, *out = w->seen[NEAR].normal;
     const double h = w->height, p = w->support;
-    const double h_n = n < 3 ? w->facet->normal[n] : 0;
+    const double h_n = n < 3 ? w->normal[n] : 0;
     double *turn = w->normal_by[n], p_n = 0, shift[2][3], scale[2];
 
     for (int i = 0; i < 3; i++)
     {
-        turn[i] =
-            n < 3 ? 0 : ellipsoid_dot(s->turned[n - 3][i], w->facet->normal);
+        turn[i] = n < 3 ? 0 : ellipsoid_dot(s->turned[n - 3][i], w->normal);
         p_n += a[i] * out[i] * turn[i];
     }
     w->gap_by[n] = w->gap_slope * (h_n - p_n);

@@ -35,8 +35,9 @@ typedef struct ellipsoid_wall_rim
 /* One wall of a pose. */
 typedef struct ellipsoid_wall
 {
-    const ellipsoid_facet *facet; /* the first */
+    const double *normal; /* unit, into the fluid, lab */
     double height, support;
+    double away; /* [m] of its nearest facet, about, from the centre */
     double gap, gap_slope; /* cut off; its derivative by that which is not */
     ellipsoid_wall_kernel seen[2];
     ellipsoid_wall_rim sum[2];
@@ -58,17 +59,15 @@ typedef struct ellipsoid_wall_view
 /* Does its wall end at an edge of it, or bend? */
 static inline int ellipsoid_has_seam(const ellipsoid_facet *facet)
 {
-    return facet->edge[0] != ELLIPSOID_EDGE_FLAT
-        || facet->edge[1] != ELLIPSOID_EDGE_FLAT
-        || facet->edge[2] != ELLIPSOID_EDGE_FLAT;
+    return facet->within != 7;
 }
 
-/* Begins a wall with its first facet; the centre is `height` above it. */
-void ellipsoid_wall_begin(ellipsoid_wall_view *view,
-                          const ellipsoid_facet *facet, double height,
-                          ellipsoid_wall *wall);
+/* Begins a wall of a plane of this normal, which lives as long; the centre is
+   `height` above it. */
+void ellipsoid_wall_begin(ellipsoid_wall_view *view, const double normal[3],
+                          double height, ellipsoid_wall *wall);
 
-/* Adds a facet of its plane, the first one, too. */
+/* Adds a facet of its plane. */
 void ellipsoid_wall_add(ellipsoid_wall_view *view, const ellipsoid_facet *facet,
                         ellipsoid_wall *wall);
 

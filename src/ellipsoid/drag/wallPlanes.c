@@ -41,6 +41,20 @@ typedef struct slopes
     double value, by[POSE];
 } slopes;
 
+/* The height of a point over the plane of a facet, and its normal. */
+static double height_over(const ellipsoid_facet *facet, const double x[3],
+                          const double **normal)
+{
+    const double(*plane)[3] =
+        (const double(*)[3])((const char *)facet + facet->plane);
+    const int own = facet->plane == 0;
+    double d[3];
+
+    *normal = own ? facet->normal : plane[1];
+    ellipsoid_difference(x, own ? facet->middle : plane[0], d);
+    return ellipsoid_dot(d, *normal);
+}
+
 /* Lists facets anew if the centre has moved too far. Where walls are refused
    far off, or too many, those nearer may do. */
 static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
@@ -78,10 +92,8 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
         for (int i = 0; i < list.count; i++)
         {
             const ellipsoid_facet *facet = &list.facets[list.index[i]];
-            double height;
+            const double *normal, height = height_over(facet, x, &normal);
 
-            ellipsoid_difference(x, facet->middle, d);
-            height = ellipsoid_dot(d, facet->normal);
             if (facet->mirror || !(height > -margin && height < range + margin))
             {
                 continue;
@@ -105,10 +117,10 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
     return status;
 }
 
-/* The wall of this facet among those found, or a new one; NULL: it is too far.
-   Where there are too many, the farthest goes. */
-static wall *find_wall(view *s, const ellipsoid_facet *facet, double height,
-                       wall *walls, int *count)
+/* The wall of this plane among those found, or a new one; NULL: it is too far.
+   Where there are too many, the farthest goes. away: of its facet [m]. */
+static wall *find_wall(view *s, const double normal[3], double height,
+                       double away, wall *walls, int *count)
 {
     const double same = in_plane * s->model->options.wall_range;
     int at = *count;
@@ -117,10 +129,12 @@ static wall *find_wall(view *s, const ellipsoid_facet *facet, double height,
     {
         double d[3];
 
-        ellipsoid_difference(facet->normal, walls[k].facet->normal, d);
-        if (ellipsoid_dot(d, d) < in_plane * in_plane
-            && fabs(height - walls[k].height) < same)
+        ellipsoid_difference(normal, walls[k].normal, d);
+        if (normal == walls[k].normal
+            || (ellipsoid_dot(d, d) < in_plane * in_plane
+                && fabs(height - walls[k].height) < same))
         {
+            walls[k].away = fmin(walls[k].away, away);
             return &walls[k];
         }
     }
@@ -133,14 +147,15 @@ static wall *find_wall(view *s, const ellipsoid_facet *facet, double height,
         at = 0;
         for (int k = 1; k < *count; k++)
         {
-            at = walls[k].height > walls[at].height ? k : at;
+            at = walls[k].away > walls[at].away ? k : at;
         }
-        if (walls[at].height <= height)
+        if (walls[at].away <= away)
         {
             return NULL;
         }
     }
-    ellipsoid_wall_begin(s, facet, height, &walls[at]);
+    ellipsoid_wall_begin(s, normal, height, &walls[at]);
+    walls[at].away = away;
     return &walls[at];
 }
 
@@ -192,8 +207,7 @@ static void set_whole(const wall *walls, int count, const wall *w, int sloped,
 
     for (const wall *o = walls; o < walls + count; o++)
     {
-        const double cosine =
-            fmax(ellipsoid_dot(w->facet->normal, o->facet->normal), 0);
+        const double cosine = fmax(ellipsoid_dot(w->normal, o->normal), 0);
 
         if (o == w || !(cosine * o->fade > 0))
         {
@@ -217,6 +231,8 @@ static void set_whole(const wall *walls, int count, const wall *w, int sloped,
                                   - o->gap_by[n] / o->gap));
         }
     }
+    /* a part may be below 0 by rounding */
+    others = fmax(others, 0);
     t = rest > others ? others / rest : 1;
     filled = saturated(t, &t_slope);
     whole->value = w->part[NEAR] + filled * rest;
@@ -241,7 +257,7 @@ static int set_plane(const view *s, const wall *walls, int count, const wall *w,
         return 0;
     }
     set_whole(walls, count, w, sloped, &whole);
-    ellipsoid_copy(w->facet->normal, plane->wall);
+    ellipsoid_copy(w->normal, plane->wall);
     plane->weight[FAR] = w->fade * w->part[FAR];
     plane->weight[NEAR] = w->fade * part * whole.value;
     plane->gap[NEAR] = g;
@@ -249,7 +265,7 @@ static int set_plane(const view *s, const wall *walls, int count, const wall *w,
     square = plane->gap[FAR] * plane->gap[FAR];
     for (int n = 0; sloped && n < POSE; n++)
     {
-        const double h_n = n < 3 ? w->facet->normal[n] : 0;
+        const double h_n = n < 3 ? w->normal[n] : 0;
 
         ellipsoid_copy(w->normal_by[n], plane->normal_slope[n]);
         plane->weight_slope[FAR][n] =
@@ -293,18 +309,19 @@ ellipsoid_status ellipsoid_find_planes(
     {
         const ellipsoid_facet *facet =
             &cache->near_facets[cache->near_facet[k]];
-        double d[3], height, off, width;
+        const double *normal, height = height_over(facet, x, &normal);
+        double d[3], square, off, width;
         int before;
         wall *w;
 
-        ellipsoid_difference(x, facet->middle, d);
-        height = ellipsoid_dot(d, facet->normal);
         if (!(height > 0 && height < range))
         {
             continue;
         }
         /* beyond what both kernels see; without seams it is to hold a foot */
-        off = ellipsoid_dot(d, d) - height * height;
+        ellipsoid_difference(x, facet->middle, d);
+        square = ellipsoid_dot(d, d);
+        off = square - height * height;
         width = (ellipsoid_has_seam(facet) ? ELLIPSOID_WALL_BESIDE * range : 0)
               + longest + facet->radius;
         if (off > width * width * (1 + 1e-9))
@@ -312,7 +329,8 @@ ellipsoid_status ellipsoid_find_planes(
             continue;
         }
         before = count;
-        w = find_wall(&s, facet, height, walls, &count);
+        w = find_wall(&s, normal, height, sqrt(square) - facet->radius, walls,
+                      &count);
         if (w)
         {
             ellipsoid_wall_add(&s, facet, w);

@@ -310,6 +310,8 @@ int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3])
         memcpy(facet->neighbour_normal[k], facet->normal, sizeof facet->normal);
     }
     facet->radius = sqrt(squared);
+    facet->plane = 0;
+    facet->within = 0;
     return area > 0;
 }
 
@@ -380,5 +382,7 @@ int ellipsoid_facet_join(ellipsoid_facet *facet, int k,
     facet->edge[k] = fabs(turn) < flat ? ELLIPSOID_EDGE_FLAT
                    : turn > 0          ? ELLIPSOID_EDGE_CONCAVE
                                        : ELLIPSOID_EDGE_CONVEX;
+    facet->within &= ~(1 << k);
+    facet->within |= (facet->edge[k] == ELLIPSOID_EDGE_FLAT) << k;
     return 1;
 }

@@ -50,6 +50,18 @@ size_t ellipsoid_flat_merging_scratch(size_t points, size_t triangles);
 void ellipsoid_flat_merge(double longest_edge, ellipsoid_arena scratch,
                           ellipsoid_wall_surface *surface);
 
+/* ---------------------------------------------------------- flatParts.c */
+
+/* Bytes of planes, at most. */
+size_t ellipsoid_flat_parts_size(size_t triangles);
+size_t ellipsoid_flat_parts_scratch(size_t triangles);
+
+/* Sets plane and within of facets, and planes[], as many as it returns; across:
+   which facet each edge of each leads to, -1: none. */
+int ellipsoid_flat_parts_set(double depth, const int (*across)[3], int count,
+                             ellipsoid_arena scratch, ellipsoid_facet *facets,
+                             double (*planes)[2][3]);
+
 /* ---------------------------------------------------------- facetTree.c */
 
 #define ELLIPSOID_TREE_LEAF 8    /* facets in a leaf */

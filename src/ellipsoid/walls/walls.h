@@ -19,7 +19,7 @@ static inline int ellipsoid_has_walls(const ellipsoid_model *model,
 }
 
 #define ELLIPSOID_MAX_PAIRS 2048
-#define ELLIPSOID_MAX_NEAR 4096
+#define ELLIPSOID_MAX_NEAR 16384
 #define ELLIPSOID_MAX_LISTED 256
 
 /* See ellipsoid.h. */

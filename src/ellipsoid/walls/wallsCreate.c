@@ -48,6 +48,7 @@ static size_t result_size(size_t count)
 {
     return ellipsoid_piece(1, sizeof(ellipsoid_walls))
          + ellipsoid_piece(count, sizeof(ellipsoid_facet))
+         + ellipsoid_flat_parts_size(count)
          + ellipsoid_piece(STARS * count, sizeof(double[3]))
          + ellipsoid_facet_tree_size(count);
 }
@@ -55,8 +56,9 @@ static size_t result_size(size_t count)
 /* Of what joins facets: lists of the triangles at points, and marks. */
 static size_t joining_scratch(size_t points, size_t count)
 {
-    return ellipsoid_piece(3 * count, sizeof(int))
-         + 2 * ellipsoid_piece(points, sizeof(int));
+    return 2 * ellipsoid_piece(3 * count, sizeof(int))
+         + 2 * ellipsoid_piece(points, sizeof(int))
+         + ellipsoid_flat_parts_scratch(count);
 }
 
 static size_t largest(size_t a, size_t b) { return a > b ? a : b; }
@@ -69,7 +71,8 @@ static int are_complete(const ellipsoid_triangles *t,
         && options->image_count >= 0 && options->plane_count >= 0
         && (options->image_count == 0 || options->image)
         && (options->plane_count == 0 || options->plane)
-        && options->same_point >= 0 && options->longest_edge >= 0;
+        && options->same_point >= 0 && options->longest_edge >= 0
+        && options->flat_depth >= 0;
 }
 
 /* The first triangle of which a corner is no point, or -1 */
@@ -123,7 +126,8 @@ size_t ellipsoid_walls_size(const ellipsoid_triangles *triangles,
 typedef struct point_lists
 {
     int *first, *next;
-    int *marked; /* which point a point was last found to be next to */
+    int *marked;      /* which point a point was last found to be next to */
+    int (*across)[3]; /* the facet that an edge leads to, or -1 */
 } point_lists;
 
 static void set_lists(const ellipsoid_wall_surface *s, ellipsoid_arena *scratch,
@@ -132,6 +136,7 @@ static void set_lists(const ellipsoid_wall_surface *s, ellipsoid_arena *scratch,
     lists->next = ellipsoid_take(scratch, 3 * (size_t)s->count, sizeof(int));
     lists->first = ellipsoid_take(scratch, s->point_count, sizeof(int));
     lists->marked = ellipsoid_take(scratch, s->point_count, sizeof(int));
+    lists->across = ellipsoid_take(scratch, s->count, sizeof *lists->across);
     for (int p = 0; p < s->point_count; p++)
     {
         lists->first[p] = lists->marked[p] = -1;
@@ -157,15 +162,17 @@ static void join_facets(const ellipsoid_wall_surface *s,
         {
             const int from = s->corner[t][k], to = s->corner[t][(k + 1) % 3];
 
+            lists->across[t][k] = -1;
             for (int node = lists->first[from]; node >= 0;
                  node = lists->next[node])
             {
                 const int *other = s->corner[node / 3];
 
                 if (node / 3 != t
-                    && (other[0] == to || other[1] == to || other[2] == to))
+                    && (other[0] == to || other[1] == to || other[2] == to)
+                    && ellipsoid_facet_join(&facets[t], k, &facets[node / 3]))
                 {
-                    ellipsoid_facet_join(&facets[t], k, &facets[node / 3]);
+                    lists->across[t][k] = node / 3;
                 }
             }
         }
@@ -292,7 +299,7 @@ static ellipsoid_status fill(ellipsoid_walls *walls, size_t size,
     ellipsoid_arena arena = {(char *)walls, size}, scratch;
     point_lists lists;
     ellipsoid_facet *facets;
-    double(*stars)[3];
+    double(*stars)[3], (*planes)[2][3];
     int first_mirror;
 
     ellipsoid_images_count(triangles, options, &points, &count);
@@ -311,8 +318,14 @@ static ellipsoid_status fill(ellipsoid_walls *walls, size_t size,
         ellipsoid_arena rest = scratch;
 
         set_lists(&surface, &rest, &lists);
+        join_facets(&surface, &lists, facets);
+        planes = (double(*)[2][3])arena.next;
+        ellipsoid_take(&arena,
+                       ellipsoid_flat_parts_set(
+                           options->flat_depth, (const int(*)[3])lists.across,
+                           surface.count, rest, facets, planes),
+                       sizeof *planes);
     }
-    join_facets(&surface, &lists, facets);
     stars = (double(*)[3])arena.next;
     ellipsoid_take(&arena, set_stars(&surface, &lists, facets, stars),
                    sizeof *stars);

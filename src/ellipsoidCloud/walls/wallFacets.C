@@ -17,6 +17,10 @@ namespace Foam
     //  a flat wall near a cell is then few triangles. Longer ones save nothing.
     static const scalar mergedEdge = 6;
 
+    //- How deep a part of a wall may be bent that resists as one plane, likewise:
+    //  a quarter of the gap at which lubrication ends for the default cell
+    static const scalar flatDepth = 2.5e-3;
+
     //- The triangles of patches, as the flow's tetrahedra have them and the
     //  core takes them
     struct wallTriangles
@@ -125,6 +129,7 @@ Foam::List<Foam::scalar> Foam::wallFacets::made
 
     ellipsoid_walls_options options = ellipsoid_walls_options();
     options.longest_edge = mergedEdge*length;
+    options.flat_depth = flatDepth*length;
     options.image_count = moved.size();
     options.image = moved.cdata();
     options.plane_count = planes.size();
