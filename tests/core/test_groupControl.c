@@ -123,7 +123,8 @@ static void test_errors_near_walls(void **unused)
 
         j.stages.order = 4;
         j.next.walls.planes = 1;
-        j.next.walls.action[kind ? 4 : 2] =
+        j.next.walls.motion[0] = 1;
+        j.next.walls.by[0][kind ? 4 : 2] =
             kind ? 2 * 0.7 * per_h * model.viscosity
                        * model.rotation_resistance[1]
                  : 0.7 * per_h * 2e-6 * model.viscosity * model.resistance[2];

@@ -108,6 +108,7 @@ ellipsoid_status ellipsoid_wall_noise_begin(
     const double *q = state->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
     ellipsoid_frame frame = {.by_q = NULL};
     ellipsoid_planes planes;
+    ellipsoid_wall_expansion here;
     ellipsoid_status status;
 
     ellipsoid_rotation_inline(opposite, frame.axis);
@@ -119,7 +120,8 @@ ellipsoid_status ellipsoid_wall_noise_begin(
         return status;
     }
     noise->start = t;
-    ellipsoid_wall_matrix(model, &planes, noise->factor);
+    ellipsoid_wall_expansion_set(model, &planes, state, &frame, &here);
+    ellipsoid_wall_matrix(model, &here, noise->factor);
     if (!factorise(noise->factor))
     {
         return ELLIPSOID_NON_FINITE;

@@ -73,6 +73,16 @@ static inline int ellipsoid_has_near_walls(const ellipsoid_model *model,
         && around->walls && around->flow;
 }
 
+/* Adds to force and torque, or to velocities. */
+static inline void ellipsoid_add6(double factor, const double other[6],
+                                  double sum[6])
+{
+    for (int i = 0; i < 6; i++)
+    {
+        sum[i] += factor * other[i];
+    }
+}
+
 /* Walls that act at once; of more, the nearest. */
 #define ELLIPSOID_MAX_PLANES 48
 
@@ -93,14 +103,19 @@ typedef struct ellipsoid_plane_values
     double f[ELLIPSOID_PLANE_FUNCTIONS], by_nu[ELLIPSOID_PLANE_FUNCTIONS];
     double by_gap[ELLIPSOID_PLANE_FUNCTIONS];
     /* with its derivatives: q; c x n over e x n */
-    double squeeze[3], arm[3];
+    double squeeze[3], arm[2];
 } ellipsoid_plane_values;
 
-/* One plane and one body. */
+/*
+    One plane and one body: force [m2/s] and torque [m3/s] over mu, body frame, are
+    `column` by each of the motion relative to a free body's, u and omega, and of
+    the shear [1/s], and -squeeze row (row.(u, omega)).
+*/
 typedef struct ellipsoid_plane_effect
 {
     const ellipsoid_plane_table *own;
     double normal[3]; /* body frame */
+    double column[9][6], row[6], squeeze;
     ellipsoid_plane_values values;
 } ellipsoid_plane_effect;
 
@@ -134,85 +149,82 @@ void ellipsoid_plane_effect_set(const ellipsoid_plane_table *own,
                                 int slopes, ellipsoid_plane_effect *effect);
 
 /*
-    What the plane adds to force [m2/s] and torque [m3/s] over mu on a body of
-    this velocity, u and omega, that a free one outruns by `rates`, in a flow of
-    which (z - z of the centre) shear [1/s] is a part; all in the body frame, FAR
-    and NEAR apart. change, if not NULL: its derivatives by the components of the
-    normal, and of each action by its gap.
+    That on a body of this velocity that a free one outruns by `rates`, in a flow
+    of which (z - z of the centre) shear is a part; FAR and NEAR apart. change, if
+    not NULL: its derivatives by the components of the normal, and of each action
+    by its gap.
 */
-void ellipsoid_plane_action(const ellipsoid_plane_effect *effect,
+void ellipsoid_plane_action(ellipsoid_plane_effect *effect,
                             const double rates[6], const double velocity[6],
                             const double shear[3], double action[2][6],
                             double change[4][2][6]);
-
-/* Adds to the matrices by which the two actions, times a factor each, depend on
-   rates and on velocity; that of squeezing is of the other sign. */
-void ellipsoid_plane_add_matrices(const ellipsoid_plane_effect *effect,
-                                  const double factor[2], double slip[6][6],
-                                  double squeeze[6][6]);
-
-/* What each component of the shear does, times a factor. */
-void ellipsoid_plane_shear_columns(const ellipsoid_plane_effect *effect,
-                                   double factor, double column[3][6]);
 
 /* What the drag near walls depends on besides the pose. */
 typedef struct ellipsoid_near_walls
 {
     const ellipsoid_model *model;
-    const ellipsoid_planes *planes;
+    ellipsoid_planes *planes;
     ellipsoid_frame *frame;
     const ellipsoid_free_motion *free;
     const ellipsoid_flow_sample *flow;
 } ellipsoid_near_walls;
 
-/* mu (diag(K, C) + what the planes add), body frame (wallDrag.c). */
-void ellipsoid_wall_matrix(const ellipsoid_model *model,
-                           const ellipsoid_planes *planes, double matrix[6][6]);
-
-/* Adds to the state's u and omega what a wrench does against that. NON_FINITE: it
-   is singular. */
-ellipsoid_status ellipsoid_add_wall_mobility(
-    const ellipsoid_model *model, const ellipsoid_planes *planes,
-    ellipsoid_frame *frame, const ellipsoid_body_wrench *wrench,
-    ellipsoid_state *state);
-
-/* Sets the state's u and omega to those that balance this wrench. NON_FINITE, as
-   above. */
-ellipsoid_status
-ellipsoid_balance_wall_drag(const ellipsoid_near_walls *near,
-                            const ellipsoid_body_wrench *wrench,
-                            ellipsoid_state *state);
+/* The motion that the planes act on: u_free - u, omega_free - omega, u, omega in
+   the body frame, and the flow's gradient in the lab. */
+#define ELLIPSOID_WALL_MOTION 21
 
 /*
-    What the planes add to the drag in one state, and its derivatives: force [N]
-    and torque [N m] by pose, by the motion relative to a free body's (`slip`), by
-    the motion (`squeeze`, of the other sign) and by the flow's gradient, each with
-    the others kept. Body frame; the gradient and pose are the lab's.
+    What the planes add at one pose to force [N] and torque [N m], body frame: by
+    each component of that motion, and how the product of both changes with the
+    pose.
 */
 typedef struct ellipsoid_wall_expansion
 {
     int planes; /* how many are near; 0: nothing else is set */
-    double x[3], q[4], rates[6], velocity[6], gradient[3][3];
-    double action[6];
-    /* only where derivatives were asked for */
-    double slip[6][6], squeeze[6][6];
-    double by_pose[ELLIPSOID_POSE_SIZE][6], by_gradient[9][6];
+    double x[3], q[4];
+    double by[ELLIPSOID_WALL_MOTION][6];
+    double motion[ELLIPSOID_WALL_MOTION];
+    double by_pose[ELLIPSOID_POSE_SIZE][6]; /* 0 unless asked for */
 } ellipsoid_wall_expansion;
 
-/* Adds the drag to the wrench and, if wanted, to the blocks; tells what of it is
-   the planes', with derivatives if there are blocks. */
-void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
-                             const ellipsoid_state *state,
-                             ellipsoid_body_wrench *wrench,
-                             ellipsoid_jacobian_blocks *blocks,
-                             ellipsoid_wall_expansion *expansion);
+/* Sets all but the motion and by_pose (wallDrag.c). */
+void ellipsoid_wall_expansion_set(const ellipsoid_model *model,
+                                  ellipsoid_planes *planes,
+                                  const ellipsoid_state *state,
+                                  ellipsoid_frame *frame,
+                                  ellipsoid_wall_expansion *expansion);
 
-/* The same wrench in a state near that of an expansion, to first order; of near,
-   planes are not read. */
-void ellipsoid_add_expanded_wall_drag(const ellipsoid_near_walls *near,
-                                      const ellipsoid_wall_expansion *about,
-                                      const ellipsoid_state *state,
-                                      ellipsoid_body_wrench *wrench);
+/* mu (diag(K, C) + what the planes add), body frame. */
+void ellipsoid_wall_matrix(const ellipsoid_model *model,
+                           const ellipsoid_wall_expansion *expansion,
+                           double matrix[6][6]);
+
+/* Adds to the state's u and omega what force and torque, both in the body frame,
+   do against that. NON_FINITE: it is singular. */
+ellipsoid_status ellipsoid_add_wall_mobility(
+    const ellipsoid_model *model, const ellipsoid_wall_expansion *expansion,
+    ellipsoid_frame *frame, const double push[6], ellipsoid_state *state);
+
+/* Sets the state's u and omega to those that balance this wrench. NON_FINITE, as
+   above. */
+ellipsoid_status ellipsoid_balance_wall_drag(
+    const ellipsoid_near_walls *near, const ellipsoid_wall_expansion *expansion,
+    const ellipsoid_body_wrench *wrench, ellipsoid_state *state);
+
+/* Adds the drag to the wrench, in a state near that of the expansion to first
+   order; tells the motion. */
+void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
+                             const ellipsoid_wall_expansion *about,
+                             const ellipsoid_state *state,
+                             double motion[ELLIPSOID_WALL_MOTION],
+                             ellipsoid_body_wrench *wrench);
+
+/* Adds it to the blocks, in the state of the expansion, which has its motion; sets
+   by_pose. */
+void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
+                                    const ellipsoid_state *state,
+                                    ellipsoid_wall_expansion *expansion,
+                                    ellipsoid_jacobian_blocks *blocks);
 
 /* The velocities [m/s, rad/s, body frame] that an expansion is wrong by in the
    state of another. NON_FINITE: its resistance is singular. */

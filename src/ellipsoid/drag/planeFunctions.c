@@ -36,20 +36,38 @@ enum
     FUNCTIONS = ELLIPSOID_PLANE_FUNCTIONS
 };
 
+/* p/h over the equatorial radius, and how p and p/h change with nu and gap. */
+typedef struct heights
+{
+    double p, h, p_nu, close, close_nu, close_gap;
+} heights;
+
+static heights set_heights(double b, double nu, double gap)
+{
+    const double more = b * b - 1, p = sqrt(1 + more * nu * nu), h = p + gap;
+    const double p_nu = more * nu / p;
+
+    return (heights){.p = p,
+                     .h = h,
+                     .p_nu = p_nu,
+                     .close = p / h,
+                     .close_nu = p_nu * gap / (h * h),
+                     .close_gap = -p / (h * h)};
+}
+
 /* The functions of the table. */
 static void set_functions(const ellipsoid_plane_table *own, double nu,
                           double gap, int slopes, ellipsoid_plane_values *v)
 {
-    const double b = own->ratio, more = b * b - 1, pp = 1 + more * nu * nu;
-    const double p = sqrt(pp), p_nu = more * nu / p;
-    const double h = p + gap, close = p / h;
+    const double b = own->ratio, more = b * b - 1;
+    const heights at = set_heights(b, nu, gap);
     const int sphere = fabs(more) < 1e-9;
     const double w = sphere ? nu * nu : log1p(more * nu * nu) / log1p(more);
-    const double w_nu = 2 * nu * (sphere ? 1 : more / (pp * log1p(more)));
+    const double w_nu =
+        2 * nu * (sphere ? 1 : more / (at.p * at.p * log1p(more)));
     const double depth = ELLIPSOID_PLANE_DEPTH;
-    const double x = log(h / gap), beyond = fmax(x - depth, 0);
-    const double x_gap = 1 / h - 1 / gap, x_nu = p_nu / h;
-    const double close_nu = p_nu * gap / (h * h), close_gap = -p / (h * h);
+    const double x = log(at.h / gap), beyond = fmax(x - depth, 0);
+    const double x_gap = 1 / at.h - 1 / gap, x_nu = at.p_nu / at.h;
     double in_x[GAPS], slope_x[GAPS], in_w[TILTS], slope_w[TILTS];
     double sum[3][FUNCTIONS] = {{0}}; /* value, by w, by x */
     double scale[FUNCTIONS], scale_p[FUNCTIONS];
@@ -88,19 +106,22 @@ static void set_functions(const ellipsoid_plane_table *own, double nu,
             }
         }
     }
-    ellipsoid_plane_scales(b, own->free, p, scale, scale_p);
+    ellipsoid_plane_scales(b, own->free, at.p, scale, scale_p);
     for (int n = 0; n < FUNCTIONS; n++)
     {
-        v->f[n] = scale[n] * close * sum[0][n];
+        v->f[n] = scale[n] * at.close * sum[0][n];
     }
     for (int n = 0; slopes && n < FUNCTIONS; n++)
     {
-        const double of_p = scale_p[n] * p_nu * close + scale[n] * close_nu;
+        const double of_p =
+            scale_p[n] * at.p_nu * at.close + scale[n] * at.close_nu;
 
-        v->by_nu[n] = of_p * sum[0][n]
-                    + scale[n] * close * (w_nu * sum[1][n] + x_nu * sum[2][n]);
+        v->by_nu[n] =
+            of_p * sum[0][n]
+            + scale[n] * at.close * (w_nu * sum[1][n] + x_nu * sum[2][n]);
         v->by_gap[n] =
-            scale[n] * (close_gap * sum[0][n] + close * x_gap * sum[2][n]);
+            scale[n]
+            * (at.close_gap * sum[0][n] + at.close * x_gap * sum[2][n]);
     }
 }
 
@@ -108,263 +129,173 @@ static void set_functions(const ellipsoid_plane_table *own, double nu,
 static void set_squeezing(double b, double nu, double gap,
                           ellipsoid_plane_values *v)
 {
-    const double more = b * b - 1, pp = 1 + more * nu * nu, p = sqrt(pp);
-    const double p_nu = more * nu / p, h = p + gap, close = p / h;
-    const double close_nu = p_nu * gap / (h * h), close_gap = -p / (h * h);
+    const double more = b * b - 1;
+    const heights at = set_heights(b, nu, gap);
+    const double p = at.p, per_close = 3 / at.close;
 
-    v->squeeze[0] = ellipsoid_squeeze(b, p) * close * close * close / gap;
-    v->squeeze[1] =
-        v->squeeze[0]
-        * (-p_nu * (3 / p + 2 * p / (b * b + pp)) + 3 * close_nu / close);
-    v->squeeze[2] = v->squeeze[0] * (3 * close_gap / close - 1 / gap);
-    v->arm[0] = -more * nu / p;
-    v->arm[1] = -more / (pp * p);
-    v->arm[2] = 0;
+    v->squeeze[0] =
+        ellipsoid_squeeze(b, p) * at.close * at.close * at.close / gap;
+    v->squeeze[1] = v->squeeze[0]
+                  * (-at.p_nu * (3 / p + 2 * p / (b * b + p * p))
+                     + per_close * at.close_nu);
+    v->squeeze[2] = v->squeeze[0] * (per_close * at.close_gap - 1 / gap);
+    v->arm[0] = -at.p_nu;
+    v->arm[1] = -more / (p * p * p);
 }
 
-/* Force and torque of the tabulated part, of functions f; k: the axis, of which
-   t is not read. e x v has the components -v_j along i and v_i along j. */
-static void apply_functions(int k, const double *f, double nu,
-                            const double t[3], const double rates[6],
-                            const double shear[3], double action[6])
+/* Two elements of the symmetric part. */
+static inline void set_pair(double column[9][6], int m, int n, double value)
 {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    const double *u = rates, *w = rates + 3, *y = shear;
-    const double tu = t[i] * u[i] + t[j] * u[j], tw = t[i] * w[i] + t[j] * w[j];
-    const double cu = t[i] * u[j] - t[j] * u[i]; /* (e x t).u */
-    const double cw = t[i] * w[j] - t[j] * w[i];
-    const double turn = t[i] * y[j] - t[j] * y[i]; /* e.(n x gamma) */
-    const double ye = y[k];
-
-    action[i] = f[0] * u[i] + f[1] * t[i] * tu + nu * f[3] * t[i] * u[k]
-              - nu * f[9] * w[j] + nu * f[10] * t[i] * cw - f[11] * t[j] * w[k]
-              + f[12] * y[i] + nu * f[14] * t[i] * ye;
-    action[j] = f[0] * u[j] + f[1] * t[j] * tu + nu * f[3] * t[j] * u[k]
-              + nu * f[9] * w[i] + nu * f[10] * t[j] * cw + f[11] * t[i] * w[k]
-              + f[12] * y[j] + nu * f[14] * t[j] * ye;
-    action[k] = f[2] * u[k] + nu * f[3] * tu + f[8] * cw + (f[12] + f[13]) * ye;
-    action[3 + i] = f[4] * w[i] + f[5] * t[i] * tw + nu * f[7] * t[i] * w[k]
-                  - f[8] * t[j] * u[k] + nu * f[9] * u[j]
-                  - nu * f[10] * t[j] * tu + f[15] * (t[j] * ye - nu * y[j])
-                  - f[17] * t[j] * ye;
-    action[3 + j] = f[4] * w[j] + f[5] * t[j] * tw + nu * f[7] * t[j] * w[k]
-                  + f[8] * t[i] * u[k] - nu * f[9] * u[i]
-                  + nu * f[10] * t[i] * tu + f[15] * (nu * y[i] - t[i] * ye)
-                  + f[17] * t[i] * ye;
-    action[3 + k] = f[6] * w[k] + nu * f[7] * tw + f[11] * cu + f[16] * turn;
+    column[m][n] = column[n][m] = value;
 }
 
-/* How the same changes with nu, with the functions kept, and with t. */
-static void normal_slopes(int k, const double *f, double nu, const double t[3],
-                          const double rates[6], const double shear[3],
-                          double by[3][6])
+/* Force and torque of the tabulated part, with functions f, by each of the
+   motion's components and the shear's; of linear order in nu, of the second in t. */
+static void set_columns(const ellipsoid_plane_table *own, const double *f,
+                        const double normal[3], double column[9][6])
 {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    const double *u = rates, *w = rates + 3, *y = shear;
-    const double tu = t[i] * u[i] + t[j] * u[j], tw = t[i] * w[i] + t[j] * w[j];
-    const double cw = t[i] * w[j] - t[j] * w[i], ye = y[k];
-    const double along = f[3] * u[k] + f[10] * cw + f[14] * ye;
-    double *by_nu = by[k];
+    const int k = own->axis, i = (k + 1) % 3, j = (k + 2) % 3;
+    const double nu = normal[k], x = normal[i], y = normal[j];
 
-    by_nu[i] = along * t[i] - f[9] * w[j];
-    by_nu[j] = along * t[j] + f[9] * w[i];
-    by_nu[k] = f[3] * tu;
-    by_nu[3 + i] =
-        f[7] * t[i] * w[k] + f[9] * u[j] - f[10] * t[j] * tu - f[15] * y[j];
-    by_nu[3 + j] =
-        f[7] * t[j] * w[k] - f[9] * u[i] + f[10] * t[i] * tu + f[15] * y[i];
-    by_nu[3 + k] = f[7] * tw;
-    for (int turn = 0; turn < 2; turn++)
+    memset(column, 0, 9 * sizeof(*column));
+    for (int at = 0; at < 6; at += 3)
     {
-        /* once round e, i is j and j is -i: what turns changes its sign */
-        const int a = turn ? j : i, b = turn ? i : j;
-        const double s = turn ? -1 : 1;
-        double *by_t = by[a];
+        const double *part = at == 0 ? f : f + 4;
 
-        by_t[a] =
-            f[1] * (tu + t[a] * u[a]) + nu * (along + s * f[10] * t[a] * w[b]);
-        by_t[b] =
-            f[1] * t[b] * u[a] + s * (nu * f[10] * t[b] * w[b] + f[11] * w[k]);
-        by_t[k] = nu * f[3] * u[a] + s * f[8] * w[b];
-        by_t[3 + a] = f[5] * (tw + t[a] * w[a]) + nu * f[7] * w[k]
-                    - s * nu * f[10] * t[b] * u[a];
-        by_t[3 + b] = f[5] * t[b] * w[a]
-                    + s
-                          * (f[8] * u[k] + nu * f[10] * (tu + t[a] * u[a])
-                             + (f[17] - f[15]) * ye);
-        by_t[3 + k] = nu * f[7] * w[a] + s * (f[11] * u[b] + f[16] * y[b]);
+        column[at + i][at + i] = part[0] + part[1] * x * x;
+        column[at + j][at + j] = part[0] + part[1] * y * y;
+        column[at + k][at + k] = part[2];
+        set_pair(column, at + i, at + j, part[1] * x * y);
+        set_pair(column, at + i, at + k, nu * part[3] * x);
+        set_pair(column, at + j, at + k, nu * part[3] * y);
     }
+    set_pair(column, i, 3 + i, -nu * f[10] * x * y);
+    set_pair(column, j, 3 + j, nu * f[10] * x * y);
+    set_pair(column, i, 3 + j, nu * (f[10] * x * x - f[9]));
+    set_pair(column, j, 3 + i, nu * (f[9] - f[10] * y * y));
+    set_pair(column, i, 3 + k, -f[11] * y);
+    set_pair(column, j, 3 + k, f[11] * x);
+    set_pair(column, k, 3 + i, -f[8] * y);
+    set_pair(column, k, 3 + j, f[8] * x);
+    column[6 + i][i] = column[6 + j][j] = f[12];
+    column[6 + k][i] = nu * f[14] * x;
+    column[6 + k][j] = nu * f[14] * y;
+    column[6 + k][k] = f[12] + f[13];
+    column[6 + j][3 + i] = -f[15] * nu;
+    column[6 + i][3 + j] = f[15] * nu;
+    column[6 + k][3 + i] = (f[15] - f[17]) * y;
+    column[6 + k][3 + j] = (f[17] - f[15]) * x;
+    column[6 + j][3 + k] = f[16] * x;
+    column[6 + i][3 + k] = -f[16] * y;
+}
+
+/* (n, c x n), c the nearest point. */
+static void set_row(const ellipsoid_plane_table *own, double arm,
+                    const double normal[3], double row[6])
+{
+    const int k = own->axis, i = (k + 1) % 3, j = (k + 2) % 3;
+
+    ellipsoid_copy(normal, row);
+    row[3 + i] = -own->radius * arm * normal[j];
+    row[3 + j] = own->radius * arm * normal[i];
+    row[3 + k] = 0;
 }
 
 void ellipsoid_plane_effect_set(const ellipsoid_plane_table *own,
                                 const double normal[3], const double gap[2],
                                 int slopes, ellipsoid_plane_effect *e)
 {
-    const double nu = normal[own->axis], per = 1 / own->radius;
+    const double nu = normal[own->axis], a = own->radius;
+    const double size[3] = {1, a, a}; /* by length, radii times 1/s */
 
     e->own = own;
     ellipsoid_copy(normal, e->normal);
-    set_functions(own, nu, gap[ELLIPSOID_PLANE_FAR] * per, slopes, &e->values);
-    set_squeezing(own->ratio, nu, gap[ELLIPSOID_PLANE_NEAR] * per, &e->values);
-}
-
-/* The parts of the wrench in the units of force and torque. */
-static void add_scaled(const double part[6], double factor, double radius,
-                       double action[6])
-{
-    for (int i = 0; i < 3; i++)
+    set_functions(own, nu, gap[ELLIPSOID_PLANE_FAR] / a, slopes, &e->values);
+    set_squeezing(own->ratio, nu, gap[ELLIPSOID_PLANE_NEAR] / a, &e->values);
+    set_columns(own, e->values.f, normal, e->column);
+    set_row(own, e->values.arm[0], normal, e->row);
+    e->squeeze = a * e->values.squeeze[0];
+    for (int n = 0; n < 9; n++)
     {
-        action[i] += factor * part[i];
-        action[i + 3] += factor * radius * part[i + 3];
+        for (int m = 0; m < 6; m++)
+        {
+            e->column[n][m] *= a * size[n / 3] * size[m / 3];
+        }
     }
 }
 
-void ellipsoid_plane_action(const ellipsoid_plane_effect *e,
-                            const double rates[6], const double velocity[6],
-                            const double shear[3], double action[2][6],
-                            double change[4][2][6])
+/* Adds what rates and shear do, times a factor. */
+static void add_action(double column[9][6], const double rates[6],
+                       const double shear[3], double factor, double action[6])
+{
+    for (int n = 0; n < 9; n++)
+    {
+        ellipsoid_add6(factor * (n < 6 ? rates[n] : shear[n - 6]), column[n],
+                       action);
+    }
+}
+
+static double dot6(const double a[6], const double b[6])
+{
+    return ellipsoid_dot(a, b) + ellipsoid_dot(a + 3, b + 3);
+}
+
+void ellipsoid_plane_action(ellipsoid_plane_effect *e, const double rates[6],
+                            const double velocity[6], const double shear[3],
+                            double action[2][6], double change[4][2][6])
 {
     const ellipsoid_plane_values *v = &e->values;
-    const double a = e->own->radius, *n = e->normal;
-    const int k = e->own->axis, i = (k + 1) % 3, j = (k + 2) % 3;
-    const double nu = n[k], *u = velocity;
-    const double scaled[6] = {rates[0],     rates[1],     rates[2],
-                              a * rates[3], a * rates[4], a * rates[5]};
-    const double sheared[3] = {a * shear[0], a * shear[1], a * shear[2]};
-    const double w[3] = {a * u[3], a * u[4], a * u[5]};
-    const double out[6] = {n[0], n[1], n[2]};
-    /* (c x n).w over the arm; of the nearest point, towards the wall */
-    const double spin = n[i] * w[j] - n[j] * w[i];
-    const double approach = -ellipsoid_dot(n, u) - v->arm[0] * spin;
-    double part[6], crossed[6] = {0}, by_normal[3][6];
+    const ellipsoid_plane_table *own = e->own;
+    const int k = own->axis;
+    const double a = own->radius, along = dot6(e->row, velocity);
+    const double turn[6] = {rates[0],     rates[1],     rates[2],
+                            a * rates[3], a * rates[4], a * rates[5]};
+    const double bent[3] = {a * shear[0], a * shear[1], a * shear[2]};
+    double column[9][6], foot[6];
 
     memset(action, 0, 2 * sizeof(*action));
-    apply_functions(k, v->f, nu, n, scaled, sheared, part);
-    add_scaled(part, a, a, action[0]);
-    crossed[3 + i] = -n[j];
-    crossed[3 + j] = n[i];
-    for (int m = 0; m < 6; m++)
-    {
-        part[m] = v->squeeze[0] * approach * (out[m] + v->arm[0] * crossed[m]);
-    }
-    add_scaled(part, a, a, action[1]);
+    add_action(e->column, rates, shear, 1, action[0]);
+    ellipsoid_add6(-e->squeeze * along, e->row, action[1]);
     if (!change)
     {
         return;
     }
     memset(change, 0, 4 * sizeof(*change));
-    normal_slopes(k, v->f, nu, n, scaled, sheared, by_normal);
+    set_columns(own, v->by_nu, e->normal, column);
+    add_action(column, turn, bent, a, change[k][0]);
+    set_columns(own, v->by_gap, e->normal, column);
+    add_action(column, turn, bent, 1, change[3][0]);
+    ellipsoid_add6(-v->squeeze[2] * along, e->row, change[3][1]);
+    set_row(own, v->arm[1], e->normal, foot);
+    for (int by = 0; by < 3; by++)
+    {
+        const double unit[3] = {by == 0, by == 1, by == 2};
+        double turned[6];
+
+        /* of so low an order that differences are derivatives */
+        for (int side = -1; side <= 1; side += 2)
+        {
+            double normal[3] = {e->normal[0], e->normal[1], e->normal[2]};
+
+            normal[by] += side;
+            set_columns(own, v->f, normal, column);
+            add_action(column, turn, bent, 0.5 * a * side, change[by][0]);
+        }
+        set_row(own, v->arm[0], unit, turned);
+        if (by == k)
+        {
+            ellipsoid_add(turned + 3, foot + 3);
+            ellipsoid_add6(-a * v->squeeze[1] * along, e->row, change[by][1]);
+        }
+        ellipsoid_add6(-e->squeeze * dot6(turned, velocity), e->row,
+                       change[by][1]);
+        ellipsoid_add6(-e->squeeze * along, turned, change[by][1]);
+    }
     for (int by = 0; by < 4; by++)
     {
-        const int to = by == k ? 1 : by == 3 ? 2 : 0; /* nu, gap or t */
-        const double per = by == 3 ? 1 : a;
-        double of_approach =
-            (to ? -v->arm[to] * spin : 0) - (by < 3 ? u[by] : 0);
-        double turned[6] = {0};
-
-        if (to)
+        for (int i = 3; i < 6; i++)
         {
-            apply_functions(k, to == 1 ? v->by_nu : v->by_gap, nu, n, scaled,
-                            sheared, part);
-            add_scaled(part, per, a, change[by][0]);
-        }
-        if (by < 3)
-        {
-            add_scaled(by_normal[by], a, a, change[by][0]);
-        }
-        if (by == i)
-        {
-            of_approach -= v->arm[0] * w[j];
-            turned[3 + j] = 1;
-        }
-        if (by == j)
-        {
-            of_approach += v->arm[0] * w[i];
-            turned[3 + i] = -1;
-        }
-        for (int m = 0; m < 6; m++)
-        {
-            const double row = out[m] + v->arm[0] * crossed[m];
-            const double of_row = (by < 3 && by == m) + v->arm[0] * turned[m]
-                                + (to ? v->arm[to] * crossed[m] : 0);
-
-            part[m] = v->squeeze[0] * (of_approach * row + approach * of_row)
-                    + (to ? v->squeeze[to] * approach * row : 0);
-        }
-        add_scaled(part, per, a, change[by][1]);
-    }
-}
-
-/* Adds a symmetric pair of elements. */
-static void add_pair(double matrix[6][6], int row, int column, double value)
-{
-    matrix[row][column] += value;
-    matrix[column][row] += value;
-}
-
-void ellipsoid_plane_add_matrices(const ellipsoid_plane_effect *e,
-                                  const double factor[2], double slip[6][6],
-                                  double squeeze[6][6])
-{
-    const double *f = e->values.f, *t = e->normal, a = e->own->radius;
-    const int k = e->own->axis, i = (k + 1) % 3, j = (k + 2) % 3;
-    const double nu = t[k], per[3] = {factor[ELLIPSOID_PLANE_FAR] * a,
-                                      factor[ELLIPSOID_PLANE_FAR] * a * a,
-                                      factor[ELLIPSOID_PLANE_FAR] * a * a * a};
-    const double arm = a * e->values.arm[0];
-    const double pressed =
-        factor[ELLIPSOID_PLANE_NEAR] * a * e->values.squeeze[0];
-    double row[6] = {t[0], t[1], t[2]};
-
-    for (int r = 0; r < 2; r++)
-    {
-        const double *part = f + 4 * r, size = per[2 * r];
-        double(*m)[6] = &slip[3 * r];
-        const int at = 3 * r;
-
-        m[i][at + i] += size * (part[0] + part[1] * t[i] * t[i]);
-        m[j][at + j] += size * (part[0] + part[1] * t[j] * t[j]);
-        m[k][at + k] += size * part[2];
-        add_pair(slip, at + i, at + j, size * part[1] * t[i] * t[j]);
-        add_pair(slip, at + i, at + k, size * nu * part[3] * t[i]);
-        add_pair(slip, at + j, at + k, size * nu * part[3] * t[j]);
-    }
-    add_pair(slip, i, 3 + i, -per[1] * nu * f[10] * t[i] * t[j]);
-    add_pair(slip, j, 3 + j, per[1] * nu * f[10] * t[i] * t[j]);
-    add_pair(slip, i, 3 + j, per[1] * nu * (f[10] * t[i] * t[i] - f[9]));
-    add_pair(slip, j, 3 + i, per[1] * nu * (f[9] - f[10] * t[j] * t[j]));
-    add_pair(slip, i, 3 + k, -per[1] * f[11] * t[j]);
-    add_pair(slip, j, 3 + k, per[1] * f[11] * t[i]);
-    add_pair(slip, k, 3 + i, -per[1] * f[8] * t[j]);
-    add_pair(slip, k, 3 + j, per[1] * f[8] * t[i]);
-
-    row[3 + i] = -arm * t[j];
-    row[3 + j] = arm * t[i];
-    for (int m = 0; m < 6; m++)
-    {
-        for (int n = 0; n < 6; n++)
-        {
-            squeeze[m][n] += pressed * row[m] * row[n];
+            change[by][0][i] *= a;
         }
     }
-}
-
-void ellipsoid_plane_shear_columns(const ellipsoid_plane_effect *e,
-                                   double factor, double column[3][6])
-{
-    const double *f = e->values.f, *t = e->normal, a = e->own->radius;
-    const int k = e->own->axis, i = (k + 1) % 3, j = (k + 2) % 3;
-    const double nu = t[k], force = factor * a * a, torque = force * a;
-
-    memset(column, 0, 3 * sizeof(*column));
-    column[i][i] = column[j][j] = force * f[12];
-    column[k][i] = force * nu * f[14] * t[i];
-    column[k][j] = force * nu * f[14] * t[j];
-    column[k][k] = force * (f[12] + f[13]);
-    column[j][3 + i] = -torque * f[15] * nu;
-    column[i][3 + j] = torque * f[15] * nu;
-    column[k][3 + i] = torque * (f[15] - f[17]) * t[j];
-    column[k][3 + j] = torque * (f[17] - f[15]) * t[i];
-    column[j][3 + k] = torque * f[16] * t[i];
-    column[i][3 + k] = -torque * f[16] * t[j];
 }

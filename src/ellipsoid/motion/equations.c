@@ -28,6 +28,9 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
                                       int *acted)
 {
     const ellipsoid_free_motion free = e->free;
+    const ellipsoid_wall_expansion *about =
+        cell->about ? cell->about : &at->walls;
+    double motion[ELLIPSOID_WALL_MOTION];
     ellipsoid_frame frame = {.by_q = blocks ? d : NULL};
     ellipsoid_planes planes;
     const ellipsoid_near_walls near = {e->model, &planes, &frame, &free,
@@ -50,18 +53,24 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
     }
     ellipsoid_copy(e->force, wrench.force);
     ellipsoid_copy(e->torque, wrench.torque);
+    if (!cell->about)
+    {
+        ellipsoid_wall_expansion_set(e->model, &planes, e->state, &frame,
+                                     &at->walls);
+    }
     if (balanced)
     {
-        status = ellipsoid_balance_wall_drag(&near, &wrench, &at->state);
+        status = ellipsoid_balance_wall_drag(&near, about, &wrench, &at->state);
     }
-    if (cell->about)
+    if (status == ELLIPSOID_OK)
     {
-        ellipsoid_add_expanded_wall_drag(&near, cell->about, &at->state,
-                                         &wrench);
+        ellipsoid_add_wall_drag(&near, about, &at->state,
+                                cell->about ? motion : at->walls.motion,
+                                &wrench);
     }
-    else if (status == ELLIPSOID_OK)
+    if (status == ELLIPSOID_OK && blocks)
     {
-        ellipsoid_add_wall_drag(&near, &at->state, &wrench, blocks, &at->walls);
+        ellipsoid_add_wall_drag_blocks(&near, &at->state, &at->walls, blocks);
     }
     ellipsoid_copy(wrench.force, e->force);
     ellipsoid_copy(wrench.torque, e->torque);

@@ -17,18 +17,22 @@ static ellipsoid_status move_near_walls(const ellipsoid_cell *p,
 {
     const double *q = change->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
     ellipsoid_frame frame = {.by_q = NULL};
-    ellipsoid_body_wrench wrench;
     ellipsoid_planes planes;
+    ellipsoid_wall_expansion here;
     ellipsoid_status status;
+    double push[6];
 
     ellipsoid_rotation_inline(opposite, frame.axis);
-    ellipsoid_copy(c->cell_force, wrench.force);
-    ellipsoid_copy(c->cell_torque, wrench.torque);
+    ellipsoid_product(frame.axis, c->cell_force, push);
+    ellipsoid_copy(c->cell_torque, push + 3);
     status = ellipsoid_find_planes(p->model, &p->surroundings, change, &frame,
                                    p->cache, &planes);
-    return status == ELLIPSOID_OK ? ellipsoid_add_wall_mobility(
-               p->model, &planes, &frame, &wrench, change)
-                                  : status;
+    if (status != ELLIPSOID_OK)
+    {
+        return status;
+    }
+    ellipsoid_wall_expansion_set(p->model, &planes, change, &frame, &here);
+    return ellipsoid_add_wall_mobility(p->model, &here, &frame, push, change);
 }
 
 /* Adds force and torque of the other cells at a point that has been evaluated
