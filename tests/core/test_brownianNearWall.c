@@ -278,6 +278,30 @@ static void test_interval_past_a_rim(void **unused)
     assert_true(end[0] > end[1]);
 }
 
+/* One and a half of the longest interval is two of the same length, as if the
+   run had ended in the middle. */
+static void test_even_intervals(void **unused)
+{
+    const ellipsoid_options o = near_wall(ELLIPSOID_MOTION_INERTIALESS, 1);
+    test_walk whole = walk_over_wall(&o, 1, 7, 0.7e-6), parts = whole;
+    ellipsoid_noise noise;
+    double end;
+
+    (void)unused;
+    assert_ok(ellipsoid_noise_at(&whole.model, &whole.around, 0, &noise));
+    assert_ok(ellipsoid_wall_noise_begin(&whole.model, &whole.around,
+                                         &whole.state, &cache, 0, &noise));
+    end = 1.5 * noise.end;
+    assert_true(noise.near && end < 1);
+    assert_ok(test_walk_to(&whole, end));
+    assert_ok(test_walk_to(&parts, 0.5 * end));
+    assert_ok(test_walk_to(&parts, end));
+    for (int i = 0; i < 3; i++)
+    {
+        assert_near(whole.state.x[i], parts.state.x[i], 1e-15);
+    }
+}
+
 static int not_asked(void *context, double t, const double centre[3],
                      double reach, ellipsoid_facet_list *list)
 {
@@ -393,6 +417,7 @@ int main(void)
         cmocka_unit_test(test_numbers),
         cmocka_unit_test(test_past_rims),
         cmocka_unit_test(test_interval_past_a_rim),
+        cmocka_unit_test(test_even_intervals),
         cmocka_unit_test(test_no_place),
         cmocka_unit_test(test_profile),
     };
