@@ -76,6 +76,44 @@ static void reportSieves
     }
 }
 
+
+//- The part of a cell's surface below which, along the normal, no bead is
+static scalar bareSurface(const ellipsoid_options& options)
+{
+    double bead[ELLIPSOID_MAX_BEADS][3];
+    const int nBeads = ellipsoid_beads(&options, bead);
+    const vector semiAxes(pointOf(options.semi_axes));
+
+    // A lattice of directions as even as can be
+    const label nDirections = 4000;
+    const scalar turn = constant::mathematical::pi*(1 + sqrt(5.0));
+
+    scalar bare = 0;
+    scalar whole = 0;
+
+    for (label i = 0; i < nDirections; ++i)
+    {
+        const scalar z = 1 - (2*i + 1.0)/nDirections;
+        const scalar c = sqrt(1 - z*z);
+        const vector u(c*cos(i*turn), c*sin(i*turn), z);
+
+        const vector point(cmptMultiply(semiAxes, u));
+        const vector normal(cmptDivide(u, semiAxes));
+        const scalar area = mag(normal);
+
+        bool covered = false;
+        for (int b = 0; b < nBeads && !covered; ++b)
+        {
+            const vector from(point - pointOf(bead[b]));
+            covered = mag(from ^ normal) < options.bead_radius*area;
+        }
+        whole += area;
+        bare += covered ? 0 : area;
+    }
+
+    return bare/whole;
+}
+
 } // End namespace Foam
 
 
@@ -123,6 +161,20 @@ void Foam::reportSize
 
     Info<< "case: cells of " << um(2*pointOf(options.semi_axes)).c_str()
         << " along their axes" << endl;
+
+    const bool beads =
+        options.contact && options.contact_shape == ELLIPSOID_CONTACT_BEADS;
+    const scalar bare = beads ? bareSurface(options) : 0;
+
+    // Of the default cell nothing is bare, up to 1.4 times its size
+    if (bare > 0.1)
+    {
+        Warning
+            << "The " << options.bead_count << " beads of contact leave "
+            << word::printf("%.2g", 100*bare) << " % of a cell's surface bare,"
+            << " where edges of walls come into it: contact { shape ellipsoid; }"
+            << " has no gaps" << nl << endl;
+    }
 
     const scalar ratio = options.density/options.fluid_density;
 

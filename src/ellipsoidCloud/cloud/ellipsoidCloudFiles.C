@@ -103,8 +103,9 @@ void Foam::ellipsoidCloud::report()
 
     const scalar start = mesh_.time().startTime().value();
     const scalar end = mesh_.time().endTime().value();
+    // The last time step of another solver may end after endTime
     const scalar left =
-        trackingTime_*(end - time_)/max(time_ - start, VSMALL);
+        trackingTime_*max(end - time_, scalar(0))/max(time_ - start, VSMALL);
 
     Info<< "t = " << mesh_.time().timeName() << " s, ";
     statistics_->report(Info);

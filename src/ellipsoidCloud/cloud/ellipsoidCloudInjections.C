@@ -124,7 +124,7 @@ void Foam::ellipsoidCloud::reportCells(const scalar inflow) const
     {
         first = min(first, cell.planned);
     }
-    if (criterion_.holdTime() > end - first)
+    if (first < end && criterion_.holdTime() > end - first)
     {
         Warning
             << "holdTime " << criterion_.holdTime() << " s is longer than from"

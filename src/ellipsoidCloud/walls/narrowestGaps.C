@@ -65,6 +65,60 @@ static scalar widthAlong
     return GREAT;
 }
 
+
+//- Mesh cells by length on the line from a face of the boundary along a vector
+//  to where it leaves the mesh [1/m]
+static scalar meshCellsAlong
+(
+    const polyMesh& mesh,
+    label facei,
+    const vector& along
+)
+{
+    const point from(mesh.faceCentres()[facei]);
+    label celli = mesh.faceOwner()[facei];
+    label nCells = 0;
+    scalar length = 0;
+
+    // Through the plane of a face that is met first, farther on
+    while (celli >= 0 && nCells < mesh.nCells())
+    {
+        scalar next = GREAT;
+        label out = -1;
+
+        for (const label i : mesh.cells()[celli])
+        {
+            const scalar side = mesh.faceOwner()[i] == celli ? 1 : -1;
+            const vector area(side*mesh.faceAreas()[i]);
+            const scalar speed = area & along;
+
+            if (i != facei && speed > SMALL*mag(area))
+            {
+                const scalar l =
+                    ((mesh.faceCentres()[i] - from) & area)/speed;
+                if (l < next)
+                {
+                    next = l;
+                    out = i;
+                }
+            }
+        }
+        if (out < 0)
+        {
+            break;
+        }
+        ++nCells;
+        length = max(length, next);
+        celli =
+            !mesh.isInternalFace(out) ? -1
+          : mesh.faceOwner()[out] == celli ? mesh.faceNeighbour()[out]
+          : mesh.faceOwner()[out];
+        facei = out;
+    }
+
+    return nCells/max(length, VSMALL);
+}
+
 } // End namespace Foam
 
 
@@ -101,6 +155,7 @@ Foam::List<Foam::narrowGap> Foam::narrowestGaps
         const polyPatch& patch = mesh.boundaryMesh()[patches[k]];
         const vectorField::subField centres(patch.faceCentres());
         const vectorField::subField areas(patch.faceAreas());
+        label narrowest = -1;
 
         forAll(patch, i)
         {
@@ -113,15 +168,15 @@ Foam::List<Foam::narrowGap> Foam::narrowestGaps
 
             if (width < gaps[k].width)
             {
-                const label celli = patch.faceCells()[i];
-                const scalar thickness =
-                    2*mag((centres[i] - mesh.cellCentres()[celli]) & n);
-
-                gaps[k] = narrowGap
-                {
-                    width, centres[i] - 0.5*width*n, width/thickness
-                };
+                gaps[k] = narrowGap{width, centres[i] - 0.5*width*n, 0};
+                narrowest = patch.start() + i;
             }
+        }
+        if (narrowest >= 0)
+        {
+            const vector& area = mesh.faceAreas()[narrowest];
+            gaps[k].meshCells = gaps[k].width
+                *meshCellsAlong(mesh, narrowest, -area/mag(area));
         }
     }
 
