@@ -8,6 +8,7 @@
 #include "nearWallTest.h"
 #include "body/planeTable.h"
 
+#include "../../tools/planeTable/planePanels.c"
 #include "../../tools/planeTable/planeSolver.c"
 
 /* A body and a plane: the axis of the body is its second, tilted to +x in the

@@ -9,6 +9,7 @@
 #include "nearWallTest.h"
 
 /* It is no part of the library. */
+#include "../../tools/planeTable/planePanels.c"
 #include "../../tools/planeTable/planeSolver.c"
 
 static const plane_mesh fine = {5, 2, 6, 8};

@@ -48,21 +48,21 @@ def angle(axis):
 
 
 def resolved_path(program, folder, start, fineness):
-    """Rows (t [s], x [um], axis)."""
+    """Rows (x [um], axis)."""
     def motion(x, axis):
         u, omega, _, _ = resolved(program, folder, [("", x, axis)], fineness)[0]
         return 1e6 * u, np.cross(rotation(quaternion(axis)) @ omega, axis)
 
-    t, x, axis = 0.0, np.array(start, float), np.array(X, float)
-    rows = [(t, x, axis)]
+    x, axis = np.array(start, float), np.array(X, float)
+    rows = [(x, axis)]
     while x[1] < END and post_gap(x, axis) > NEAREST:
         u, turn = motion(x, axis)
         step = min(STEP, max(post_gap(x, axis), 2 * NEAREST)) / (np.linalg.norm(u) + max(AXES) * np.linalg.norm(turn))
         middle = axis + 0.5 * step * turn
         u, turn = motion(x + 0.5 * step * u, middle / np.linalg.norm(middle))
-        t, x, axis = t + step, x + step * u, axis + step * turn
+        x, axis = x + step * u, axis + step * turn
         axis /= np.linalg.norm(axis)
-        rows.append((t, x, axis))
+        rows.append((x, axis))
     return rows
 
 
@@ -75,13 +75,13 @@ def model_path(case, folder, start, forces):
     with open(folder / "postProcessing/ellipsoidCloud/0/tracks.csv", encoding="utf-8") as file:
         for row in csv.DictReader(file):
             q = np.array([float(row[name]) for name in ("eps1", "eps2", "eps3", "eta")])
-            rows.append((float(row["t"]), 1e6 * np.array([float(row[f"x{i}"]) for i in (1, 2, 3)]), rotation(q)[:, 1]))
+            rows.append((1e6 * np.array([float(row[f"x{i}"]) for i in (1, 2, 3)]), rotation(q)[:, 1]))
     return rows
 
 
 def summary(rows):
     """What the table has of a path."""
-    y = np.array([x[1] for _, x, _ in rows])
+    y = np.array([x[1] for x, _ in rows])
     found = []
     for station in STATIONS:
         if y.max() < station:
@@ -89,9 +89,9 @@ def summary(rows):
             continue
         at = np.argmax(y >= station)
         part = (station - y[at - 1]) / (y[at] - y[at - 1])
-        x = rows[at - 1][1][0] + part * (rows[at][1][0] - rows[at - 1][1][0])
-        found += [f"{x:.3f}, {angle(rows[at][2] if part > 0.5 else rows[at - 1][2]):.0f}"]
-    return [*found, f"{min(post_gap(x, axis) for _, x, axis in rows):.3f}"]
+        x = rows[at - 1][0][0] + part * (rows[at][0][0] - rows[at - 1][0][0])
+        found += [f"{x:.3f}, {angle(rows[at][1] if part > 0.5 else rows[at - 1][1]):.0f}"]
+    return [*found, f"{min(post_gap(x, axis) for x, axis in rows):.3f}"]
 
 
 def main(program, case, folder, start="1.2", fineness="2"):
