@@ -214,6 +214,38 @@ static void test_cache_changes_nothing(void **unused)
     wall_mesh_free(&mesh);
 }
 
+/* So is the gap of a cell that comes down, lying, from where no facet matters. */
+static void test_comes_down(void **unused)
+{
+    const double corner[3] = {-10 * um, -10 * um, 0};
+    const double along[3] = {20 * um, 0, 0}, across[3] = {0, 20 * um, 0};
+    const double q[4] = {0, 0, 0, 1};
+    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_model model = test_model(&options);
+    static ellipsoid_facet_cache kept, fresh;
+    wall_mesh mesh;
+    counted_walls walls = {.mesh = &mesh};
+    const ellipsoid_surroundings surroundings = around_counted(&walls);
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    wall_mesh_plane(&mesh, corner, along, across, 1, 1, 2, 0);
+    wall_mesh_finish(&mesh);
+    ellipsoid_facet_cache_clear(&kept);
+    for (int n = 0; n < 2; n++)
+    {
+        const double x[3] = {0, 0, (n == 0 ? 1.1 : 0.65) * um};
+        ellipsoid_contact a, b;
+
+        ellipsoid_facet_cache_clear(&fresh);
+        assert_ok(evaluate_pose(&model, &surroundings, x, q, &kept, &a, NULL));
+        assert_ok(evaluate_pose(&model, &surroundings, x, q, &fresh, &b, NULL));
+        assert_memory_equal(&a, &b, sizeof a);
+        assert_true(n == 0 || a.gap < 0.2 * um);
+    }
+    wall_mesh_free(&mesh);
+}
+
 /* R(q) is a polynomial: q off the unit sphere, each component by itself. */
 static void test_jacobian_is_exact(void **unused)
 {
@@ -415,6 +447,7 @@ int main(void)
         cmocka_unit_test(test_standing_and_lying),
         cmocka_unit_test(test_sum_over_beads),
         cmocka_unit_test(test_cache_changes_nothing),
+        cmocka_unit_test(test_comes_down),
         cmocka_unit_test(test_jacobian_is_exact),
         cmocka_unit_test(test_far_from_walls),
         cmocka_unit_test(test_along_a_wall),

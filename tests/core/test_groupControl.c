@@ -3,7 +3,8 @@
 
 /*
     test_groupControl.c - the steps of a group are those that each of its cells
-    allows, in whatever order they come; how large an error is.
+    allows, in whatever order they come; one that was rejected leaves nothing; how
+    large an error is.
 */
 #include "groupTest.h"
 #include "nearWallTest.h"
@@ -50,6 +51,57 @@ static void test_order_does_not_matter(void **unused)
     assert_relative(step[0][1], step[1][1], 1e-9);
     assert_int_equal(attempts[0], attempts[1]);
     assert_true(attempts[0] > 20);
+}
+
+static ellipsoid_step first_step;
+
+static int note_first(void *context, const ellipsoid_step *step)
+{
+    (void)context;
+    first_step = first_step.end > 0 ? first_step : *step;
+    return 0;
+}
+
+/* Two spheres that overlap and that a flow takes apart; the first step that is
+   accepted. Returns how many were rejected. */
+static long let_go(double step)
+{
+    ellipsoid_options o = touching_cell();
+    test_quadratic flow = {.answer = 0};
+    double t = 0;
+    long rejected;
+    crowd c;
+
+    o.contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;
+    o.motion = ELLIPSOID_MOTION_INERTIALESS;
+    o.tolerance = 1e-4;
+    o.semi_axes[1] = o.semi_axes[0];
+    flow.g[0][0] = 100;
+    flow.g[1][1] = -100;
+    crowd_init(&c, 2, &o, &flow);
+    c.state[0].x[0] = o.semi_axes[0] - 0.5e-9;
+    c.state[1].x[0] = -c.state[0].x[0];
+    c.controller[0].step = c.controller[1].step = step;
+    first_step.end = 0;
+    crowd_advance(&c, &t, 0.01, note_first);
+    rejected = c.statistics[0].rejected;
+    crowd_free(&c);
+    return rejected;
+}
+
+/* A step that is taken again after it was rejected where it ended is that of a
+   run that begins with it. */
+static void test_after_rejection(void **unused)
+{
+    ellipsoid_step again;
+
+    (void)unused;
+    assert_true(let_go(1e-3) > 0);
+    again = first_step;
+    assert_true(again.end < 5e-4);
+    let_go(again.end);
+    assert_true(first_step.end == again.end);
+    assert_memory_equal(&first_step.after, &again.after, sizeof(again.after));
 }
 
 /* A cell alone, and what it takes to judge a step of it. */
@@ -137,6 +189,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_order_does_not_matter),
+        cmocka_unit_test(test_after_rejection),
         cmocka_unit_test(test_size_of_errors),
         cmocka_unit_test(test_errors_near_walls),
     };

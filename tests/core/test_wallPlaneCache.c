@@ -119,6 +119,47 @@ static int list_all(void *context, double t, const double centre[3],
     return 0;
 }
 
+/* None within the reach, and how far the floor x3 = 0 is. */
+static int list_and_say_how_far(void *context, double t, const double centre[3],
+                                double reach, ellipsoid_facet_list *list)
+{
+    list_all(context, t, centre, reach, list);
+    if (centre[2] > reach)
+    {
+        list->count = 0;
+        list->reach = centre[2];
+    }
+    return 0;
+}
+
+/* So too after a look from so far that no facet was listed, by walls that say
+   how far they are. */
+static void test_cache_from_afar(void **unused)
+{
+    const ellipsoid_options o = near_walls();
+    const ellipsoid_model model = test_model(&o);
+    test_quadratic flow = test_shear(1000);
+    ellipsoid_state state = {.q = {0, 0, 0, 1}}, a, b;
+    ellipsoid_surroundings s;
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_floor(&mesh, 0, 1, 1);
+    wall_mesh_finish(&mesh);
+    s = around(&mesh, &flow);
+    s.walls = list_and_say_how_far;
+    ellipsoid_facet_cache_clear(&cache);
+    state.x[2] = 4 * o.wall_range;
+    assert_ok(ellipsoid_rhs(&model, &s, &state, &cache, &a));
+    state.x[2] = 0.3 * o.wall_range;
+    ellipsoid_facet_cache_clear(&fresh);
+    assert_ok(ellipsoid_rhs(&model, &s, &state, &cache, &a));
+    assert_ok(ellipsoid_rhs(&model, &s, &state, &fresh, &b));
+    assert_memory_equal(&a, &b, sizeof(a));
+    wall_mesh_free(&mesh);
+}
+
 /*
     So too where a crest meets the foot of a rise at an acute angle of a facet
     beside it: the plane of the crest goes on into the rise, and where it has
@@ -188,6 +229,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_cache),
         cmocka_unit_test(test_cache_far_beside),
+        cmocka_unit_test(test_cache_from_afar),
         cmocka_unit_test(test_cache_at_acute_angles),
     };
 
