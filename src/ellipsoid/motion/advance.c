@@ -155,24 +155,17 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
     return status;
 }
 
-/* Does one touch something at the start? */
-static int is_one_touching(const ellipsoid_group *g)
-{
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        if (ellipsoid_in_contact(&g->start[cell].contact))
-        {
-            return 1;
-        }
-    }
-    return 0;
-}
-
 /* May a step be explicit? Not with inertia, nor where a cell touches something,
    is turned by a dipole or under an external force: these may be stiff. */
 static int may_be_explicit(const ellipsoid_group *g)
 {
-    return !g->inertial && !g->stiff && !is_one_touching(g);
+    int stiff = g->inertial || g->stiff;
+
+    for (int cell = 0; !stiff && cell < g->count; cell++)
+    {
+        stiff = ellipsoid_in_contact(&g->start[cell].contact);
+    }
+    return !stiff;
 }
 
 /* One attempt at a step. Sets next; *error is above 1 if it is too large. */

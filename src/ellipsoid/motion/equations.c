@@ -433,3 +433,25 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
          : balanced    ? evaluate(cell, at, 1, 0)
                        : evaluate(cell, at, 0, 0);
 }
+
+ellipsoid_cell ellipsoid_cell_of(const ellipsoid_member *member,
+                                 const ellipsoid_noise *noise)
+{
+    const ellipsoid_model *m = member->model;
+    const double *a = m->options.semi_axes;
+    const int drag = m->options.drag && member->surroundings->flow != NULL;
+
+    return (ellipsoid_cell){
+        .model = m,
+        .surroundings = *member->surroundings,
+        .cache = member->cache,
+        .statistics = member->statistics,
+        .length = fmax(a[0], fmax(a[1], a[2])),
+        .rate = drag ? 1 / m->relaxation_time : 0,
+        .rotation_rate = drag ? 1 / m->rotation_relaxation_time : 0,
+        .noise = m->options.brownian && drag ? noise : NULL,
+        .inertial = m->options.motion == ELLIPSOID_MOTION_INERTIAL,
+        .fixed = member->surroundings->fixed,
+        .walls = ellipsoid_has_walls(m, member->surroundings),
+    };
+}

@@ -149,16 +149,13 @@ static int set_changes(ellipsoid_group *g, ellipsoid_evaluation *points)
     return regular;
 }
 
-/* Keeps the velocities. */
+/* Keeps the velocities, with the poses, which stay. */
 static void remember(const ellipsoid_group *g,
                      const ellipsoid_evaluation *points)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
-        double *best = g->stages[cell].k[BEST];
-
-        ellipsoid_copy(points[cell].state.u, best + AT_U);
-        ellipsoid_copy(points[cell].state.omega, best + AT_OMEGA);
+        memcpy(g->stages[cell].k[BEST], points[cell].y, sizeof(points->y));
     }
 }
 
@@ -167,10 +164,7 @@ static void recall(const ellipsoid_group *g, ellipsoid_evaluation *points)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
-        const double *best = g->stages[cell].k[BEST];
-
-        ellipsoid_copy(best + AT_U, points[cell].state.u);
-        ellipsoid_copy(best + AT_OMEGA, points[cell].state.omega);
+        memcpy(points[cell].y, g->stages[cell].k[BEST], sizeof(points->y));
     }
 }
 
@@ -362,19 +356,11 @@ static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
     return status;
 }
 
-/* One cell has no memory of its own for that model. */
-static ellipsoid_status iterate_alone(ellipsoid_group *g,
-                                      ellipsoid_evaluation *points)
-{
-    ellipsoid_smoothed_model smoothed;
-
-    return iterate_smoothly(g, points, &smoothed);
-}
-
 ellipsoid_status ellipsoid_friction_balance(ellipsoid_group *g,
                                             ellipsoid_evaluation *points,
                                             int with_blocks)
 {
+    ellipsoid_smoothed_model alone;
     ellipsoid_status status;
     int depends = 0; /* do forces other than drag depend on velocities? */
 
@@ -391,8 +377,8 @@ ellipsoid_status ellipsoid_friction_balance(ellipsoid_group *g,
         return status;
     }
     g->has_blocks = 0; /* the couplings are no longer those of the start */
-    status = g->pairs ? iterate_smoothly(g, points, g->pairs->smoothed)
-                      : iterate_alone(g, points);
+    status =
+        iterate_smoothly(g, points, g->pairs ? g->pairs->smoothed : &alone);
     if (status == ELLIPSOID_OK)
     {
         status = ellipsoid_group_evaluate_once(g, points, 0, with_blocks);
@@ -413,19 +399,15 @@ ellipsoid_force_balance(const ellipsoid_model *model,
                         ellipsoid_state *state, ellipsoid_facet_cache *cache,
                         ellipsoid_state *derivative)
 {
-    const double *a = model->options.semi_axes;
     ellipsoid_statistics statistics = {0};
+    const ellipsoid_member alone = {.model = model,
+                                    .surroundings = surroundings,
+                                    .cache = cache,
+                                    .statistics = &statistics};
+    ellipsoid_cell cell = ellipsoid_cell_of(&alone, NULL);
     ellipsoid_evaluation point;
     ellipsoid_stages stages;
     ellipsoid_stage_matrix system;
-    ellipsoid_cell cell = {.model = model,
-                           .surroundings = *surroundings,
-                           .cache = cache,
-                           .statistics = &statistics,
-                           .length = fmax(a[0], fmax(a[1], a[2])),
-                           .rate = 1 / model->relaxation_time,
-                           .rotation_rate =
-                               1 / model->rotation_relaxation_time};
     ellipsoid_group g = {.count = 1,
                          .dissipative =
                              model->dissipative

@@ -15,28 +15,6 @@
    Twelve fit around it. */
 static const int touching_each = 16, near_each = 32;
 
-static ellipsoid_cell problem_of(const ellipsoid_member *member,
-                                 const ellipsoid_noise *noise)
-{
-    const ellipsoid_model *m = member->model;
-    const double *a = m->options.semi_axes;
-    const int drag = m->options.drag && member->surroundings->flow != NULL;
-
-    return (ellipsoid_cell){
-        .model = m,
-        .surroundings = *member->surroundings,
-        .cache = member->cache,
-        .statistics = member->statistics,
-        .length = fmax(a[0], fmax(a[1], a[2])),
-        .rate = drag ? 1 / m->relaxation_time : 0,
-        .rotation_rate = drag ? 1 / m->rotation_relaxation_time : 0,
-        .noise = m->options.brownian && drag ? noise : NULL,
-        .inertial = m->options.motion == ELLIPSOID_MOTION_INERTIAL,
-        .fixed = member->surroundings->fixed,
-        .walls = ellipsoid_has_walls(m, member->surroundings),
-    };
-}
-
 /* Can these go together, and at all? */
 static ellipsoid_status check(const ellipsoid_group *g)
 {
@@ -159,12 +137,11 @@ static ellipsoid_status advance(ellipsoid_group *g,
     g->observed = observer != NULL;
     for (int cell = 0; cell < g->count; cell++)
     {
-        g->cell[cell] = problem_of(&members[cell], &noise[cell]);
+        g->cell[cell] = ellipsoid_cell_of(&members[cell], &noise[cell]);
         set_kind(g, members[cell].model, members[cell].surroundings);
         g->start[cell].contact = g->next[cell].contact = nothing;
     }
     g->inertial = g->cell[0].inertial;
-    g->third_order = !g->inertial && g->piecewise;
     status = check(g);
     while (status == ELLIPSOID_OK && *t < end)
     {

@@ -9,32 +9,6 @@
 
 #include <math.h>
 
-/* Adds to the change of u and omega what the other cells' force and torque do
-   against the resistance near walls. */
-static ellipsoid_status move_near_walls(const ellipsoid_cell *p,
-                                        const ellipsoid_contact *c,
-                                        ellipsoid_state *change)
-{
-    const double *q = change->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
-    ellipsoid_frame frame = {.by_q = NULL};
-    ellipsoid_planes planes;
-    ellipsoid_wall_expansion here;
-    ellipsoid_status status;
-    double push[6];
-
-    ellipsoid_rotation_inline(opposite, frame.axis);
-    ellipsoid_product(frame.axis, c->cell_force, push);
-    ellipsoid_copy(c->cell_torque, push + 3);
-    status = ellipsoid_find_planes(p->model, &p->surroundings, change, &frame,
-                                   p->cache, &planes);
-    if (status != ELLIPSOID_OK)
-    {
-        return status;
-    }
-    ellipsoid_wall_expansion_set(p->model, &planes, change, &frame, &here);
-    return ellipsoid_add_wall_mobility(p->model, &here, &frame, push, change);
-}
-
 /* Adds force and torque of the other cells at a point that has been evaluated
    without. */
 static ellipsoid_status add_wrench(const ellipsoid_cell *p,
@@ -44,7 +18,9 @@ static ellipsoid_status add_wrench(const ellipsoid_cell *p,
     const ellipsoid_contact *c = &at->contact;
     ellipsoid_state *slope = &at->derivative, *state = &at->state;
     ellipsoid_state change = *state;
-    double turned[4];
+    const double *q = state->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
+    ellipsoid_frame frame = {.by_q = NULL};
+    double push[6], turned[4]; /* body frame */
     ellipsoid_status status = ELLIPSOID_OK;
 
     if (!balanced)
@@ -58,22 +34,23 @@ static ellipsoid_status add_wrench(const ellipsoid_cell *p,
     }
     ellipsoid_set(change.u, 0, 0, 0);
     ellipsoid_set(change.omega, 0, 0, 0);
-    if (ellipsoid_has_near_walls(m, &p->surroundings))
+    ellipsoid_rotation_inline(opposite, frame.axis);
+    ellipsoid_product(frame.axis, c->cell_force, push);
+    ellipsoid_copy(c->cell_torque, push + 3);
+    if (ellipsoid_has_near_walls(m, &p->surroundings) && at->walls.planes > 0)
     {
-        status = move_near_walls(p, c, &change);
+        status =
+            ellipsoid_add_wall_mobility(m, &at->walls, &frame, push, &change);
     }
     else
     {
-        double r[3][3], body[3];
-
-        ellipsoid_rotation_inline(state->q, r);
-        ellipsoid_to_body(r, c->cell_force, body);
+        ellipsoid_combination(frame.axis, m->mobility[0] * push[0],
+                              m->mobility[1] * push[1],
+                              m->mobility[2] * push[2], change.u);
         for (int i = 0; i < 3; i++)
         {
-            body[i] *= m->mobility[i];
-            change.omega[i] = m->rotation_mobility[i] * c->cell_torque[i];
+            change.omega[i] = m->rotation_mobility[i] * push[i + 3];
         }
-        ellipsoid_product(r, body, change.u);
     }
     ellipsoid_add(state->u, change.u);
     ellipsoid_add(state->omega, change.omega);
@@ -84,14 +61,6 @@ static ellipsoid_status add_wrench(const ellipsoid_cell *p,
         slope->q[n] += 0.5 * turned[n];
     }
     return status;
-}
-
-static void list_cell(ellipsoid_contact *contact, uint32_t id)
-{
-    if (contact->cell_count < ELLIPSOID_MAX_SURFACES)
-    {
-        contact->cell_id[contact->cell_count++] = id;
-    }
 }
 
 /* Adds the wrench of one cell on another to its point and the couplings. */
@@ -115,7 +84,11 @@ static void add_to_point(ellipsoid_group *g, ellipsoid_evaluation *points,
     }
     ellipsoid_add(contact->cell_force, wrench->force);
     ellipsoid_add(contact->cell_torque, wrench->torque);
-    list_cell(contact, g->cell[column].surroundings.id);
+    if (contact->cell_count < ELLIPSOID_MAX_SURFACES)
+    {
+        contact->cell_id[contact->cell_count++] =
+            g->cell[column].surroundings.id;
+    }
     if (m->derivatives && !g->cell[row].fixed)
     {
         ellipsoid_coupling *c = &pairs->coupling[pairs->count++];

@@ -89,6 +89,10 @@ typedef struct ellipsoid_cell
     int walls;
 } ellipsoid_cell;
 
+/* That of a member, with the noise that is its own (equations.c). */
+ellipsoid_cell ellipsoid_cell_of(const ellipsoid_member *member,
+                                 const ellipsoid_noise *noise);
+
 /* The equations in one state; at the start of a step kept while steps are
    rejected. */
 typedef struct ellipsoid_evaluation
@@ -226,7 +230,6 @@ typedef struct ellipsoid_group
 {
     int count;
     int inertial;    /* all or none */
-    int third_order; /* are Rosenbrock steps those of Rodas3? */
     int stiff;       /* is one a dipole in a field or under a given force? */
     int unsteady;    /* do the surroundings of one depend on time? */
     int dissipative; /* do forces other than drag depend on velocities? */
@@ -367,8 +370,8 @@ void ellipsoid_group_matrix_solve(const ellipsoid_group *group, int stage);
 static inline const ellipsoid_rosenbrock_table *
 ellipsoid_rosenbrock_set_of(const ellipsoid_group *g)
 {
-    return g->third_order ? &ellipsoid_rosenbrock_third
-                          : &ellipsoid_rosenbrock_set;
+    return g->piecewise && !g->inertial ? &ellipsoid_rosenbrock_third
+                                        : &ellipsoid_rosenbrock_set;
 }
 
 static inline int ellipsoid_group_prepare(ellipsoid_group *g, double per_g)
@@ -390,6 +393,25 @@ static inline void ellipsoid_group_solve(const ellipsoid_group *g, int stage)
     double *k = g->stages->k[stage];
 
     ellipsoid_stage_matrix_solve(g->system, k, k);
+}
+
+/* sum_j<count weight[j] k_j, of the components from `first` on. */
+static inline void ellipsoid_weighted_sum(double k[][UNKNOWNS],
+                                          const double *weight, int count,
+                                          int first,
+                                          double sum[restrict UNKNOWNS])
+{
+    for (int n = first; n < UNKNOWNS; n++)
+    {
+        sum[n] = weight[0] * k[0][n];
+    }
+    for (int j = 1; j < count; j++)
+    {
+        for (int n = first; n < UNKNOWNS; n++)
+        {
+            sum[n] += weight[j] * k[j][n];
+        }
+    }
 }
 
 /* The time of a stage, exactly the end of the step where it is that. */

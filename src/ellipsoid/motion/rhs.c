@@ -21,14 +21,11 @@ ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
     ellipsoid_evaluation at = {.state = *state};
     ellipsoid_status status;
 
-    if (balanced && !surroundings->flow)
-    {
-        return ELLIPSOID_BAD_OPTION;
-    }
     if (balanced)
     {
-        return ellipsoid_force_balance(model, surroundings, &at.state, cache,
-                                       derivative);
+        return surroundings->flow ? ellipsoid_force_balance(
+                   model, surroundings, &at.state, cache, derivative)
+                                  : ELLIPSOID_BAD_OPTION;
     }
     status = ellipsoid_evaluate(&cell, &at, 0, 0);
     *derivative = at.derivative;
@@ -81,16 +78,6 @@ ellipsoid_jacobian(const ellipsoid_model *model,
     ellipsoid_evaluation at = {.state = *state};
     const ellipsoid_status status = ellipsoid_evaluate(&cell, &at, 0, 1);
     const ellipsoid_jacobian_blocks b = at.blocks;
-    const double *w = state->omega, *q = state->q;
-    /* 1/2 Q(omega) and the derivative of 1/2 Q(omega) q by omega */
-    const double qq[4][4] = {{0, w[2], -w[1], w[0]},
-                             {-w[2], 0, w[0], w[1]},
-                             {w[1], -w[0], 0, w[2]},
-                             {-w[0], -w[1], -w[2], 0}};
-    const double qw[4][3] = {{q[3], -q[2], q[1]},
-                             {q[2], q[3], -q[0]},
-                             {-q[1], q[0], q[3]},
-                             {-q[0], -q[1], -q[2]}};
 
     if (status != ELLIPSOID_OK)
     {
@@ -110,15 +97,20 @@ ellipsoid_jacobian(const ellipsoid_model *model,
         memcpy(&jacobian[AT_OMEGA + i][AT_OMEGA], b.ww[i], sizeof(b.ww[i]));
         memcpy(&jacobian[AT_OMEGA + i][AT_Q], b.wq[i], sizeof(b.wq[i]));
     }
-    for (int n = 0; n < 4; n++)
+    for (int l = 0; l < 4; l++) /* of 1/2 Q(omega) q */
     {
-        for (int l = 0; l < 3; l++)
+        const double unit[4] = {l == 0, l == 1, l == 2, l == 3};
+        double by_q[4], by_omega[4];
+
+        ellipsoid_spin(state->omega, unit, by_q);
+        ellipsoid_spin(unit, state->q, by_omega);
+        for (int n = 0; n < 4; n++)
         {
-            jacobian[AT_Q + n][AT_OMEGA + l] = 0.5 * qw[n][l];
-        }
-        for (int l = 0; l < 4; l++)
-        {
-            jacobian[AT_Q + n][AT_Q + l] = 0.5 * qq[n][l];
+            jacobian[AT_Q + n][AT_Q + l] = 0.5 * by_q[n];
+            if (l < 3)
+            {
+                jacobian[AT_Q + n][AT_OMEGA + l] = 0.5 * by_omega[n];
+            }
         }
     }
     return ELLIPSOID_OK;

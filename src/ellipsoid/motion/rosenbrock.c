@@ -14,52 +14,6 @@
 #include <math.h>
 #include <string.h>
 
-/* sum_j<count weight[j] k_j; inlined with a constant count. */
-static inline void weighted_sum(double k[][UNKNOWNS], const double *weight,
-                                int count, double sum[UNKNOWNS])
-{
-    for (int n = 0; n < UNKNOWNS; n++)
-    {
-        double s = weight[0] * k[0][n];
-
-        for (int j = 1; j < count; j++)
-        {
-            s += weight[j] * k[j][n];
-        }
-        sum[n] = s;
-    }
-}
-
-static inline void stage_sums(const ellipsoid_rosenbrock_table *set,
-                              double k[][UNKNOWNS], int stage,
-                              double a[UNKNOWNS], double c[UNKNOWNS])
-{
-    const double *wa = set->a[stage], *wc = set->c[stage];
-
-    switch (stage)
-    {
-    case 1:
-        weighted_sum(k, wa, 1, a);
-        weighted_sum(k, wc, 1, c);
-        break;
-    case 2:
-        weighted_sum(k, wa, 2, a);
-        weighted_sum(k, wc, 2, c);
-        break;
-    case 3:
-        weighted_sum(k, wa, 3, a);
-        weighted_sum(k, wc, 3, c);
-        break;
-    case 4:
-        weighted_sum(k, wa, 4, a);
-        weighted_sum(k, wc, 4, c);
-        break;
-    default:
-        weighted_sum(k, wa, 5, a);
-        weighted_sum(k, wc, 5, c);
-    }
-}
-
 /* Sets the state of a stage and, in k, what belongs to its right-hand side
    besides the equations: sum c_ij/h K_j, where there is mass. */
 static inline int set_stage(const ellipsoid_rosenbrock_table *set,
@@ -69,7 +23,8 @@ static inline int set_stage(const ellipsoid_rosenbrock_table *set,
 {
     double change[UNKNOWNS], *k = s->k[stage];
 
-    stage_sums(set, s->k, stage, change, k);
+    ellipsoid_weighted_sum(s->k, set->a[stage], stage, 0, change);
+    ellipsoid_weighted_sum(s->k, set->c[stage], stage, 0, k);
     for (int n = 0; n < UNKNOWNS; n++)
     {
         at->y[n] = start->y[n] + change[n];
@@ -294,7 +249,7 @@ void ellipsoid_rosenbrock_dense(const ellipsoid_group *g, int cell,
                                 double dense[3][UNKNOWNS])
 {
     memset(dense[2], 0, sizeof(dense[2]));
-    if (g->third_order)
+    if (ellipsoid_rosenbrock_set_of(g) == &ellipsoid_rosenbrock_third)
     {
         hermite(&g->step[cell], g->start[cell].slope, g->next[cell].slope,
                 dense);
@@ -302,7 +257,8 @@ void ellipsoid_rosenbrock_dense(const ellipsoid_group *g, int cell,
     }
     for (int i = 0; i < 2; i++)
     {
-        weighted_sum(g->stages[cell].k, ellipsoid_rosenbrock_set.dense[i],
-                     ELLIPSOID_ROSENBROCK_STAGES - 1, dense[i]);
+        ellipsoid_weighted_sum(g->stages[cell].k,
+                               ellipsoid_rosenbrock_set.dense[i],
+                               ELLIPSOID_ROSENBROCK_STAGES - 1, 0, dense[i]);
     }
 }

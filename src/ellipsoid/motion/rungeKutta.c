@@ -70,48 +70,6 @@ static inline const method *method_of(const ellipsoid_group *g)
     return g->piecewise ? &kutta : &tsitouras;
 }
 
-/* sum_j<count weight[j] k_j; inlined with a constant count. */
-static inline void weighted_sum(double k[][UNKNOWNS], const double *weight,
-                                int count, double sum[UNKNOWNS])
-{
-    for (int n = AT_X; n < UNKNOWNS; n++)
-    {
-        sum[n] = weight[0] * k[0][n];
-    }
-    for (int j = 1; j < count; j++)
-    {
-        for (int n = AT_X; n < UNKNOWNS; n++)
-        {
-            sum[n] += weight[j] * k[j][n];
-        }
-    }
-}
-
-static void stage_sum(const method *m, double k[][UNKNOWNS], int stage,
-                      double sum[UNKNOWNS])
-{
-    switch (stage)
-    {
-    case 1:
-        weighted_sum(k, m->a[1], 1, sum);
-        break;
-    case 2:
-        weighted_sum(k, m->a[2], 2, sum);
-        break;
-    case 3:
-        weighted_sum(k, m->a[3], 3, sum);
-        break;
-    case 4:
-        weighted_sum(k, m->a[4], 4, sum);
-        break;
-    case 5:
-        weighted_sum(k, m->a[5], 5, sum);
-        break;
-    default:
-        weighted_sum(k, m->a[6], 6, sum);
-    }
-}
-
 /* A stage's slopes: of x, and of q; and, for dense output, omega itself in
    that of its derivative. */
 static inline void keep_slopes(const ellipsoid_state *state,
@@ -135,7 +93,7 @@ static inline int set_stage(const method *m, const ellipsoid_evaluation *start,
         memcpy(at->y, start->y, sizeof(at->y));
         return 1;
     }
-    stage_sum(m, s->k, stage, change);
+    ellipsoid_weighted_sum(s->k, m->a[stage], stage, AT_X, change);
     for (int n = AT_X; n < UNKNOWNS; n++)
     {
         at->y[n] = start->y[n] + (ellipsoid_is_rate(n) ? 0 : h * change[n]);
@@ -213,7 +171,7 @@ static inline ellipsoid_status take(ellipsoid_group *g, const method *m,
     {
         ellipsoid_stages *s = &g->stages[cell];
 
-        weighted_sum(s->k, m->error, m->stages, s->error);
+        ellipsoid_weighted_sum(s->k, m->error, m->stages, AT_X, s->error);
         for (int n = 0; n < UNKNOWNS; n++)
         {
             s->error[n] = ellipsoid_is_rate(n) ? 0 : h * s->error[n];
@@ -253,8 +211,8 @@ void ellipsoid_explicit_dense(const ellipsoid_group *g, int cell,
 
     memcpy(before, &step->before, sizeof(before));
     memcpy(after, &step->after, sizeof(after));
-    weighted_sum(k, m->a[last], last, change);
-    weighted_sum(k, m->dense, m->stages, dense[2]);
+    ellipsoid_weighted_sum(k, m->a[last], last, AT_X, change);
+    ellipsoid_weighted_sum(k, m->dense, m->stages, AT_X, dense[2]);
     for (int n = AT_X; n < UNKNOWNS; n++)
     {
         const double d =

@@ -213,9 +213,10 @@ double ellipsoid_step_factor(int order, double error, double previous_error)
 
 /* What one cell says to it: `there` is a short way `ahead` along its slopes. */
 static double longest_step(const ellipsoid_cell *p,
-                           const ellipsoid_evaluation *start, double turn,
-                           double ahead, const ellipsoid_state *there)
+                           const ellipsoid_evaluation *start, double ahead,
+                           const ellipsoid_state *there)
 {
+    const double turn = sqrt(ellipsoid_square4(start->derivative.q));
     double change, bend[3], curve[4];
 
     ellipsoid_difference(there->x, start->derivative.x, bend);
@@ -242,18 +243,14 @@ ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double t, double end,
     ellipsoid_status status;
 
     *step = o->maximum_step;
-    for (int cell = 0; g->inertial && cell < g->count; cell++)
-    {
-        const ellipsoid_model *m = g->cell[cell].model;
-
-        *step =
-            fmin(*step,
-                 0.25 * fmin(m->relaxation_time, m->rotation_relaxation_time));
-    }
     for (int cell = 0; cell < g->count; cell++)
     {
         const ellipsoid_state *slope = &g->start[cell].derivative;
+        const ellipsoid_model *m = g->cell[cell].model;
+        const double relaxation =
+            fmin(m->relaxation_time, m->rotation_relaxation_time);
 
+        *step = g->inertial ? fmin(*step, 0.25 * relaxation) : *step;
         pace =
             fmax(pace, fmax(sqrt(ellipsoid_square4(slope->q)),
                             ellipsoid_length(slope->x) / g->cell[cell].length));
@@ -286,11 +283,8 @@ ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double t, double end,
     }
     for (int cell = 0; cell < g->count; cell++)
     {
-        const double turn =
-            sqrt(ellipsoid_square4(g->start[cell].derivative.q));
-
-        *step = fmin(*step, longest_step(&g->cell[cell], &g->start[cell], turn,
-                                         ahead, &g->next[cell].derivative));
+        *step = fmin(*step, longest_step(&g->cell[cell], &g->start[cell], ahead,
+                                         &g->next[cell].derivative));
     }
     return ELLIPSOID_OK;
 }
