@@ -187,7 +187,8 @@ typedef struct ellipsoid_model
     double noise_torque[3];   /* [N m] likewise */
     int electric, has_dipole; /* does a field act? On a dipole? */
     int dissipative;          /* do contacts depend on velocities? */
-    ellipsoid_plane_table plane; /* unless WALL_RESISTANCE_NONE */
+    double wall_range; /* [m] how far walls act on the drag; 0: they do not */
+    ellipsoid_plane_table plane; /* if they do */
     double reach;    /* [m] farthest contact surface from the centre */
     int flow_points; /* 0 unless FLOW_BODY */
     double flow_point[ELLIPSOID_MAX_FLOW_POINTS][3]; /* [m] body, on surface */
@@ -195,6 +196,10 @@ typedef struct ellipsoid_model
     int bead_count;
     double bead[ELLIPSOID_MAX_BEADS][3]; /* [m] body frame, bead centres */
 } ellipsoid_model;
+
+/* How far from a body of these options walls act on its drag [m]; 0: they do
+   not. */
+double ellipsoid_wall_range(const ellipsoid_options *options);
 
 /* Bytes of a model, for languages that do not read this header. */
 size_t ellipsoid_model_size(void);

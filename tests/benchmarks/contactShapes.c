@@ -84,6 +84,8 @@ static ellipsoid_model model_of(int beads, double radius)
     ellipsoid_options o = ellipsoid_options_default();
     ellipsoid_model model;
 
+    o.flow_at = ELLIPSOID_FLOW_CENTRE;
+    o.wall_resistance = ELLIPSOID_WALL_RESISTANCE_NONE;
     if (beads == 0)
     {
         o.contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;

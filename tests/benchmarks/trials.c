@@ -60,6 +60,7 @@ void benchmark_journey_init(benchmark_journey *journey, int which)
     journey->around.flow_context = &journey->flow;
     journey->options = ellipsoid_options_default();
     journey->options.contact = 0;
+    journey->options.flow_at = ELLIPSOID_FLOW_CENTRE;
 
     for (int n = 0; n < COUNT; n++)
     {

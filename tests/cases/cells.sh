@@ -75,18 +75,19 @@ make_once()     # FOLDER CASE MAKER
     )
 }
 
-# The circular trap, of the narrow device: four to five times as many of its cells are caught; without
-# Brownian motion and friction, and held by its speed soon: runs are of seconds
+# The circular trap, of the narrow device: four to five times as many of its cells are caught; of the
+# paper's model, without Brownian motion and friction, and held by its speed soon: runs are of seconds
 narrow_trap()   # CASE
 {
     new_case "$1" "$tutorials/circularTrap"
     set_entry constant/trapGeometry design narrowC
     set_entry constant/ellipsoidCloudProperties brownian "{ active no"
+    set_entry constant/ellipsoidCloudProperties wallResistance none
     set_entry constant/ellipsoidCloudProperties friction 0
     set_entry constant/ellipsoidCloudProperties slipSpeed 1e-5
     set_entry constant/ellipsoidCloudProperties holdTime 0.05
     set_entry constant/ellipsoidCloudProperties active no
-    sed -i 's/displacement .*;/speedFraction 0.01;/' constant/ellipsoidCloudProperties
+    sed -i 's/displacement .*;/speedFraction 0.01;/; s/^\( *flow *\)body;/\1centre;/' constant/ellipsoidCloudProperties
 }
 
 # The same on its quick mesh, of $layers layers, with few cells, up to the end

@@ -50,6 +50,10 @@ level_flow()    # GUESS of the jump, PRESSURE at the inlet [m2/s2]
     echo "jump $jump: shares of the flux ${share[*]}"
 }
 
+# The paper's model, for the tests
+# shellcheck disable=SC2034
+paper='forces { flow centre; wallResistance none; }'
+
 # 21 spheres twice, or COUNT of followSpheres, the second time between two neighbours of the first; their mode must change
 # once, from one diameter to the next
 follow()        # CASE OTHER INTERPOLATION [LEAST MOST OPTIONS], LEAST and MOST over twice the separating streamline's distance

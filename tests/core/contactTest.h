@@ -74,7 +74,7 @@ static inline ellipsoid_contact contact_now(contact_run *r)
 /* A ball whose only bead is itself, but for rounding; [m], [kg/m3]. */
 static inline ellipsoid_options contact_ball(double radius, double density)
 {
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
 
     ellipsoid_set(o.semi_axes, radius, radius, radius);
     o.bead_count = 1;

@@ -187,9 +187,19 @@ static inline test_quadratic test_shear(double rate)
 }
 
 /* The paper's cell without walls and weight. */
-static inline ellipsoid_options test_free_cell(void)
+/* The paper's model: the flow at the centre, and walls that do not resist. */
+static inline ellipsoid_options test_paper_options(void)
 {
     ellipsoid_options options = ellipsoid_options_default();
+
+    options.flow_at = ELLIPSOID_FLOW_CENTRE;
+    options.wall_resistance = ELLIPSOID_WALL_RESISTANCE_NONE;
+    return options;
+}
+
+static inline ellipsoid_options test_free_cell(void)
+{
+    ellipsoid_options options = test_paper_options();
 
     options.contact = 0;
     options.buoyancy = 0;

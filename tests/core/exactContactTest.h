@@ -19,7 +19,7 @@ static inline ellipsoid_surroundings inside(wall_mesh *mesh)
 
 static inline ellipsoid_options exact_options(double a, double b, double c)
 {
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
 
     options.contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;
     ellipsoid_set(options.semi_axes, a, b, c);

@@ -52,6 +52,7 @@ static inline ellipsoid_options near_walls(void)
     ellipsoid_options o = test_free_cell();
 
     o.wall_resistance = ELLIPSOID_WALL_RESISTANCE_PLANE;
+    o.wall_range = 4e-6;
     return o;
 }
 

@@ -13,7 +13,7 @@ static const double pull = 2e-12; /* [N] */
 
 static ellipsoid_options cell_of(ellipsoid_contact_shape shape, double adhesion)
 {
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
 
     options.contact_shape = shape;
     options.adhesion = adhesion;

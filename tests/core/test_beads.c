@@ -96,7 +96,7 @@ static envelope measure(const ellipsoid_options *options)
    is finer than that. */
 static void test_staggered_is_the_paper_s_cell(void **unused)
 {
-    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_options options = test_paper_options();
     const envelope e = measure(&options);
 
     (void)unused;
@@ -109,7 +109,7 @@ static void test_staggered_is_the_paper_s_cell(void **unused)
 
 static void test_staggered_centres(void **unused)
 {
-    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_options options = test_paper_options();
     const double height[10] = {-1.403, -1.091, -0.780, -0.468, -0.156,
                                0.156,  0.468,  0.780,  1.091,  1.403};
     double bead[ELLIPSOID_MAX_BEADS][3];
@@ -137,7 +137,7 @@ static void test_staggered_centres(void **unused)
 /* Centres on the ellipsoid: 2 r_b longer and wider. */
 static void test_paper_read_literally(void **unused)
 {
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
     double bead[ELLIPSOID_MAX_BEADS][3];
 
     (void)unused;
@@ -169,7 +169,7 @@ static void test_paper_read_literally(void **unused)
 
 static void test_surface_layout(void **unused)
 {
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
     double bead[ELLIPSOID_MAX_BEADS][3];
 
     (void)unused;
@@ -191,7 +191,7 @@ static void test_surface_layout(void **unused)
 /* More beads of the same construction follow the ellipsoid more closely. */
 static void test_any_number_of_rings(void **unused)
 {
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
     double valley = HUGE_VAL;
 
     (void)unused;
@@ -219,7 +219,7 @@ static void test_any_number_of_rings(void **unused)
 */
 static void test_resized(void **unused)
 {
-    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_options options = test_paper_options();
     const double widths[3] = {0.8, 1, 1.25};
     ellipsoid_options same;
 
@@ -266,7 +266,7 @@ static void test_resized(void **unused)
    beads, and none at all, stay as they are. */
 static void test_resized_as_given(void **unused)
 {
-    ellipsoid_options options = ellipsoid_options_default(), other;
+    ellipsoid_options options = test_paper_options(), other;
     const char *field;
 
     (void)unused;
@@ -303,7 +303,7 @@ static void test_triaxial_and_round(void **unused)
     (void)unused;
     for (int s = 0; s < 5; s++)
     {
-        ellipsoid_options options = ellipsoid_options_default();
+        ellipsoid_options options = test_paper_options();
         double bead[ELLIPSOID_MAX_BEADS][3];
         double longest = 0, reach = 0;
 
@@ -332,7 +332,7 @@ static void test_triaxial_and_round(void **unused)
 
 static void test_one_bead_is_a_sphere(void **unused)
 {
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
     double bead[ELLIPSOID_MAX_BEADS][3];
 
     (void)unused;
@@ -349,7 +349,7 @@ static void test_one_bead_is_a_sphere(void **unused)
 static void test_refusals(void **unused)
 {
     const int bad[] = {-1, 0, 3, 4, 6, 31, 33, 256, 257, 1000};
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
     double bead[ELLIPSOID_MAX_BEADS][3];
 
     (void)unused;
@@ -363,7 +363,7 @@ static void test_refusals(void **unused)
     options.bead_layout = ELLIPSOID_BEADS_PAPER; /* is 32, or one */
     assert_int_equal(ellipsoid_beads(&options, bead), 0);
 
-    options = ellipsoid_options_default();
+    options = test_paper_options();
     options.bead_radius = 0.5e-6;
     assert_int_equal(ellipsoid_beads(&options, bead), 0);
     options.bead_radius = 0;

@@ -20,7 +20,7 @@ static void lay(double q[4], double angle)
 */
 static void test_sphere_on_a_plane(void **unused)
 {
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh};
     const ellipsoid_surroundings surroundings = around_counted(&walls);
@@ -57,7 +57,7 @@ static void test_sphere_on_a_plane(void **unused)
 /* Standing on its pole, and lying on it: the envelope's figures. */
 static void test_standing_and_lying(void **unused)
 {
-    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_options options = test_paper_options();
     const ellipsoid_model model = test_model(&options);
     const double up[3] = {0, 0, 1};
     wall_mesh mesh = room_of(0);
@@ -126,7 +126,7 @@ static void assert_sum(const ellipsoid_model *model, const wall_mesh *mesh,
 static void test_sum_over_beads(void **unused)
 {
     const long count = test_count(200, 2000, 2000);
-    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_options options = test_paper_options();
     const ellipsoid_model model = test_model(&options);
     wall_mesh mesh = room_of(1);
     counted_walls walls = {.mesh = &mesh};
@@ -159,7 +159,7 @@ static void test_sum_over_beads(void **unused)
 static void test_cache_changes_nothing(void **unused)
 {
     const long walks = test_count(10, 100, 100);
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh}, empty = {.mesh = &mesh};
     const ellipsoid_surroundings surroundings = around_counted(&walls);
@@ -250,7 +250,7 @@ static void test_comes_down(void **unused)
 static void test_jacobian_is_exact(void **unused)
 {
     const long count = test_count(300, 3000, 3000);
-    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_options options = test_paper_options();
     const ellipsoid_model model = test_model(&options);
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh};
@@ -280,7 +280,7 @@ static void test_jacobian_is_exact(void **unused)
 /* Far from walls: one comparison, and results as near a distant wall. */
 static void test_far_from_walls(void **unused)
 {
-    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_options options = test_paper_options();
     const ellipsoid_model model = test_model(&options);
     const double low[3] = {-60 * um, -60 * um, -60 * um};
     const double high[3] = {60 * um, 60 * um, 60 * um};
@@ -326,7 +326,7 @@ static void test_far_from_walls(void **unused)
    come nearer or gone far, not wherever a bead could be that is not there. */
 static void test_along_a_wall(void **unused)
 {
-    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_options options = test_paper_options();
     const ellipsoid_model model = test_model(&options);
     const double radius = options.bead_radius;
     const double low[3] = {-40 * um, -40 * um, 0};
@@ -363,7 +363,7 @@ static void test_along_a_wall(void **unused)
 /* R(q) shrinks by q.q: to a point, where squares of that are not numbers. */
 static void test_shrunk_to_a_point(void **unused)
 {
-    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_options options = test_paper_options();
     const ellipsoid_model model = test_model(&options);
     const double radius = options.bead_radius;
     const double x[3] = {-2 * um, 1 * um, 0.5 * radius};
@@ -389,7 +389,7 @@ static void test_shrunk_to_a_point(void **unused)
 
 static void test_no_walls(void **unused)
 {
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh};
     const ellipsoid_surroundings with = around_counted(&walls), without = {0};
@@ -416,7 +416,7 @@ static void test_no_walls(void **unused)
 /* In order of bead, then facet; each surface once. */
 static void test_touched_surfaces(void **unused)
 {
-    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_options options = test_paper_options();
     const ellipsoid_model model = test_model(&options);
     wall_mesh mesh = room_of(0);
     counted_walls walls = {.mesh = &mesh};

@@ -195,7 +195,7 @@ static void check_jacobian(ellipsoid_contact_shape shape, double adhesion)
     wall_mesh_finish(&mesh);
     for (int c = 0; c < CELLS; c++)
     {
-        options[c] = ellipsoid_options_default();
+        options[c] = test_paper_options();
         ellipsoid_set(options[c].semi_axes, 0.6, 1 - 0.1 * c, 0.5);
         options[c].bead_radius = 0.3 + 0.05 * c;
         options[c].contact_shape = shape;

@@ -93,7 +93,7 @@ static void test_adhesion(void **unused)
 /* 4/3 E* sqrt(R), and adhesion only if it is asked for. */
 static void test_laws_of_options(void **unused)
 {
-    ellipsoid_options a = ellipsoid_options_default(), b = a;
+    ellipsoid_options a = test_paper_options(), b = a;
     ellipsoid_wall_laws laws;
 
     (void)unused;

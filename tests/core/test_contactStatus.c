@@ -9,7 +9,7 @@
 
 static void test_failures_have_names(void **unused)
 {
-    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_options options = test_paper_options();
     const ellipsoid_model model = test_model(&options);
     const double u[3] = {4 * um, 0, 0}, v[3] = {0, 4 * um, 0};
     const double corner[3] = {-2 * um, -2 * um, 0};

@@ -12,7 +12,7 @@
 
 static ellipsoid_model cell_of(double adhesion)
 {
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
 
     options.contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;
     ellipsoid_set(options.semi_axes, 0.5, 2, 0.5);

@@ -202,7 +202,7 @@ static void test_jacobian(void **unused)
 /* The pressure pushes from high to low: m_p du/dt = -V grad p, to rounding. */
 static void test_gradp_pushes_down_the_gradient(void **unused)
 {
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
     test_quadratic flow = {.pressure_gradient = {3e5, -2e5, 1e5}};
     const ellipsoid_surroundings around = {.flow = test_quadratic_flow,
                                            .flow_context = &flow};
@@ -233,7 +233,7 @@ static void test_gradp_pushes_down_the_gradient(void **unused)
 static void test_jacobian_in_contact(void **unused)
 {
     static ellipsoid_facet_cache cache;
-    const ellipsoid_options o = ellipsoid_options_default();
+    const ellipsoid_options o = test_paper_options();
     const ellipsoid_model model = test_model(&o);
     test_quadratic flow = test_shear(1000);
     const double corner[3] = {-1e-5, -1e-5, 0};

@@ -25,7 +25,7 @@ static double lowest(const ellipsoid_model *model, const ellipsoid_state *s)
 /* Upright: with a new cache and with one that was filled before. */
 static void test_stretched(void **unused)
 {
-    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_options options = test_paper_options();
     const double up[3] = {0, 0, 1};
     const double horizon = options.bead_radius;
     uint64_t seed = 47;

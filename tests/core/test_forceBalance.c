@@ -30,7 +30,7 @@ static int by_itself(void **unused)
 
 static ellipsoid_options rough_cell(ellipsoid_motion motion)
 {
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
 
     o.motion = motion;
     o.contact_shape = shape;

@@ -96,7 +96,7 @@ static void test_ellipsoid_on_an_incline(void **unused)
         const double tilt =
             (15 - sqrt(225 - 64 * leaning * leaning)) / (32 * leaning);
         const double along[3] = {1, 0, 0};
-        ellipsoid_options o = ellipsoid_options_default();
+        ellipsoid_options o = test_paper_options();
         double weight, drag_x, drag_z, speed, axis[3];
 
         o.contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;
@@ -190,7 +190,7 @@ static void lay_cell(contact_run *r, double x, double y)
 */
 static void test_held_cell_creeps_little(void **unused)
 {
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
     static contact_run r;
     double drag;
 
@@ -227,7 +227,7 @@ static void test_rest_costs_nothing(void **unused)
     static contact_run r;
     wall_mesh corner;
     const double low[3] = {0, 0, 0}, high[3] = {30 * um, 30 * um, 30 * um};
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
 
     (void)unused;
     o.friction = 0.3;
@@ -262,7 +262,7 @@ static void test_rest_costs_nothing(void **unused)
 static void test_rolling_does_not_chatter(void **unused)
 {
     static contact_run r;
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
     double steps[2];
 
     (void)unused;

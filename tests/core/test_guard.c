@@ -33,7 +33,7 @@ typedef struct run
 /* 8 um before the plate, in a uniform flow that goes straight through it. */
 static void new_run(run *r, ellipsoid_motion motion, int seed, double speed)
 {
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
     uint64_t number = (uint64_t)seed;
 
     memset(r, 0, sizeof(*r));

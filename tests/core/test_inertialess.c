@@ -329,7 +329,7 @@ static settling settle(ellipsoid_motion motion, const wall_mesh *floor,
                        double end)
 {
     static ellipsoid_facet_cache cache;
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
     test_quadratic flow = {.answer = 0};
     const ellipsoid_surroundings around = {.flow = test_quadratic_flow,
                                            .flow_context = &flow,

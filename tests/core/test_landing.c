@@ -48,7 +48,7 @@ static void test_time_of_landing(void **unused)
 static long roll(double tolerance, ellipsoid_state *state)
 {
     static contact_run run;
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
 
     memset(&run.flow, 0, sizeof(run.flow));
     run.flow.g[0][2] = 440;

@@ -84,7 +84,7 @@ static void touch(const ellipsoid_model *model, const ellipsoid_state *cell,
 /* At random poses and velocities, at a plane of symmetry and at a wall. */
 static void compare(int shape)
 {
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
     uint64_t seed = 11;
     contact_run r;
 

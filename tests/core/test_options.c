@@ -142,11 +142,11 @@ static void check_value(const ellipsoid_option *list,
 
     for (int i = 0; i < count; i++)
     {
-        ellipsoid_options options = ellipsoid_options_default();
+        ellipsoid_options options = test_paper_options();
         const char *field = "none", *range = "none";
         ellipsoid_status status;
 
-        /* a cell of any size that has no beads */
+        /* a cell of any size and shape that has no beads */
         options.contact = strcmp(option->member, "semi_axes") != 0;
         for (int n = option->needs; n >= 0; n = list[n].needs)
         {
@@ -221,7 +221,7 @@ static void test_adhesion_range(void **unused)
    do not matter without it. */
 static void test_near_walls(void **unused)
 {
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
     const char *field = NULL, *range = NULL;
 
     (void)unused;
@@ -240,22 +240,24 @@ static void test_near_walls(void **unused)
     assert_string_equal(field, "wall_range");
     options.wall_range = options.semi_axes[1];
     assert_ok(ellipsoid_options_check(&options, NULL, NULL));
+    assert_float_equal(ellipsoid_wall_range(&options), 2e-6, 0);
+    options.wall_range = 0;
+    assert_ok(ellipsoid_options_check(&options, NULL, NULL));
+    assert_float_equal(ellipsoid_wall_range(&options), 4e-6, 1e-20);
     options.brownian = 1;
     assert_ok(ellipsoid_options_check(&options, NULL, NULL));
-    options.wall_range = 1e-5;
-    options.semi_axes[1] = 11 * options.semi_axes[0];
+    options.wall_range = 1e-4;
+    options.semi_axes[1] = 21 * options.semi_axes[0];
     assert_int_equal(ellipsoid_options_check(&options, &field, &range),
                      ELLIPSOID_BAD_OPTION);
     assert_string_equal(field, "wall_resistance");
     assert_string_equal(range,
-                        "none for a body that is not between 1:3 and 10:1");
-    options.semi_axes[1] = 10 * options.semi_axes[0];
+                        "none for a body that is not between 1:6 and 20:1");
+    options.semi_axes[1] = 20 * options.semi_axes[0];
     assert_ok(ellipsoid_options_check(&options, NULL, NULL));
     options.brownian = options.drag = 0;
-    assert_int_equal(ellipsoid_options_check(&options, &field, &range),
-                     ELLIPSOID_BAD_OPTION);
-    assert_string_equal(field, "wall_resistance");
-    assert_string_equal(range, "none without drag");
+    assert_ok(ellipsoid_options_check(&options, NULL, NULL));
+    assert_float_equal(ellipsoid_wall_range(&options), 0, 0);
 }
 
 /* Contact members do not matter where there is no contact. */

@@ -12,7 +12,7 @@ static const double um = 1e-6;
 
 static int overlaps(wall_mesh *mesh, const double x[3], const double q[4])
 {
-    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_options options = test_paper_options();
     const ellipsoid_surroundings around = {.walls = wall_mesh_list,
                                            .walls_context = mesh};
     static ellipsoid_model model;

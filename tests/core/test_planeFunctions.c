@@ -442,7 +442,9 @@ static void test_positive(void **unused)
 static void test_shapes(void **unused)
 {
     static const double cell[3] = {0.5, 2, 0.5}, uneven[3] = {3, 1, 1.21};
-    static const double disc[3] = {1, 1, 0.35}, needle[3] = {1, 10.1, 1};
+    static const double disc[3] = {1, 1, 0.35}, needle[3] = {1, 20.1, 1};
+    static const double slim[3] = {1, 12, 1}, flat[3] = {1, 1, 0.25};
+    ellipsoid_plane_table own;
     int axis;
 
     (void)unused;
@@ -454,6 +456,14 @@ static void test_shapes(void **unused)
     assert_int_equal(axis, 2);
     assert_true(ellipsoid_plane_table_has(disc));
     assert_false(ellipsoid_plane_table_has(needle));
+    ellipsoid_plane_table_set(slim, &own);
+    assert_near(own.ratio, 10, 1e-12);
+    assert_near(own.radius, 1.2, 1e-12);
+    ellipsoid_plane_table_set(flat, &own);
+    assert_near(own.ratio, 1.0 / 3, 1e-12);
+    assert_near(own.radius, 1, 1e-12);
+    ellipsoid_plane_table_set(uneven, &own);
+    assert_near(own.radius, 1.1, 1e-12);
 }
 
 int main(void)

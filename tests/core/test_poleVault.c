@@ -101,7 +101,7 @@ static void test_lift_on_one_end(void **unused)
         "2e-5 of inertia, depth, errors of x and q",
         0};
     static contact_run r;
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
 
     (void)unused;
     contact_floor(&r, 400 * um);
@@ -141,7 +141,7 @@ static void test_tumbling_beside_a_wall(void **unused)
         0};
     static const double height[] = {0.3, 0.5, 0.7, 0.9, 1.1, 1.5, 2};
     static contact_run r;
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
 
     (void)unused;
     contact_floor(&r, 400 * um);

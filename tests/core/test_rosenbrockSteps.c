@@ -228,7 +228,7 @@ static void test_elimination_in_contact(void **unused)
     static ellipsoid_facet_cache cache;
     static const double plate[3][3] = {
         {-1e-4, -1e-4, 0}, {1e-4, -1e-4, 0}, {0, 1e-4, 0}};
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
     wall_mesh wall;
     test_quadratic flow = test_shear(1000);
     ellipsoid_statistics statistics = {0};

@@ -65,7 +65,7 @@ static ellipsoid_state next_to(const ellipsoid_state *s, double far,
 /* Two sweeps, with a period passed in each, are one. Beads stand out. */
 static void test_two_are_one(void **unused)
 {
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
     uint64_t seed = 51;
 
     (void)unused;
@@ -116,7 +116,7 @@ static void test_two_are_one(void **unused)
    and then the other */
 static void test_step(void **state)
 {
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
     const ellipsoid_model model = test_model(&o);
     ellipsoid_step step = {.start = 1, .end = 2};
     ellipsoid_sweep sweep;

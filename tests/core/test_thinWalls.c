@@ -46,7 +46,7 @@ typedef struct trip
 static void go(trip *t, test_quadratic *flow, const double force[3], double end)
 {
     static ellipsoid_facet_cache cache;
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
     ellipsoid_controller controller = {0, 0};
     const ellipsoid_surroundings surroundings = {.flow = test_quadratic_flow,
                                                  .flow_context = flow,
@@ -69,7 +69,7 @@ static void go(trip *t, test_quadratic *flow, const double force[3], double end)
 /* Hertz's depth of one bead under a force */
 static double depth_of(double force)
 {
-    const ellipsoid_options options = ellipsoid_options_default();
+    const ellipsoid_options options = test_paper_options();
     const double k =
         4.0 / 3 * options.contact_modulus * sqrt(options.bead_radius);
 

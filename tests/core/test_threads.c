@@ -165,7 +165,7 @@ static void prepare(common *shared)
 {
     const double low[3] = {-6 * um, -6 * um, -6 * um};
     const double high[3] = {6 * um, 6 * um, 6 * um};
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
 
     o.charge = 1e-16;
     o.dipole[1] = 1e-21;

@@ -42,7 +42,7 @@ static const double rate = 5, still = 0; /* [1/s] */
 
 static void scene_make(scene *s, int count, const double *flow_rate)
 {
-    ellipsoid_options options = ellipsoid_options_default();
+    ellipsoid_options options = test_paper_options();
 
     memset(s, 0, sizeof *s);
     options.motion = ELLIPSOID_MOTION_INERTIALESS;

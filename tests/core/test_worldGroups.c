@@ -66,7 +66,7 @@ static int advance(void *context, int count, const int index[], double end,
 /* Spheres in a row along x1, each so far from the one before: its gap */
 static road row_of(int count, const double gap[])
 {
-    ellipsoid_options o = ellipsoid_options_default();
+    ellipsoid_options o = test_paper_options();
     road r;
 
     memset(&r, 0, sizeof r);

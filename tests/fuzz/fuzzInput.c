@@ -140,6 +140,8 @@ ellipsoid_options fuzz_options(fuzz_input *in)
     const int parts = (int)fuzz_bits(in, 1);
     double size = 2e-6;
 
+    o.flow_at = ELLIPSOID_FLOW_CENTRE;
+    o.wall_resistance = ELLIPSOID_WALL_RESISTANCE_NONE;
     o.contact = !(parts & 1) || fuzz_choice(in, 4) != 0;
     if (parts & 2)
     {

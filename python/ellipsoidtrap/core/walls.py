@@ -17,8 +17,8 @@ class Triangles(Structure):
 
 
 class WallsOptions(Structure):
-    _fields_ = [("same_point", c_double), ("longest_edge", c_double), ("image_count", c_int), ("image", c_void_p),
-                ("low", vector), ("high", vector), ("plane_count", c_int), ("plane", c_void_p)]
+    _fields_ = [("same_point", c_double), ("longest_edge", c_double), ("flat_depth", c_double), ("image_count", c_int),
+                ("image", c_void_p), ("low", vector), ("high", vector), ("plane_count", c_int), ("plane", c_void_p)]
 
 
 class WallsContext(Structure):

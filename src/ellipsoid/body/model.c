@@ -58,6 +58,7 @@ ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
     }
 
     m.options = *options;
+    m.wall_range = ellipsoid_wall_range(options);
     m.volume = 4 * pi / 3 * a[0] * a[1] * a[2];
     m.mass = options->density * m.volume;
     m.fluid_mass = options->fluid_density * m.volume;
@@ -89,7 +90,7 @@ ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
     {
         ellipsoid_surface_quadrature(&m);
     }
-    if (options->wall_resistance != ELLIPSOID_WALL_RESISTANCE_NONE)
+    if (m.wall_range > 0)
     {
         ellipsoid_plane_table_set(a, &m.plane);
     }

@@ -172,19 +172,25 @@ static void check_ranges(verdict *v, const ellipsoid_options *o)
     }
 }
 
+double ellipsoid_wall_range(const ellipsoid_options *options)
+{
+    const double *a = options->semi_axes;
+    const double longest = fmax(a[0], fmax(a[1], a[2]));
+    const double shortest = fmin(a[0], fmin(a[1], a[2]));
+
+    return !options->drag
+                || options->wall_resistance == ELLIPSOID_WALL_RESISTANCE_NONE
+             ? 0
+         : options->wall_range > 0 ? options->wall_range
+                                   : longest + 4 * shortest;
+}
+
 /* What needs drag, and what it does not go with. */
 static void check_drag(verdict *v, const ellipsoid_options *o)
 {
-    const int is_plane = o->wall_resistance != ELLIPSOID_WALL_RESISTANCE_NONE;
-
     require(v, o->drag || o->motion != ELLIPSOID_MOTION_INERTIALESS, INDEX_drag,
             "yes with motion inertialess");
     require(v, o->drag || !o->brownian, INDEX_brownian, "no without drag");
-    require(v, o->drag || !is_plane, INDEX_wall_resistance,
-            "none without drag");
-    require(v, !is_plane || ellipsoid_plane_table_has(o->semi_axes),
-            INDEX_wall_resistance,
-            "none for a body that is not between 1:3 and 10:1");
 }
 
 /* What holds between several options. */
@@ -198,7 +204,9 @@ static void check_relations(verdict *v, const ellipsoid_options *o)
     check_drag(v, o);
     require(v, points == 6 || points == 14 || points == 26 || points == 50,
             INDEX_flow_points, NULL);
-    require(v, !matters(o, INDEX_wall_range) || o->wall_range >= largest,
+    require(v,
+            !matters(o, INDEX_wall_range) || o->wall_range == 0
+                || o->wall_range >= largest,
             INDEX_wall_range, NULL);
     require(v,
             !matters(o, INDEX_bead_radius)
@@ -216,6 +224,12 @@ static void check_relations(verdict *v, const ellipsoid_options *o)
         double bead[ELLIPSOID_MAX_BEADS][3];
 
         require(v, ellipsoid_beads(o, bead) > 0, INDEX_bead_count, NULL);
+    }
+    if (!v->field && ellipsoid_wall_range(o) > 0)
+    {
+        require(v, ellipsoid_plane_table_has(o->semi_axes),
+                INDEX_wall_resistance,
+                "none for a body that is not between 1:6 and 20:1");
     }
 }
 

@@ -64,15 +64,17 @@ double ellipsoid_nearest_spheroid(const double semi_axes[3], int *axis)
     return a[*axis] / sqrt(a[(*axis + 1) % 3] * a[(*axis + 2) % 3]);
 }
 
+/* Flatter ones of the table are too far off where they lie far from the plane. */
+static const double flattest = 1.0 / 3;
+
 int ellipsoid_plane_table_has(const double semi_axes[3])
 {
     int axis;
     const double ratio = ellipsoid_nearest_spheroid(semi_axes, &axis);
 
-    /* flatter ones are too far off where they lie far from the plane; a little
-       more, for rounding */
-    return ratio > (1 - 1e-9) / 3
-        && ratio < ELLIPSOID_PLANE_LARGEST_RATIO * (1 + 1e-9);
+    /* twice what there is; a little more, for rounding */
+    return ratio > 0.5 * flattest * (1 - 1e-9)
+        && ratio < 2 * ELLIPSOID_PLANE_LARGEST_RATIO * (1 + 1e-9);
 }
 
 /*
@@ -122,12 +124,14 @@ void ellipsoid_plane_scales(double ratio, const double free[4], double p,
 void ellipsoid_plane_table_set(const double semi_axes[3],
                                ellipsoid_plane_table *own)
 {
-    double basis[ELLIPSOID_PLANE_PROLATE], unit[3], k[3], c[3];
+    double basis[ELLIPSOID_PLANE_PROLATE], unit[3], k[3], c[3], ratio;
     int oblate;
 
     memset(own, 0, sizeof(*own));
-    own->ratio = ellipsoid_nearest_spheroid(semi_axes, &own->axis);
-    own->radius = semi_axes[own->axis] / own->ratio;
+    ratio = ellipsoid_nearest_spheroid(semi_axes, &own->axis);
+    own->ratio = fmax(flattest, fmin(ratio, ELLIPSOID_PLANE_LARGEST_RATIO));
+    /* as long, or as wide */
+    own->radius = semi_axes[own->axis] / (ratio > 1 ? own->ratio : ratio);
     ellipsoid_set(unit, 1, own->ratio, 1);
     ellipsoid_resistance(unit, k, c);
     own->free[ELLIPSOID_K_ACROSS] = k[0];

@@ -71,7 +71,8 @@ void ellipsoid_chebyshev(double t, int count, double *value, double *slope);
    the axis ratio. */
 double ellipsoid_nearest_spheroid(const double semi_axes[3], int *axis);
 
-/* Is the shape of that in the table? */
+/* Is the shape of that in the table, or slimmer or flatter by a factor of two at
+   most? Then it is taken for one of the table that is as long, or as wide. */
 int ellipsoid_plane_table_has(const double semi_axes[3]);
 
 /* The table for a body of this shape. */

@@ -69,8 +69,7 @@ void ellipsoid_add_noise(const ellipsoid_noise *noise, ellipsoid_frame *frame,
 static inline int ellipsoid_has_near_walls(const ellipsoid_model *model,
                                            const ellipsoid_surroundings *around)
 {
-    return model->options.wall_resistance != ELLIPSOID_WALL_RESISTANCE_NONE
-        && around->walls && around->flow;
+    return model->wall_range > 0 && around->walls && around->flow;
 }
 
 /* Adds to force and torque, or to velocities. */

@@ -74,7 +74,7 @@ void ellipsoid_wall_begin(view *s, const double normal[3], double height,
                           wall *w)
 {
     const double *a = s->model->options.semi_axes;
-    const double reach = ELLIPSOID_WALL_BESIDE * s->model->options.wall_range;
+    const double reach = ELLIPSOID_WALL_BESIDE * s->model->wall_range;
     const double longest = fmax(a[0], fmax(a[1], a[2]));
     kernel *far = &w->seen[FAR], *near = &w->seen[NEAR];
     double n[3], stretched[3], foot[3];
@@ -319,7 +319,7 @@ static void set_slopes(view *s, wall *w, int n, const double fade[2])
 
 void ellipsoid_wall_end(view *s, int slopes, wall *w)
 {
-    const double range = s->model->options.wall_range, h = w->height;
+    const double range = s->model->wall_range, h = w->height;
     const double p = w->support;
     double far_slope, beside_slope;
     const double far = 1 - smooth_step(2 * h / range - 1, &far_slope);

@@ -122,7 +122,7 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
 static wall *find_wall(view *s, const double normal[3], double height,
                        double away, wall *walls, int *count)
 {
-    const double same = in_plane * s->model->options.wall_range;
+    const double same = in_plane * s->model->wall_range;
     int at = *count;
 
     for (int k = 0; k < *count; k++)
@@ -291,7 +291,7 @@ ellipsoid_status ellipsoid_find_planes(
     ellipsoid_facet_cache *cache, ellipsoid_planes *planes)
 {
     const double *a = model->options.semi_axes, *x = state->x;
-    const double range = model->options.wall_range;
+    const double range = model->wall_range;
     const double longest = fmax(a[0], fmax(a[1], a[2]));
     const ellipsoid_status status =
         collect(surroundings, x, range, looked * range + longest, cache);

@@ -90,6 +90,8 @@ int main(void)
 
     options.density = 1500;
     options.motion = ELLIPSOID_MOTION_INERTIALESS;
+    options.wall_resistance =
+        ELLIPSOID_WALL_RESISTANCE_NONE; /* contact alone */
     options.contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;
     ellipsoid_status status = ellipsoid_model_init(&model, &options);
 

@@ -28,6 +28,8 @@ int main(void)
     double t = 0, weight;
 
     options.tolerance = 1e-6;
+    options.wall_resistance =
+        ELLIPSOID_WALL_RESISTANCE_NONE; /* contact alone */
     options.contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;
     status = ellipsoid_model_init(&model, &options);
     if (status != ELLIPSOID_OK || !floor_walls_set(&walls))

@@ -34,7 +34,6 @@ int main(void)
 
     options.contact = 0;
     options.buoyancy = 0;
-    options.wall_resistance = ELLIPSOID_WALL_RESISTANCE_PLANE;
     status = ellipsoid_model_init(&model, &options);
     if (status != ELLIPSOID_OK || !floor_walls_set(&walls)
         || !(cache = malloc(ellipsoid_facet_cache_size(&model))))

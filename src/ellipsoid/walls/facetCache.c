@@ -49,9 +49,8 @@ static void invalidate(ellipsoid_facet_cache *cache)
 
 size_t ellipsoid_facet_cache_size(const ellipsoid_model *model)
 {
-    return model->options.wall_resistance == ELLIPSOID_WALL_RESISTANCE_NONE
-             ? offsetof(ellipsoid_facet_cache, near_facet)
-             : sizeof(ellipsoid_facet_cache);
+    return model->wall_range == 0 ? offsetof(ellipsoid_facet_cache, near_facet)
+                                  : sizeof(ellipsoid_facet_cache);
 }
 
 void ellipsoid_facet_cache_clear(ellipsoid_facet_cache *cache)

@@ -212,7 +212,7 @@ bool Foam::captureCriterion::stays
 void Foam::captureCriterion::ended
 (
     cellSweep& cell,
-    const ellipsoid_contact& contact,
+    const ellipsoid_contact&,
     const point& from,
     const scalar since,
     const ellipsoid_model& model,
@@ -238,15 +238,13 @@ void Foam::captureCriterion::ended
     vector drag;
     ellipsoid_drag_at_rest(&model, state.body.q, U.v_, drag.v_);
 
-    const vector sum
-    (
-        drag + (pointOf(contact.force) + pointOf(contact.cell_force))
-    );
-
+    // What contact does not balance is the drag of the cell's own motion
+    vector left;
+    ellipsoid_drag_at_rest(&model, state.body.q, state.body.u, left.v_);
     if (state.fate != cellState::caught)
     {
         state.imbalance =
-            max(state.imbalance, mag(sum)/max(mag(drag), VSMALL));
+            max(state.imbalance, mag(left)/max(mag(drag), VSMALL));
     }
     state.dragImpulse += (state.time - since)*drag;
 

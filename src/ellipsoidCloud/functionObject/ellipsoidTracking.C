@@ -215,6 +215,7 @@ void Foam::functionObjects::ellipsoidTracking::trackThroughEnd() const
 {
     checkFlux();
     ownClock clock(clockEntries(), time_);
+    const screenDigits six;     // that clock has read the precision of files
     ellipsoidCloud cells(clock.mesh, ellipsoidCloud::STEADY);
 
     cells.setFlow(flow());

@@ -37,8 +37,8 @@ FORCE, TORQUE = 1e-13, 1e-19    # N, N m
 CHANNEL = (-12, 12, -30, 30)
 X, Y, Z = (1, 0, 0), (0, 1, 0), (0, 0, 1)
 MODELS = {
-    "none": "", "plane": "wallResistance plane;", "body": "flow body;",
-    "both": "wallResistance plane; flow body;",
+    "none": "flow centre; wallResistance none;", "plane": "flow centre; wallResistance plane;",
+    "body": "flow body; wallResistance none;", "both": "flow body; wallResistance plane;",
 }
 HEADER = "FoamFile { version 2.0; format ascii; class dictionary; object ellipsoidCloudProperties; }\n"
 
