@@ -30,7 +30,6 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
     const ellipsoid_free_motion free = e->free;
     const ellipsoid_wall_expansion *about =
         cell->about ? cell->about : &at->walls;
-    double motion[ELLIPSOID_WALL_MOTION];
     ellipsoid_frame frame = {.by_q = blocks ? d : NULL};
     ellipsoid_planes planes;
     const ellipsoid_near_walls near = {e->model, &planes, &frame, &free,
@@ -64,6 +63,8 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
     }
     if (status == ELLIPSOID_OK)
     {
+        double motion[ELLIPSOID_WALL_MOTION];
+
         ellipsoid_add_wall_drag(&near, about, &at->state,
                                 cell->about ? motion : at->walls.motion,
                                 &wrench);
