@@ -37,6 +37,9 @@ namespace Foam
     //  mesh of that case
     struct ownClock
     {
+        //- Of the screen, which a new Time sets to the precision of files
+        const int digits = Sout.precision();
+
         Time time;
         const fvMesh mesh;
 
@@ -55,7 +58,9 @@ namespace Foam
                     IOobject::MUST_READ
                 )
             )
-        {}
+        {
+            Sout.precision(digits);
+        }
     };
 
     //- Errors end the run as long as it lives: OpenFOAM takes those of a function
@@ -215,7 +220,6 @@ void Foam::functionObjects::ellipsoidTracking::trackThroughEnd() const
 {
     checkFlux();
     ownClock clock(clockEntries(), time_);
-    const screenDigits six;     // that clock has read the precision of files
     ellipsoidCloud cells(clock.mesh, ellipsoidCloud::STEADY);
 
     cells.setFlow(flow());
