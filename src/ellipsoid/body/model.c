@@ -102,7 +102,7 @@ ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
                 || options->dipole[2] != 0;
     m.electric = options->charge != 0 || m.has_dipole;
 
-    m.reach = fmax(a[0], fmax(a[1], a[2]));
+    m.reach = ellipsoid_largest(a);
     if (options->contact)
     {
         m.dissipative = options->friction > 0 || options->contact_damping > 0;

@@ -6,6 +6,7 @@
     between options; options of a cell of another size.
 */
 #include "body/planeTable.h"
+#include "body/vectors.h"
 
 #include <float.h>
 #include <math.h>
@@ -175,17 +176,16 @@ static void check_ranges(verdict *v, const ellipsoid_options *o)
 double ellipsoid_wall_range(const ellipsoid_options *options)
 {
     const double *a = options->semi_axes;
-    const double longest = fmax(a[0], fmax(a[1], a[2]));
-    const double shortest = fmin(a[0], fmin(a[1], a[2]));
 
     return !options->drag
                 || options->wall_resistance == ELLIPSOID_WALL_RESISTANCE_NONE
              ? 0
-         : options->wall_range > 0 ? options->wall_range
-                                   : longest + 4 * shortest;
+         : options->wall_range > 0
+             ? options->wall_range
+             : ellipsoid_largest(a) + 4 * ellipsoid_smallest(a);
 }
 
-/* What needs drag, and what it does not go with. */
+/* What needs drag. */
 static void check_drag(verdict *v, const ellipsoid_options *o)
 {
     require(v, o->drag || o->motion != ELLIPSOID_MOTION_INERTIALESS, INDEX_drag,
@@ -197,8 +197,8 @@ static void check_drag(verdict *v, const ellipsoid_options *o)
 static void check_relations(verdict *v, const ellipsoid_options *o)
 {
     const double *a = o->semi_axes;
-    const double smallest = fmin(a[0], fmin(a[1], a[2]));
-    const double largest = fmax(a[0], fmax(a[1], a[2]));
+    const double smallest = ellipsoid_smallest(a);
+    const double largest = ellipsoid_largest(a);
     const int points = o->flow_points;
 
     check_drag(v, o);
@@ -268,7 +268,7 @@ static double line_in_radii(const ellipsoid_options *o)
     const double *a = o->semi_axes;
     const int inside = o->bead_layout == ELLIPSOID_BEADS_STAGGERED;
 
-    return fmax(a[0], fmax(a[1], a[2])) / o->bead_radius - inside;
+    return ellipsoid_largest(a) / o->bead_radius - inside;
 }
 
 ellipsoid_options ellipsoid_options_resized(const ellipsoid_options *options,

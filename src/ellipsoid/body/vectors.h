@@ -52,6 +52,17 @@ static inline double ellipsoid_sum(const double v[3])
     return v[0] + v[1] + v[2];
 }
 
+/* Of the components, as of semi-axes. */
+static inline double ellipsoid_largest(const double v[3])
+{
+    return fmax(v[0], fmax(v[1], v[2]));
+}
+
+static inline double ellipsoid_smallest(const double v[3])
+{
+    return fmin(v[0], fmin(v[1], v[2]));
+}
+
 static inline void ellipsoid_add(double v[3], const double change[3])
 {
     v[0] += change[0];

@@ -72,7 +72,7 @@ static void add_cut_plane(const ellipsoid_surface *body,
 {
     const double *a = body->axes;
     const double curvature_radius =
-        body->smallest * body->smallest / fmax(a[0], fmax(a[1], a[2]));
+        body->smallest * body->smallest / ellipsoid_largest(a);
     contact found, least = {.height = -HUGE_VAL};
     int surface = -1, deep = 0;
 

@@ -75,7 +75,7 @@ void ellipsoid_wall_begin(view *s, const double normal[3], double height,
 {
     const double *a = s->model->options.semi_axes;
     const double reach = ELLIPSOID_WALL_BESIDE * s->model->wall_range;
-    const double longest = fmax(a[0], fmax(a[1], a[2]));
+    const double longest = ellipsoid_largest(a);
     kernel *far = &w->seen[FAR], *near = &w->seen[NEAR];
     double n[3], stretched[3], foot[3];
 

@@ -292,7 +292,7 @@ ellipsoid_status ellipsoid_find_planes(
 {
     const double *a = model->options.semi_axes, *x = state->x;
     const double range = model->wall_range;
-    const double longest = fmax(a[0], fmax(a[1], a[2]));
+    const double longest = ellipsoid_largest(a);
     const ellipsoid_status status =
         collect(surroundings, x, range, looked * range + longest, cache);
     wall walls[ELLIPSOID_MAX_PLANES];

@@ -95,7 +95,7 @@ ellipsoid_overlaps_walls(const ellipsoid_model *model,
                          const double x[3], const double q[4], int *overlaps)
 {
     const double *a = model->options.semi_axes;
-    const double longest = fmax(a[0], fmax(a[1], a[2]));
+    const double longest = ellipsoid_largest(a);
     /* To touch is not to cut, whatever rounding says */
     const double inside = 1 - 1e-10;
     const double axes[3] = {inside * a[0], inside * a[1], inside * a[2]};
