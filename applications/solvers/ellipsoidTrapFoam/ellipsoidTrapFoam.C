@@ -66,7 +66,8 @@ static void lockCase(const argList& args)
 
     if (Pstream::master())
     {
-        const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        const int folder =
+            open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
 
         if (flock(folder, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         {

@@ -7,7 +7,6 @@
 #include "checkFinite.H"
 #include "dictionary.H"
 #include "fvcFlux.H"
-#include "fvcSurfaceIntegrate.H"
 #include "fvMesh.H"
 #include "inletFlux.H"
 #include "masterGate.H"
@@ -144,8 +143,8 @@ bool Foam::flowFields::accept()
         const masterGate once;
         FatalErrorInFunction
             << "The flow in " << instance_ << " was not all written: a run was"
-            << " interrupted, as the file U.unfinished says. Without solve no in the dictionary flow of"
-            << " system/fvSolution it is solved again." << exit(FatalError);
+            << " interrupted, as the file U.unfinished says. Without solve no in"
+            << " the dictionary flow of system/fvSolution it is solved again." << exit(FatalError);
     }
 
     scalar continuityTolerance;
@@ -157,33 +156,25 @@ bool Foam::flowFields::accept()
         );
     }
 
-    const scalarField net(fvc::surfaceIntegrate(phi_)().primitiveField());
-    const scalarField through
-    (
-        fvc::surfaceSum(mag(phi_))().primitiveField()
-    );
-
-    const scalar imbalance =
-        gSum(mag(net)*mesh_.V())/(0.5*gSum(through) + VSMALL);
-    const scalar difference = caseFiles::fluxDifference({U_, p_, phi_});
+    const caseFiles::fluxErrors errors({U_, p_, phi_});
 
     Info<< "flow: taken as read from " << instance_ << ": net fluxes of mesh"
-        << " cells " << text(imbalance) << " of those through them, phi and the"
-        << " flux of U differ by " << text(difference)
+        << " cells " << text(errors.net) << " of those through them, phi and the"
+        << " flux of U differ by " << text(errors.difference)
         << (hasFlux_ ? "" : " (phi is that of U: there is none in the time)")
         << endl;
 
-    if (!(imbalance <= continuityTolerance))
+    if (!(errors.net <= continuityTolerance))
     {
         const masterGate once;
         FatalErrorInFunction
             << "The flow in " << instance_ << " does not keep its volume: net"
-            << " fluxes of mesh cells are " << text(imbalance)
+            << " fluxes of mesh cells are " << text(errors.net)
             << " of the fluxes through them, above continuityTolerance "
             << text(continuityTolerance) << " (dictionary flow of"
             << " system/fvSolution)" << exit(FatalError);
     }
-    caseFiles::checkFluxDifference(difference, mesh_);
+    caseFiles::checkFluxDifference(errors.difference, mesh_);
 
     return true;
 }

@@ -27,12 +27,6 @@ namespace Foam
         "The flow is all written, in the files NAME.part\n"
     );
 
-    //- All ranks have come so far
-    static void meet()
-    {
-        returnReduce(true, andOp<bool>());
-    }
-
     //- What names the files of a time that this class has written
     static fileName digestsFile(const fileName& path)
     {
@@ -109,7 +103,7 @@ void Foam::flowFields::nameParts(const fileName& path)
     IOobject::writeEndDivider(os);
     durableWrite(digestsFile(path), os.str());
 
-    meet();
+    waitForRanks();
     rm(checkpoint::unfinishedFlow(path));
 }
 
@@ -186,7 +180,7 @@ void Foam::flowFields::write()
             toDisk(partOf(path/name));
         }
         // What was read stays until all ranks have come so far
-        meet();
+        waitForRanks();
         durableWrite(unfinished, wholeParts);
     }
     else if (hasFlux_)

@@ -42,7 +42,8 @@ Foam::tmp<Foam::fvVectorMatrix> Foam::steadyFlow::momentum()
     {
         UEqn.ref() -= fvc::div(nu_*dev2(T(fvc::grad(U_))), transposedScheme_);
     }
-    if (const auto* resistance = mesh_.cfindObject<volScalarField>("resistance"))
+    const auto* resistance = mesh_.cfindObject<volScalarField>("resistance");
+    if (resistance)
     {
         UEqn.ref() += fvm::Sp(*resistance, U_);
     }

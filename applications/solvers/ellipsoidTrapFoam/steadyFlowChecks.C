@@ -63,7 +63,8 @@ void Foam::steadyFlow::checkControls() const
     {
         checkValues
         (
-            mesh_.solverDict(field), {"solver", "tolerance", "relTol", "maxIter"}
+            mesh_.solverDict(field),
+            {"solver", "tolerance", "relTol", "maxIter"}
         );
     }
     for (const entry& e : controls_)

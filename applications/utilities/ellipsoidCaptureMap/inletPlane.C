@@ -124,7 +124,8 @@ Foam::inletPlane::share Foam::inletPlane::within(const window& w) const
         {
             const scalar area = triPointRef(part).mag();
             sum.area += area;
-            sum.inflow += tri.inflow*area/max(triPointRef(tri.corners).mag(), VSMALL);
+            sum.inflow +=
+                tri.inflow*area/max(triPointRef(tri.corners).mag(), VSMALL);
         }
     }
 

@@ -5,6 +5,8 @@
 #include "IFstream.H"
 #include "OFstream.H"
 #include "OSspecific.H"
+#include "Pstream.H"
+#include "PstreamReduceOps.H"
 #include "regIOobject.H"
 #include "StringStream.H"
 #include "Time.H"
@@ -59,6 +61,12 @@ Foam::SHA1 Foam::digestOf(const fileName& file, const scalar size)
     }
 
     return digest;
+}
+
+
+void Foam::waitForRanks()
+{
+    returnReduce(true, andOp<bool>());
 }
 
 

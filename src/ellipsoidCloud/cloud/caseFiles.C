@@ -363,7 +363,8 @@ void Foam::caseFiles::checkMesh(const Time& time, const bool forCells)
     (
         IOobject
         (
-            "boundary", latest("boundary", folder, time).instance(), folder, time,
+            "boundary", latest("boundary", folder, time).instance(),
+            folder, time,
             IOobject::MUST_READ, IOobject::NO_WRITE, false
         )
     );

@@ -24,12 +24,6 @@ namespace Foam
     //- A time directory: value and name
     typedef std::pair<scalar, word> namedTime;
 
-    //- All ranks have come so far
-    static void meet()
-    {
-        returnReduce(true, andOp<bool>());
-    }
-
     //- Do ranks share files?
     static bool sharedFiles()
     {
@@ -346,7 +340,7 @@ Foam::word Foam::checkpoint::setAsideIncomplete
                     << exit(FatalError);
             }
         }
-        meet();
+        waitForRanks();
     }
 
     return times.begin()->second;
@@ -374,7 +368,7 @@ void Foam::checkpoint::begin(const fvMesh& mesh)
         dimensionedScalar(dimless, Zero)
     );
     atomicWrite(field);
-    meet();
+    waitForRanks();
     rm(path/stateFile);
     rm(sharedTime(path)/stateFile);
     rmDir(path/cloud::prefix/"ellipsoidCloud", true);
@@ -384,7 +378,7 @@ void Foam::checkpoint::begin(const fvMesh& mesh)
 void Foam::checkpoint::end(const Time& time, const std::string& text)
 {
     // Not before all ranks have written
-    meet();
+    waitForRanks();
     if (Pstream::master())
     {
         const fileName path(time.path()/time.timeName());

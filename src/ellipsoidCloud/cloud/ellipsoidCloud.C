@@ -110,8 +110,8 @@ void Foam::ellipsoidCloud::checkClock() const
     {
         FatalIOErrorInFunction(time.controlDict())
             << "endTime " << shortText(time.endTime().value()).c_str()
-            << " s is not after the start at " << time.timeName() << " s: no cell would move"
-            << exit(FatalIOError);
+            << " s is not after the start at " << time.timeName()
+            << " s: no cell would move" << exit(FatalIOError);
     }
     if (!earlier_.found() && !(left > 0.5*deltaT))
     {

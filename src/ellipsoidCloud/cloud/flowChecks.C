@@ -53,16 +53,19 @@ void Foam::caseFiles::checkDimensions(const solverFields& flow)
 }
 
 
-Foam::scalar Foam::caseFiles::fluxDifference(const solverFields& flow)
+Foam::caseFiles::fluxErrors::fluxErrors(const solverFields& flow)
 {
     const surfaceScalarField& phi = flow.phi;
+    const scalarField left(fvc::surfaceIntegrate(phi)().primitiveField());
     const scalarField apart
     (
         fvc::surfaceSum(mag(phi - fvc::flux(flow.U)))().primitiveField()
     );
+    const scalar through =
+        gSum(fvc::surfaceSum(mag(phi))().primitiveField());
 
-    return
-        gSum(apart)/(gSum(fvc::surfaceSum(mag(phi))().primitiveField()) + VSMALL);
+    net = gSum(mag(left)*phi.mesh().V())/(0.5*through + VSMALL);
+    difference = gSum(apart)/(through + VSMALL);
 }
 
 

@@ -212,7 +212,10 @@ bool Foam::functionObjects::ellipsoidTracking::begin()
 
 void Foam::functionObjects::ellipsoidTracking::checkFlux() const
 {
-    caseFiles::checkFluxDifference(caseFiles::fluxDifference(flow()), mesh_);
+    caseFiles::checkFluxDifference
+    (
+        caseFiles::fluxErrors(flow()).difference, mesh_
+    );
 }
 
 

@@ -100,14 +100,14 @@ Foam::occupancy::setting::setting
         }
     }
 
-    for (const entry& e : subDictOf(dict, "apertures"))
+    const dictionary& sections = subDictOf(dict, "apertures");
+    for (const entry& e : sections)
     {
-        if (!e.isDict() && isVariable(subDictOf(dict, "apertures"), e.keyword()))
+        if (!e.isDict() && isVariable(sections, e.keyword()))
         {
             continue;
         }
-        const dictionary& of =
-            subDictOf(subDictOf(dict, "apertures"), e.keyword());
+        const dictionary& of = subDictOf(sections, e.keyword());
         checkKeywords(of, {"min", "max", "normal", "area"});
 
         const boundBox box(of.get<point>("min"), of.get<point>("max"));
@@ -390,8 +390,8 @@ void Foam::occupancy::write
         const scalar flux = a.flux(phi);
 
         fluxes_.stream()
-            << set_.timeText(time, 9) << ',' << csvField(a.name) << ',' << flux << ','
-            << flux/max(inflow, VSMALL) << ',' << n[i] << '\n';
+            << set_.timeText(time, 9) << ',' << csvField(a.name) << ','
+            << flux << ',' << flux/max(inflow, VSMALL) << ',' << n[i] << '\n';
     }
     fluxes_.flush();
 }
