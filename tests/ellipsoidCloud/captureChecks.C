@@ -51,7 +51,7 @@ namespace Foam
                 cell.state.time = times[i + 1];
                 criterion.ended
                 (
-                    cell, ellipsoid_contact(), cell.state.centre() - moves[i], times[i],
+                    cell, cell.state.centre() - moves[i], times[i],
                     at.population.median(), at.domain
                 );
             };

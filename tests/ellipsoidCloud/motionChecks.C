@@ -105,8 +105,8 @@ namespace Foam
 
             virtual void ended
             (
-                cellSweep& cell, const ellipsoid_contact&, const point& from,
-                const scalar, const ellipsoid_model&, const cellDomain&
+                cellSweep& cell, const point& from, const scalar,
+                const ellipsoid_model&, const cellDomain&
             ) const
             {
                 farthest = max(farthest, mag(cell.state.centre() - from));

@@ -212,7 +212,6 @@ bool Foam::captureCriterion::stays
 void Foam::captureCriterion::ended
 (
     cellSweep& cell,
-    const ellipsoid_contact&,
     const point& from,
     const scalar since,
     const ellipsoid_model& model,

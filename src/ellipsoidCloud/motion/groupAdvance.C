@@ -93,9 +93,6 @@ struct Foam::groupAdvance::member
         //  where it is in the mesh
         void pass()
         {
-            ellipsoid_contact& contact = last.contact;
-            const tensor turn(image.turn());
-
             cell.state.pass(image, model.options.semi_axes);
             if (image.translates())
             {
@@ -103,11 +100,6 @@ struct Foam::groupAdvance::member
                 {
                     cell.sweep.passed[i] -= image.b[i];
                 }
-            }
-            for (double* force : {contact.force, contact.cell_force})
-            {
-                const vector turned(turn & pointOf(force));
-                std::copy_n(turned.v_, 3, force);
             }
             from = image(from);
             image = isometry();
@@ -355,8 +347,7 @@ bool Foam::groupAdvance::integrate
                 {
                     observer_->ended
                     (
-                        m.cell, m.last.contact, m.from, m.since, m.model,
-                        domain_
+                        m.cell, m.from, m.since, m.model, domain_
                     );
                 }
             }
