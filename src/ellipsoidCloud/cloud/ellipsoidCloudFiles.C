@@ -176,6 +176,8 @@ void Foam::ellipsoidCloud::write()
     particles_->writeFiles();
     writePoses(tracks_->set(), cells_, time.timeName());
 
+    // Entries of a dictionary are texts, with the digits that it is written with
+    const exactDigits exact;
     dictionary tables;
     tables.add("events", statistics_->log.notes());
     tables.add("tracks", tracks_->file.notes());
@@ -193,7 +195,6 @@ void Foam::ellipsoidCloud::write()
     notes.add("tables", tables);
 
     OStringStream os;
-    os.precision(17);
     notes.write(os, false);
     os.beginBlock("cells");
     writeStates(cells_, os);
