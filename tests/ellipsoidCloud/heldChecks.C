@@ -77,8 +77,8 @@ namespace Foam
         {
             events.clear();
             held.update(cells, events);
-            held.take(pulls, cells);
-            held.letGo(cells, true, events);
+            held.setWrenches(pulls, cells);
+            held.release(cells, true, events);
 
             return held.held().size();
         }
@@ -177,8 +177,8 @@ namespace Foam
         holds
         (
             "a flow that does the same is told from another",
-            two.held.take(pulls(0.98, 0.98), two.cells)
-         && !two.held.take(pulls(0.5, 0.98), two.cells)
+            two.held.setWrenches(pulls(0.98, 0.98), two.cells)
+         && !two.held.setWrenches(pulls(0.5, 0.98), two.cells)
         );
         two.allStay(pulls(0.98, 3));
         holds
@@ -258,7 +258,7 @@ namespace Foam
             at.drag(vector(9*holding::speed, 0, 0)), turn.torque
         };
         quarter.stays(lab);
-        const vectorField from(quarter.notes().get<vectorField>("letGoFrom"));
+        const vectorField from(quarter.notes().get<vectorField>("releasedFrom"));
         holds
         (
             "forces are of the lab, torques of the body",
@@ -294,9 +294,9 @@ namespace Foam
             entries
             (
                 "held (3 5); heldForces ((1 2 3) (4 5 6));"
-                "letGo (7 9); letGoFrom ((1 2 3) (4 5 6) (7 8 9) (10 11 12)"
+                "released (7 9); releasedFrom ((1 2 3) (4 5 6) (7 8 9) (10 11 12)"
                 "    (13 14 15) (16 17 18));"
-                "stayed (3 4); borne ((1 2 3) (4 5 6) (7 8 9) (10 11 12));"
+                "stayed (3 4); stayedUnder ((1 2 3) (4 5 6) (7 8 9) (10 11 12));"
             )
         );
         const dictionary written
@@ -308,7 +308,7 @@ namespace Foam
             holds((string("a restart has ") + name).c_str(), does);
         };
 
-        for (const char* name : {"held", "letGo", "stayed"})
+        for (const char* name : {"held", "released", "stayed"})
         {
             has
             (
@@ -316,7 +316,7 @@ namespace Foam
                 given.get<labelList>(name) == written.get<labelList>(name)
             );
         }
-        for (const char* name : {"heldForces", "letGoFrom", "borne"})
+        for (const char* name : {"heldForces", "releasedFrom", "stayedUnder"})
         {
             has
             (

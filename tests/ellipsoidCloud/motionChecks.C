@@ -60,7 +60,7 @@ namespace Foam
         virtual void finish(cellState&, DynamicList<row>&) const
         {}
 
-        virtual void take(const UList<row>& rows)
+        virtual void addRows(const UList<row>& rows)
         {
             for (const row& r : rows)
             {

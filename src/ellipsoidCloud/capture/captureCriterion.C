@@ -43,7 +43,7 @@ namespace Foam
             }
         }
 
-        const auto settle =
+        const auto setFate =
             [&](cellState& cell, const cellState::fateType fate, label patchi)
             {
                 cell.fate = fate;
@@ -65,7 +65,7 @@ namespace Foam
             {
                 if (sieves.found(cell.walls[w]))
                 {
-                    settle(cell.state, cellState::caught, cell.walls[w]);
+                    setFate(cell.state, cellState::caught, cell.walls[w]);
                 }
             }
         }
@@ -86,7 +86,7 @@ namespace Foam
                     if (other.found() && isCaught(*other))
                     {
                         const label patchi = moves[*other].state.patch;
-                        settle(cell.state, cellState::caught, patchi);
+                        setFate(cell.state, cellState::caught, patchi);
                         changed = true;
                     }
                 }
@@ -100,7 +100,7 @@ namespace Foam
             if (cell.state.fate == cellState::inFlight)
             {
                 const label patchi = cell.nWalls ? cell.walls[0] : -1;
-                settle(cell.state, cellState::stalled, patchi);
+                setFate(cell.state, cellState::stalled, patchi);
             }
         }
     }
@@ -194,7 +194,7 @@ bool Foam::captureCriterion::stays
                 mag(cell.netImpulse)/max(mag(cell.dragImpulse), VSMALL);
             return true;
         }
-        cell.settleAt(cell.unfolded());
+        cell.setPlace(cell.unfolded());
         return false;
     }
 

@@ -240,7 +240,7 @@ Foam::dictionary Foam::cellPopulation::notes() const
 }
 
 
-void Foam::cellPopulation::take(const label id, const cellSize& size)
+void Foam::cellPopulation::add(const label id, const cellSize& size)
 {
     const cellSize middle(medianSize());
 

@@ -257,7 +257,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
                     << cell.id << " has a size for which " << why.c_str()
                     << exit(FatalError);
             }
-            population_.take(cell.id, cell.size);
+            population_.add(cell.id, cell.size);
         }
     }
 }
@@ -358,15 +358,15 @@ void Foam::ellipsoidCloud::takeFlow(const solverFields& flow, const bool listed)
 void Foam::ellipsoidCloud::renewFlow
 (
     const UList<heldWrench>& wrenches,
-    const bool judged
+    const bool judge
 )
 {
     domain_->flow.renew(*undecomposed_, fluidDensity());
 
-    if (!occupancy_->take(wrenches, cells_) || judged)
+    if (!occupancy_->setWrenches(wrenches, cells_) || judge)
     {
         DynamicList<cellEvent> events;
-        occupancy_->letGo(cells_, true, events);
+        occupancy_->release(cells_, true, events);
         statistics_->add(std::move(events));
     }
 }

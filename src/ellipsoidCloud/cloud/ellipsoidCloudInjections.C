@@ -203,7 +203,7 @@ void Foam::ellipsoidCloud::addNew(const scalar start, const scalar end)
 
     for (const cellState& cell : newCells)
     {
-        population_.take(cell.id, cell.size);
+        population_.add(cell.id, cell.size);
     }
     cells_.append(newCells);
     Foam::sort(cells_);

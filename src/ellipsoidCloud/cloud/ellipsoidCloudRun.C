@@ -117,7 +117,7 @@ void Foam::ellipsoidCloud::finish()
                 tracks_->finish(cell, rows);
             }
         }
-        tracks_->take(rows);
+        tracks_->addRows(rows);
     }
     tracks_->flush();
 

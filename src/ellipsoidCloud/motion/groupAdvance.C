@@ -11,11 +11,11 @@
 
 namespace Foam
 {
-    //- So many cells go together at most: what a group needs grows with their
-    //  square, and is 1.3 GB then
+    //- Most cells of a group: the memory it needs grows with their square, and is
+    //  1.3 GB then
     static const label largestGroup = 2000;
 
-    //- So many lists of facets are kept, of 21 kB each: where there are more
+    //- Most lists of facets that are kept, of 21 kB each: where there are more
     //  cells, their lists are made anew in each interval
     static const label keptCaches = 250;
 }
@@ -45,7 +45,7 @@ struct Foam::groupAdvance::member
     point from;
     scalar since;
 
-    //- It stops so far from there [m]; 0: it does not
+    //- Distance from there at which it is stopped [m]; 0: at none
     scalar reach;
 
 
@@ -62,7 +62,7 @@ struct Foam::groupAdvance::member
 
             const label tet = m.here.home.tet;
             m.last = *step;
-            m.location = m.here.settle(pointOf(step->after.x), m.image);
+            m.location = m.here.moveHome(pointOf(step->after.x), m.image);
             state.deepest = max(state.deepest, contact.deepest);
             state.deepestCell = max(state.deepestCell, contact.cell_deepest);
 
@@ -83,7 +83,7 @@ struct Foam::groupAdvance::member
             return !m.image.isIdentity() || m.isFar();
         }
 
-        //- Has it come so far that it stops?
+        //- Has it come as far as that?
         bool isFar() const
         {
             return reach > 0 && mag(cell.state.centre() - from) >= reach;
@@ -106,7 +106,7 @@ struct Foam::groupAdvance::member
         }
 
         //- Note the contacts at the end
-        void settle()
+        void noteContacts()
         {
             const ellipsoid_contact& contact = last.contact;
 
@@ -342,7 +342,7 @@ bool Foam::groupAdvance::integrate
             }
             if (status == ELLIPSOID_OK)
             {
-                m.settle();
+                m.noteContacts();
                 if (observer_ && !m.here.fixed)
                 {
                     observer_->ended

@@ -337,7 +337,7 @@ Foam::List<Foam::cellSweep> Foam::groupScheduler::advanceInterval
     {
         if (tracks_)
         {
-            tracks_->take(of.rows);
+            tracks_->addRows(of.rows);
         }
     }
 

@@ -55,8 +55,8 @@ namespace Foam
         }
     };
 
-    static const mapNotes ofStayed = {"stayed", "borne", 2};
-    static const mapNotes ofLetGo = {"letGo", "letGoFrom", 3};
+    static const mapNotes ofStayed = {"stayed", "stayedUnder", 2};
+    static const mapNotes ofReleased = {"released", "releasedFrom", 3};
     static const mapNotes ofHeld = {"held", "heldForces", 1};
 }
 
@@ -142,8 +142,8 @@ Foam::occupancy::occupancy
     fluxes_(set, "fluxes", "t,sieve,flux,share,cells", 9)
 {
     ofHeld.read(notes, held_);
-    ofLetGo.read(notes, letGo_);
-    ofStayed.read(notes, borne_);
+    ofReleased.read(notes, released_);
+    ofStayed.read(notes, stayedUnder_);
 }
 
 
@@ -162,7 +162,7 @@ void Foam::occupancy::still(List<cellState>& cells) const
 }
 
 
-void Foam::occupancy::letGo
+void Foam::occupancy::release
 (
     List<cellState>& cells,
     const bool all,
@@ -179,19 +179,19 @@ void Foam::occupancy::letGo
         }
     }
 
-    // Those that stay have lost a neighbour, perhaps
+    // Those that stay may have lost a neighbour
     if (loose.size())
     {
-        borne_.clear();
+        stayedUnder_.clear();
     }
 
     for (const label i : loose)
     {
         cellState& cell = cells[i];
-        letGo_.set(cell.id, letGoCell{cell.centre(), held_[cell.id]});
+        released_.set(cell.id, releasedCell{cell.centre(), held_[cell.id]});
         held_.erase(cell.id);
         outdated_ = true;
-        cell.settleAt(cell.unfolded());
+        cell.setPlace(cell.unfolded());
         cell.fate = cellState::inFlight;
         events.append(cellEvent{"released", cell});
         cell.patch = -1;
@@ -280,13 +280,13 @@ void Foam::occupancy::update
     DynamicList<cellEvent>& events
 )
 {
-    letGo(cells, false, events);
+    release(cells, false, events);
 
     DynamicList<label> caught;
-    Map<letGoCell> near;
+    Map<releasedCell> near;
     for (const cellState& cell : cells)
     {
-        const auto from = letGo_.cfind(cell.id);
+        const auto from = released_.cfind(cell.id);
         if (from.found() && mag(cell.centre() - (*from).centre) < reach())
         {
             near.insert(cell.id, *from);
@@ -300,7 +300,7 @@ void Foam::occupancy::update
             caught.append(cell.id);
         }
     }
-    letGo_.transfer(near);
+    released_.transfer(near);
     outdated_ = outdated_ || caught.size() >= setting_.every;
 
     if (outdated_)
@@ -344,7 +344,7 @@ Foam::List<Foam::heldBody> Foam::occupancy::bodies
 }
 
 
-bool Foam::occupancy::take
+bool Foam::occupancy::setWrenches
 (
     const UList<heldWrench>& wrenches,
     List<cellState>& cells
@@ -399,8 +399,8 @@ void Foam::occupancy::write
 
 void Foam::occupancy::note(dictionary& notes, dictionary& tables)
 {
-    ofStayed.write(borne_, notes);
-    ofLetGo.write(letGo_, notes);
+    ofStayed.write(stayedUnder_, notes);
+    ofReleased.write(released_, notes);
     ofHeld.write(held_, notes);
     tables.add("fluxes", fluxes_.notes());
 }

@@ -11,19 +11,19 @@ namespace Foam
     //  one of them is held and the other in contact with it or slow
     static const scalar nearGap = 0.5;
 
-    //- What the flow does to a held cell is the same within this part
+    //- Wrenches that differ by less than this part are the same
     static const scalar sameWrench = 0.05;
 
     //- Of the hold time: the first part of a trial; each is twice the one
     //  before, the last what is left
     static const scalar firstPart = 1./64;
 
-    //- A trial is over when at this times the pace of its last part the cell
-    //  would not come as far as it takes to go
-    static const scalar haste = 2;
+    //- A trial is over when the cell, at this times its mean speed in the last
+    //  part, would not come as far as a cell that is released
+    static const scalar paceFactor = 2;
 
-    //- How far a cell has come since its sweep began [m]
-    static scalar way(const cellSweep& cell)
+    //- Distance of a cell from where its sweep began [m]
+    static scalar distanceMoved(const cellSweep& cell)
     {
         return
             mag(cell.state.centre() + pointOf(cell.sweep.passed)
@@ -112,18 +112,18 @@ bool Foam::occupancy::moves
             false, path, &tried
         );
 
-        const scalar come = mag(group[own].state.centre() - cell.centre());
-        if (group[own].gone() || come >= reach())
+        const scalar moved = mag(group[own].state.centre() - cell.centre());
+        if (group[own].gone() || moved >= reach())
         {
             return true;
         }
 
-        scalar farthest = come + haste*way(group[own])*left/part;
+        scalar farthest = moved + paceFactor*distanceMoved(group[own])*left/part;
         for (const cellSweep& other : group)
         {
             if (!other.gone())
             {
-                farthest = max(farthest, haste*way(other)*left/part);
+                farthest = max(farthest, paceFactor*distanceMoved(other)*left/part);
             }
         }
         if (farthest < reach())
@@ -143,7 +143,7 @@ bool Foam::occupancy::pulledOff
 )
 {
     const heldWrench whole(held_[cell.id]);
-    const auto from = letGo_.cfind(cell.id);
+    const auto from = released_.cfind(cell.id);
 
     if (!moves(cell, cells, changesFlow() ? &whole : nullptr))
     {
@@ -164,9 +164,9 @@ bool Foam::occupancy::pulledOff
 }
 
 
-bool Foam::occupancy::hasBorne(const cellState& cell) const
+bool Foam::occupancy::isUnchanged(const cellState& cell) const
 {
-    const auto before = borne_.cfind(cell.id);
+    const auto before = stayedUnder_.cfind(cell.id);
     if (!changesFlow() || !before.found())
     {
         return false;
@@ -193,7 +193,7 @@ bool Foam::occupancy::stays
     const bool asked =
         isPushed
       ? afterSolution || criterion_.isDue(cell)
-      : afterSolution && !hasBorne(cell);
+      : afterSolution && !isUnchanged(cell);
 
     if (!asked)
     {
@@ -205,7 +205,7 @@ bool Foam::occupancy::stays
     }
     if (!isPushed)
     {
-        borne_.set(cell.id, held_[cell.id]);
+        stayedUnder_.set(cell.id, held_[cell.id]);
     }
 
     return true;
