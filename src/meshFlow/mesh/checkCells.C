@@ -3,9 +3,8 @@
 
 #include "checkCells.H"
 #include "masterGate.H"
-#include "plainLists.H"
 #include "polyMesh.H"
-#include "Tuple2.H"
+#include "StringStream.H"
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
@@ -36,34 +35,14 @@ void Foam::checkCells(const polyMesh& mesh)
         first = mesh.cellVolumes()[celli] > 0 ? first : min(first, celli);
     }
 
-    // That of the first rank that has one
-    const bool found = first < mesh.nCells();
-    const List<Tuple2<label, point>> faults
-    (
-        gathered
-        (
-            Tuple2<label, point>
-            (
-                found ? first : -1, found ? centres[first] : point::zero
-            )
-        )
-    );
-
-    const masterGate once;
-    forAll(faults, ranki)
+    OStringStream complaint;
+    complaint.precision(6);
+    if (first < mesh.nCells())
     {
-        if (Pstream::master() && faults[ranki].first() >= 0)
-        {
-            FatalErrorInFunction
-                << "mesh cell " << faults[ranki].first();
-            if (Pstream::parRun())
-            {
-                FatalError << " of processor " << ranki;
-            }
-            FatalError
-                << " at " << faults[ranki].second() << " m has no volume, is"
-                << " inside out, or has a face without area or distance from it" << nl
-                << "    checkMesh says more" << exit(FatalError);
-        }
+        complaint
+            << "mesh cell " << first << " at " << centres[first] << " m has no"
+            << " volume, is inside out, or has a face without area or distance"
+            << " from it" << nl << "    checkMesh says more";
     }
+    refuseFirst(complaint.str());
 }
