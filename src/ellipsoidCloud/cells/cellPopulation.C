@@ -50,9 +50,10 @@ void Foam::cellPopulation::readDistribution(const dictionary& dict)
 
     if (values_.empty())
     {
-        FatalIOErrorInFunction(dict)
-            << "values of sizes hold no pair (length width)"
-            << exit(FatalIOError);
+        refuseEntry
+        (
+            dict, "values", "sizes/values", "one pair (length width) or more"
+        );
     }
 }
 

@@ -203,7 +203,8 @@ void Foam::ellipsoidProperties::readOptions()
     if
     (
         electricField::isNamed(section("forces"))
-     && external.empty() && options_.charge == 0 && d[0] == 0 && d[1] == 0 && d[2] == 0
+     && external.empty() && options_.charge == 0
+     && d[0] == 0 && d[1] == 0 && d[2] == 0
     )
     {
         IOWarningInFunction(section("forces"))

@@ -63,9 +63,10 @@ public:
         {
             if (!(cmptMin(max_ - min_) >= 0))
             {
-                FatalIOErrorInFunction(from_.dict)
-                    << "the box from " << min_ << " to " << max_
-                    << " is inside out" << exit(FatalIOError);
+                refuseEntry
+                (
+                    from_.dict, "max", "max", "min or more along each axis"
+                );
             }
 
             setTimes(readNumber(0));

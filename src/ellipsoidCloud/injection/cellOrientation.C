@@ -49,9 +49,7 @@ Foam::cellOrientation::cellOrientation(const dictionary& dict)
         const vector axis(dict.get<vector>("axis"));
         if (!(mag(axis) > VSMALL))
         {
-            FatalIOErrorInFunction(dict)
-                << "axis " << axis << " has no direction"
-                << exit(FatalIOError);
+            refuseEntry(dict, "axis", "axis", "a vector longer than 0");
         }
         ellipsoid_quaternion_from_axis((axis/mag(axis)).v_, 0, q_);
     }
@@ -83,8 +81,8 @@ void Foam::cellOrientation::setQuaternion
     if (!(mag(length - 1) < 1e-3))
     {
         FatalIOErrorInFunction(dict)
-            << "quaternion " << given << " is not of length 1"
-            << exit(FatalIOError);
+            << "quaternion " << given << " is of length " << length << nl
+            << "    allowed: 1, within 1e-3" << exit(FatalIOError);
     }
 
     for (int d = 0; d < 4; ++d)

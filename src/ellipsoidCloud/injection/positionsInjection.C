@@ -121,8 +121,10 @@ public:
 
             if (positions_.empty())
             {
-                FatalIOErrorInFunction(from_.dict)
-                    << "positions hold none" << exit(FatalIOError);
+                refuseEntry
+                (
+                    from_.dict, "positions", "positions", "one or more"
+                );
             }
             if (orientations_.size() && from_.dict.found("orientation"))
             {

@@ -91,10 +91,11 @@ Foam::occupancy::setting::setting
         {
             if (name != "caught" && name != "stalled")
             {
-                FatalIOErrorInFunction(dict)
-                    << "fates " << name << " cannot hold a cell" << nl
-                    << "    allowed: (caught), (stalled) or (caught stalled)"
-                    << exit(FatalIOError);
+                refuseEntry
+                (
+                    dict, "fates", "fates",
+                    "(caught), (stalled) or (caught stalled)"
+                );
             }
             fates.append(cellState::fateNames[name]);
         }
