@@ -9,11 +9,11 @@ Description
 \*---------------------------------------------------------------------------*/
 #include "cellFluxes.H"
 #include "meshFlow.H"
-#include "mirrorsAtVertices.H"
 #include "pointImages.H"
 #include "cyclicPolyPatch.H"
 #include "undecomposedFlow.H"
 #include "bitSet.H"
+#include "Map.H"
 #include "surfaceFields.H"
 #include "tetDecomposition.H"
 #include "volFields.H"
@@ -204,6 +204,53 @@ namespace Foam
 
         return
             (a.u + b.u + c.u)/3 + (bend(a, b) + bend(b, c) + bend(c, a))/24;
+    }
+
+    //- For each vertex on planes of symmetry the projection to what lies in all
+    //  of them, along which its velocity is free
+    static Map<symmTensor> freeAtMirrors
+    (
+        const polyMesh& mesh,
+        const UList<flowTet>& tets,
+        const UList<flowVertex>& vertices
+    )
+    {
+        Map<symmTensor> free;
+
+        for (const flowTet& tet : tets)
+        {
+            const label patchi = -1 - tet.neighbours[0];
+            if
+            (
+                patchi < 0
+             || !domainImages::isMirror(mesh.boundaryMesh()[patchi])
+            )
+            {
+                continue;
+            }
+
+            const point& x = vertices[tet.vertices[1]].x;
+            const vector S
+            (
+                (vertices[tet.vertices[2]].x - x)
+              ^ (vertices[tet.vertices[3]].x - x)
+            );
+
+            for (label i = 1; i < 4; ++i)
+            {
+                free.insert(tet.vertices[i], symmTensor(symmTensor::I));
+                symmTensor& P = free[tet.vertices[i]];
+
+                // Of another plane than those before
+                const vector n(P & (S/mag(S)));
+                if (mag(n) > 1e-3)
+                {
+                    P -= sqr(n/mag(n));
+                }
+            }
+        }
+
+        return free;
     }
 
     //- Move the velocities at vertices by what is missing normal to the faces
