@@ -7,6 +7,8 @@
 */
 #include "brownianTest.h"
 
+#include <float.h>
+
 /* ----------------------------------------------------- random numbers */
 
 static double normal_distribution(const void *context, double value)
@@ -386,6 +388,35 @@ static void test_steps(void **unused)
     }
 }
 
+static int flow_of_numbers(void *context, double t, const double x[3],
+                           int derivatives, ellipsoid_flow_sample *sample)
+{
+    assert_true(isfinite(x[0] + x[1] + x[2]));
+    return test_still_flow(context, t, x, derivatives, sample);
+}
+
+/* So fast that until its velocity has decayed it would drift or turn beyond all
+   numbers: the flow is not asked there, and the cell is as it was. */
+static void test_beyond_numbers(void **unused)
+{
+    (void)unused;
+    for (int k = 0; k < 2; k++)
+    {
+        const ellipsoid_options o =
+            test_brownian(ELLIPSOID_MOTION_INERTIAL, interval);
+        test_walk w = test_walk_of(&o, 21, 1), before;
+
+        w.around.flow = flow_of_numbers;
+        w.state.x[0] = k == 0 ? DBL_MAX : 0;
+        w.state.u[0] = k == 0 ? 1e308 : 0;
+        w.state.u[1] = -w.state.u[0];
+        w.state.omega[1] = k == 0 ? 0 : 1e200;
+        before = w;
+        assert_int_equal(test_walk_to(&w, interval), ELLIPSOID_BAD_STATE);
+        assert_same(&w, &before);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -395,6 +426,7 @@ int main(void)
         cmocka_unit_test(test_path),
         cmocka_unit_test(test_rounded_ends),
         cmocka_unit_test(test_steps),
+        cmocka_unit_test(test_beyond_numbers),
     };
 
     return cmocka_run_group_tests_name("brownianPath", tests, NULL, NULL);

@@ -445,13 +445,9 @@ void ellipsoid_explicit_dense(const ellipsoid_group *group, int cell,
                               double dense[3][UNKNOWNS]);
 
 /* At the start of a noise interval that lasts many relaxation times: takes the
-   start to where they have passed, in no time (brownian.c). */
+   start to where they have passed, in no time (noiseLayer.c). */
 ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *group, double t,
                                        double until);
-
-/* Displaces the pose by what velocities do until they have decayed. */
-void ellipsoid_displace(const ellipsoid_model *model, const double u[3],
-                        const double omega[3], ellipsoid_state *state);
 
 /* -------------------------------------------------------- step control */
 

@@ -28,8 +28,8 @@ static int is_thin(const ellipsoid_cell *p, double t, double until)
 }
 
 /* u and omega decay: x moves by R m (mu K^)^-1 R^T u, and q likewise. */
-void ellipsoid_displace(const ellipsoid_model *m, const double u[3],
-                        const double omega[3], ellipsoid_state *state)
+static void displace(const ellipsoid_model *m, const double u[3],
+                     const double omega[3], ellipsoid_state *state)
 {
     const double *q = state->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
     double axis[3][3], angle[3], turn[4];
@@ -93,9 +93,15 @@ ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *g, double t,
 
             ellipsoid_difference(before->u, after->u, slip);
             ellipsoid_difference(before->omega, after->omega, spin);
-            ellipsoid_displace(g->cell[cell].model, slip, spin, after);
+            displace(g->cell[cell].model, slip, spin, after);
         }
         *before = *after;
+        /* a cell may be so fast that it overflows */
+        if (!ellipsoid_is_pose(after->x, after->q))
+        {
+            status = ELLIPSOID_BAD_STATE;
+            g->failed = cell;
+        }
     }
     return status;
 }
