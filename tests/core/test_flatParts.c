@@ -8,6 +8,7 @@
 #include "wallResistanceTest.h"
 #include "drag/drag.h"
 #include "wallsTest.h"
+#include "walls/wallSurface.h"
 
 #include <stdlib.h>
 
@@ -187,11 +188,155 @@ static void test_rounded_plane(void **unused)
     destroy(&m[1]);
 }
 
+/* The plane that a facet is of: a point and the normal. */
+static const double (*plane_of(const ellipsoid_facet *f))[3]
+{
+    return (const double(*)[3])((const char *)f + f->plane);
+}
+
+/* No point of a part of a round wall is farther from its plane than from that of
+   one of its facets, and that mean of theirs. */
+static void test_depth(void **unused)
+{
+    const double depth = 2e-8;
+    const scattered s = {.shape = {1, 4e-6}, .length = 8e-6};
+    made_walls m = make(s, 0.3e-6, depth);
+    double deepest = 0;
+
+    (void)unused;
+    for (int f = 0; f < m.count; f++)
+    {
+        const double(*plane)[3] = plane_of(&m.facets[f]);
+
+        for (int k = 0; k < 3; k++)
+        {
+            double d[3];
+
+            ellipsoid_difference(m.facets[f].vertex[k], plane[0], d);
+            deepest = fmax(deepest, fabs(ellipsoid_dot(d, plane[1])));
+        }
+    }
+    print_message("%.2f depths off at most\n", deepest / depth);
+    assert_true(deepest > 0.5 * depth && deepest < 1.2 * depth);
+    destroy(&m);
+}
+
+/* The areas of a surface in a rim have the sum of the rim's, whatever is
+   within: points that are off leave the plane of a rim as it is. */
+static void bump(const double *uv, double point[3], void *context)
+{
+    const double *height = context;
+    const double hill = 16 * uv[0] * (1 - uv[0]) * uv[1] * (1 - uv[1]);
+
+    ellipsoid_set(point, 8e-6 * uv[0] * uv[0], 8e-6 * uv[1] * sqrt(uv[1]),
+                  *height * hill * hashed(uv[0], uv[1]));
+}
+
+static void test_rim(void **unused)
+{
+    double height = 2e-9;
+    made_walls m;
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    wall_mesh_grid(&mesh, 10, 10, bump, &height, 2, 0);
+    m = triangles_of(&mesh);
+    m.options.same_point = 1e-12;
+    m.options.flat_depth = 1e-7;
+    assert_ok(create(&m));
+    for (int f = 0; f < m.count; f++)
+    {
+        const double *normal = plane_of(&m.facets[f])[1];
+
+        assert_near(fabs(normal[2]), 1, 1e-12);
+        assert_true(hypot(normal[0], normal[1]) < 1e-9);
+    }
+    wall_mesh_free(&mesh);
+    destroy(&m);
+}
+
+/* What is flat but for rounding is one part, and the two sides of a sheet are
+   two, however thin it is. */
+static void test_sides(void **unused)
+{
+    const double corner[3] = {1e-6, 2e-6, 3e-6};
+    const double along[3] = {4.1e-6, 1.3e-6, 0.7e-6};
+    const double across[3] = {-1.7e-6, 3.3e-6, 1.9e-6};
+    const double tip[2][3] = {{0, 0, -1e-9}, {0, 0, 1e-9}};
+    const double rim[4][3] = {
+        {2e-6, 0, 0}, {0, 2e-6, 0}, {-2e-6, 0, 0}, {0, -2e-6, 0}};
+
+    (void)unused;
+    for (int sheet = 0; sheet < 2; sheet++)
+    {
+        made_walls m;
+        wall_mesh mesh;
+
+        wall_mesh_init(&mesh);
+        if (sheet)
+        {
+            for (int k = 0; k < 8; k++)
+            {
+                const int next = (k + 1) % 4;
+
+                wall_mesh_triangle(&mesh, tip[k < 4], rim[k < 4 ? k % 4 : next],
+                                   rim[k < 4 ? next : k % 4], 0);
+            }
+        }
+        else
+        {
+            wall_mesh_plane(&mesh, corner, along, across, 20, 17, 2, 0);
+        }
+        m = triangles_of(&mesh);
+        m.options.same_point = 1e-12;
+        m.options.flat_depth = sheet ? 5e-9 : 0;
+        assert_ok(create(&m));
+        for (int f = 0; f < m.count; f++)
+        {
+            const double(*plane)[3] = plane_of(&m.facets[f]);
+
+            assert_true(ellipsoid_dot(plane[1], m.facets[f].normal) > 0.99);
+            assert_true(sheet || plane == plane_of(&m.facets[0]));
+        }
+        wall_mesh_free(&mesh);
+        destroy(&m);
+    }
+}
+
+/* Where several sheets meet, the way across an edge may not lead back: those are
+   no neighbours. */
+static void test_ways_back(void **unused)
+{
+    static const int across[2][2][3] = {{{1, -1, -1}, {0, -1, -1}},
+                                        {{1, -1, -1}, {-1, -1, -1}}};
+    const double p[4][3] = {{0}, {1e-6, 0, 0}, {0, 1e-6, 0}, {1e-6, -1e-6, 0}};
+
+    (void)unused;
+    for (int n = 0; n < 2; n++)
+    {
+        double planes[2][2][3];
+        int room[64];
+        ellipsoid_arena scratch = {(char *)room, sizeof room};
+        wall_mesh mesh;
+
+        wall_mesh_init(&mesh);
+        wall_mesh_triangle(&mesh, p[0], p[1], p[2], 0);
+        wall_mesh_triangle(&mesh, p[1], p[0], p[3], 0);
+        wall_mesh_finish(&mesh);
+        assert_int_equal(ellipsoid_flat_parts_set(1e-9, across[n], 2, scratch,
+                                                  mesh.facets, planes),
+                         n == 0 ? 1 : 2);
+        wall_mesh_free(&mesh);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round),
-        cmocka_unit_test(test_rounded_plane),
+        cmocka_unit_test(test_round), cmocka_unit_test(test_rounded_plane),
+        cmocka_unit_test(test_depth), cmocka_unit_test(test_rim),
+        cmocka_unit_test(test_sides), cmocka_unit_test(test_ways_back),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -339,7 +339,9 @@ static void test_change(void **unused)
         ellipsoid_plane_table own;
         ellipsoid_plane_effect effect;
 
-        axes[n % 3] *= pow(10, -0.6 + 1.6 * test_uniform(&seed));
+        /* some are spheres, whose functions change with the normal, too */
+        axes[n % 3] *=
+            pow(10, (n % 7 > 0) * (-0.6 + 1.6 * test_uniform(&seed)));
         ellipsoid_plane_table_set(axes, &own);
         for (int i = 0; i < 3; i++)
         {

@@ -6,7 +6,7 @@
     where it ends, where it bends.
 */
 #include "wallResistanceTest.h"
-#include "drag/drag.h"
+#include "drag/wallParts.h"
 
 /* However the wall is cut; what rounding leaves. */
 static void test_cuts(void **unused)
@@ -268,6 +268,144 @@ static void test_floor_out_of_range(void **unused)
     wall_mesh_free(&mesh);
 }
 
+/* Where a wall ends counts as far as 4 heights of the foot, or the widths of
+   squeezing, and beyond three quarters of the range nothing does: no wall is
+   looked for there. */
+static void test_how_far(void **unused)
+{
+    uint64_t seed = 31;
+
+    (void)unused;
+    for (int n = 0; n < 300; n++)
+    {
+        const double normal[3] = {0, 0, 1}, x[3] = {0};
+        ellipsoid_options o = near_walls();
+        const double most = 0.75 * o.wall_range;
+        ellipsoid_model model;
+        ellipsoid_wall_view view = {.model = &model, .x = x};
+        double q[4], height, longest = 0;
+        ellipsoid_wall wall;
+
+        for (int i = 0; i < 3; i++)
+        {
+            o.semi_axes[i] *= pow(1.5, test_signed(&seed));
+            longest = fmax(longest, o.semi_axes[i]);
+        }
+        model = test_model(&o);
+        test_orientation(&seed, q);
+        ellipsoid_rotation(q, view.axis);
+        height = o.wall_range * pow(10, -3 * test_uniform(&seed));
+        ellipsoid_wall_begin(&view, normal, height, &wall);
+        for (int m = 0; m < 2; m++)
+        {
+            const ellipsoid_wall_kernel *k = &wall.seen[m];
+            const double width =
+                m == ELLIPSOID_PLANE_FAR
+                    ? height
+                    : longest * sqrt(2 * wall.gap / wall.support);
+            const double cut = 1 / hypot(1.0 / 4, width / most);
+
+            assert_near(k->cut, cut, 1e-9 * cut);
+            assert_near(k->reach, cut * width, 1e-9 * cut * width);
+            assert_true(k->reach <= most);
+        }
+    }
+}
+
+/* Planes are 48 at most, those of the nearest facets: of a floor of which a far
+   facet comes first, too. Others are parts of a dome above. */
+static void test_too_many(void **unused)
+{
+    const ellipsoid_options o = near_walls();
+    const ellipsoid_model model = test_model(&o);
+    const double far = 0.5 * o.wall_range, size = 0.02 * o.wall_range;
+    const ellipsoid_state state = {.x = {0, 0, 0.2 * o.wall_range},
+                                   .q = {0, 0, 0, 1}};
+    ellipsoid_frame frame = {.axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    test_quadratic still = {.answer = 0};
+    ellipsoid_planes planes;
+    int floors = 0;
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    for (int n = 0; n < 2; n++)
+    {
+        const double at = n == 0 ? far : 0;
+        const double a[3] = {at - size, -size, 0}, b[3] = {at + size, -size, 0},
+                     c[3] = {at, 2 * size, 0};
+
+        wall_mesh_triangle(&mesh, a, b, c, 0);
+    }
+    for (int n = 0; n < 60; n++)
+    {
+        /* seen from their middles, the normal leads to the cell */
+        const double turn = 2 * test_pi * n / 60, tilt = 0.2 + 0.01 * n;
+        const double inward[3] = {-sin(tilt) * cos(turn),
+                                  -sin(tilt) * sin(turn), -cos(tilt)};
+        const double u[3] = {-sin(turn), cos(turn), 0};
+        const double away = (0.4 + 0.001 * n) * o.wall_range;
+        double v[3], corner[3][3];
+
+        ellipsoid_cross(inward, u, v);
+        for (int i = 0; i < 3; i++)
+        {
+            const double middle = state.x[i] - away * inward[i];
+
+            corner[0][i] = middle - size * u[i] - size * v[i];
+            corner[1][i] = middle + size * u[i] - size * v[i];
+            corner[2][i] = middle + 2 * size * v[i];
+        }
+        wall_mesh_triangle(&mesh, corner[0], corner[1], corner[2], 0);
+    }
+    wall_mesh_finish(&mesh);
+    ellipsoid_facet_cache_clear(&cache);
+
+    const ellipsoid_surroundings s = around(&mesh, &still);
+
+    assert_ok(
+        ellipsoid_find_planes(&model, &s, &state, &frame, &cache, &planes));
+    for (int k = 0; k < planes.count; k++)
+    {
+        floors += planes.at[k].wall[2] > 1 - 1e-12;
+    }
+    print_message("%d planes\n", planes.count);
+    assert_int_equal(planes.count, ELLIPSOID_MAX_PLANES);
+    assert_int_equal(floors, 1);
+    wall_mesh_free(&mesh);
+}
+
+/* A plane of symmetry is no wall. */
+static void test_mirrors(void **unused)
+{
+    const ellipsoid_options o = near_walls();
+    const ellipsoid_model model = test_model(&o);
+    const ellipsoid_state state = {.x = {0, 0, 3e-6}, .q = {0, 0, 0, 1}};
+    ellipsoid_frame frame = {.axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    test_quadratic still = {.answer = 0};
+    wall_mesh mesh;
+
+    (void)unused;
+    wall_mesh_init(&mesh);
+    add_floor(&mesh, 0, 1, 1);
+    wall_mesh_finish(&mesh);
+    for (int mirror = 0; mirror < 2; mirror++)
+    {
+        const ellipsoid_surroundings s = around(&mesh, &still);
+        ellipsoid_planes planes;
+
+        for (int f = 0; f < mesh.count; f++)
+        {
+            mesh.facets[f].mirror = mirror;
+        }
+        ellipsoid_facet_cache_clear(&cache);
+        assert_ok(
+            ellipsoid_find_planes(&model, &s, &state, &frame, &cache, &planes));
+        assert_int_equal(planes.count, !mirror);
+    }
+    wall_mesh_free(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -276,6 +414,9 @@ int main(void)
         cmocka_unit_test(test_round_wall),
         cmocka_unit_test(test_ridge),
         cmocka_unit_test(test_floor_out_of_range),
+        cmocka_unit_test(test_how_far),
+        cmocka_unit_test(test_too_many),
+        cmocka_unit_test(test_mirrors),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

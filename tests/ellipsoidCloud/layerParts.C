@@ -296,7 +296,15 @@ int main(int argc, char *argv[])
     #include "createTime.H"
     #include "createMesh.H"
 
-    if (mesh.boundaryMesh().findPatchID("mirror") >= 0)
+    if (mesh.boundaryMesh().findPatchID("open") >= 0)
+    {
+        checkOpen(mesh);
+    }
+    else if (mesh.boundaryMesh().findPatchID("begin") >= 0)
+    {
+        checkRing(mesh);
+    }
+    else if (mesh.boundaryMesh().findPatchID("mirror") >= 0)
     {
         checkBoundaries(mesh);
     }

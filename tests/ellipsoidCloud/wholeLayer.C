@@ -13,5 +13,6 @@ Description
 #include "heldChecks.C"
 #include "motionChecks.C"
 #include "boundaryChecks.C"
+#include "flowChecks.C"
 #include "statisticsChecks.C"
 #include "forceChecks.C"
