@@ -99,6 +99,13 @@ int main(int argc, char *argv[])
     Info<< "outflow: " << gSum(phi.boundaryField()[outlet]) << nl
         << "pressure: " << gAverage(p.primitiveField()) << nl;
 
+    if (end != coupledStokes::DIVERGED)
+    {
+        const volScalarField net(fvc::surfaceIntegrate(phi));
+        Info<< "net fluxes: "
+            << gSum(mag(net.primitiveField()*mesh.V().field())) << nl;
+    }
+
     if (args.found("again"))
     {
         scale(args.get<scalar>("again"));
