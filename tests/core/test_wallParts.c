@@ -375,6 +375,70 @@ static void test_too_many(void **unused)
     wall_mesh_free(&mesh);
 }
 
+/* A small facet of the floor at x1, tilted, with its x3 axis turned by so much. */
+static void add_small(wall_mesh *mesh, double at, double turned)
+{
+    const double size = 5e-8, height = at * turned;
+    const double a[3] = {at - size, -size, height - size * turned};
+    const double b[3] = {at + size, -size, height + size * turned};
+    const double c[3] = {at, size, height};
+
+    wall_mesh_triangle(mesh, a, b, c, 0);
+}
+
+/* Of the facets of a plane one that is not seen has no say, not even in whose
+   plane it is; one that squeezing alone sees, beneath a low end, counts. */
+static void test_unseen(void **unused)
+{
+    const double tilt = test_pi / 4, far = 1.87e-6;
+    const ellipsoid_state state = {.x = {0, 0, 1.6e-6}, .q = {0, 0, 0, 1}};
+    ellipsoid_options o = near_walls();
+    ellipsoid_model model;
+    /* the long axis falls towards x1 */
+    ellipsoid_frame frame = {.axis = {{0, 1, 0},
+                                      {cos(tilt), 0, -sin(tilt)},
+                                      {-sin(tilt), 0, -cos(tilt)}}};
+    test_quadratic still = {.answer = 0};
+
+    (void)unused;
+    o.wall_range = 2.5e-6;
+    model = test_model(&o);
+    for (int n = 0; n < 3; n++)
+    {
+        ellipsoid_planes planes;
+        wall_mesh mesh;
+
+        wall_mesh_init(&mesh);
+        if (n != 1)
+        {
+            /* what no kernel sees, or one of the two */
+            add_small(&mesh, n == 0 ? -far : far, 5e-7);
+        }
+        if (n < 2)
+        {
+            add_small(&mesh, 0.5e-6, 0);
+        }
+        wall_mesh_finish(&mesh);
+        ellipsoid_facet_cache_clear(&cache);
+
+        const ellipsoid_surroundings s = around(&mesh, &still);
+
+        assert_ok(
+            ellipsoid_find_planes(&model, &s, &state, &frame, &cache, &planes));
+        assert_int_equal(planes.count, 1);
+        if (n < 2)
+        {
+            assert_true(planes.at[0].wall[0] == 0);
+        }
+        else
+        {
+            assert_true(planes.at[0].weight[ELLIPSOID_PLANE_FAR] == 0);
+            assert_true(planes.at[0].weight[ELLIPSOID_PLANE_NEAR] != 0);
+        }
+        wall_mesh_free(&mesh);
+    }
+}
+
 /* A plane of symmetry is no wall. */
 static void test_mirrors(void **unused)
 {
@@ -416,6 +480,7 @@ int main(void)
         cmocka_unit_test(test_floor_out_of_range),
         cmocka_unit_test(test_how_far),
         cmocka_unit_test(test_too_many),
+        cmocka_unit_test(test_unseen),
         cmocka_unit_test(test_mirrors),
     };
 

@@ -174,6 +174,15 @@ namespace Foam
          && cell.dragImpulse == vector::zero
          && cell.netImpulse == vector::zero
         );
+
+        // Once round, where it is in the mesh is not how far it has come
+        before[0] = at.cellAt(x);
+        before[0].time = 1.25;
+        before[0].unfold = isometry::translation(vector(20e-6, 0, 0));
+        before[0].place = before[0].unfolded();
+        after[0].state = before[0];
+        criterion.judge(before, after, 1.5, events);
+        holds("a period that was passed is not a way", near(cell.slowTime, 0.25));
     }
 
     //- A cell that waits is told of once; one that is held for longer has the

@@ -229,13 +229,18 @@ namespace Foam
 
     //- Nothing flows through a plane of symmetry, and what is beyond two of
     //  them is the image of an image
-    static void checkPlanes(const fvMesh& mesh, const tensor& R)
+    static void checkPlanes
+    (
+        const fvMesh& mesh,
+        const tensor& R,
+        const meshFlow::schemeType scheme
+    )
     {
         wildFields fields(mesh);
         fields.change();
         meshFlow flow
         (
-            fields.whole, meshFlow::stDivergenceFree, labelHashSet(),
+            fields.whole, scheme, labelHashSet(),
             autoPtr<volVectorField>(), false, false
         );
         flow.renew(fields.whole, 1000);
@@ -295,7 +300,8 @@ void Foam::checkOpen(fvMesh& mesh)
 {
     checkPolynomials(mesh, tensor(I));
     checkFluxes(mesh, tensor(I));
-    checkPlanes(mesh, tensor(I));
+    checkPlanes(mesh, tensor(I), meshFlow::stDivergenceFree);
+    checkPlanes(mesh, tensor(I), meshFlow::stCellPoint);
 
     const vector axis(vector(1, -2, 0.5)/mag(vector(1, -2, 0.5)));
     const tensor R(Ra(axis, 0.7));
@@ -307,7 +313,7 @@ void Foam::checkOpen(fvMesh& mesh)
     mesh.movePoints(points);
     checkPolynomials(mesh, R);
     checkFluxes(mesh, R);
-    checkPlanes(mesh, R);
+    checkPlanes(mesh, R, meshFlow::stDivergenceFree);
 }
 
 
