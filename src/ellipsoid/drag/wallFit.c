@@ -6,23 +6,23 @@
 
     By the reciprocal theorem a held body feels the flow times the tractions of its
     motions. Far from walls these are such that the body is carried by the motion
-    that fits the flow best over the unit sphere, x^ = A nu (faxen.c). Near a wall
-    they are larger towards it, and what the wall adds to the resistance meets the
-    motion that fits with the weight 1 + 3 k nu.m, m the nu of the nearest point
-    r = A m:
+    that fits the flow best over the unit sphere, x^_i = a_i nu_i (faxen.c). Near
+    a wall they are larger towards it, and what the wall adds to the resistance
+    meets the motion that fits with the weight 1 + 3 k nu.m, m the nu of the
+    nearest point r:
         u' = u_free + k (G' r - w x r),   w' = w_free + w,
         J w = -k r x (u' - u_free),       J_i = (a_j^2 + a_k^2)/3,
     where G'_ij = 2 a_i^2/(a_i^2 + a_j^2) E^_ij is the gradient without what
-    w_free follows; k is 0 for FLOW_CENTRE, which knows the flow at one point. The
-    shear along the wall is left out of the strain E^, since
-    the force in that is known (planeFunctions.c).
+    w_free follows. The shear along the wall is left out of the strain E^, since
+    the force in that is known (planeFunctions.c). k is 0 for FLOW_CENTRE, which
+    knows the flow at one point.
 */
 #include "drag/drag.h"
 
 #include <string.h>
 
 /* Fitted to spheres and spheroids held in the flows of stagnation points, by
-   boundary elements: a medium error of 7 % in place of 50 (test_wallFit.c). */
+   boundary elements: a median error of 8 % in place of 46 (test_wallFit.c). */
 static const double towards = 0.43;
 
 /* How much of the strain ij is left to the part i of the flow along j. */
