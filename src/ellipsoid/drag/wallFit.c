@@ -13,8 +13,9 @@
         u' = u_free + k (G' r - w x r),   w' = w_free + w,
         J w = -k r x (u' - u_free),       J_i = (a_j^2 + a_k^2)/3,
     where G'_ij = 2 a_i^2/(a_i^2 + a_j^2) E^_ij is the gradient without what
-    w_free follows. The shear along the wall is left out of the strain E^, since
-    the force in that is known (planeFunctions.c). k is 0 for FLOW_CENTRE, which
+    w_free follows. Left out of the strain E^ are the parts along and across the
+    wall, (I - n n) E n: the force in the shear is known (planeFunctions.c), and
+    velocities along n do not change along a wall that is plane. k is 0 for FLOW_CENTRE, which
     knows the flow at one point.
 */
 #include "drag/drag.h"
@@ -82,7 +83,8 @@ void ellipsoid_wall_fit_columns(const double a[3], const double n[3],
                                 ellipsoid_wall_fit *fit, double column[9][6],
                                 double by[9][6])
 {
-    double by_s[3][6] = {{0}}, shear[3][6], along[6] = {0};
+    double by_s[3][6] = {{0}}, tangent[3][6] = {{0}}, shear[3][6];
+    double along[2][6] = {{0}};
 
     for (int i = 0; i < 3; i++)
     {
@@ -95,9 +97,9 @@ void ellipsoid_wall_fit_columns(const double a[3], const double n[3],
             ellipsoid_add6(motion[m], column[m], by_s[i]);
         }
     }
+    /* by all of the strain, symmetric; its product with n; D's along n */
     for (int i = 0; i < 3; i++)
     {
-        memcpy(shear[i], column[6 + i], sizeof(shear[i]));
         for (int j = 0; j < 3; j++)
         {
             double *sum = by[3 * i + j];
@@ -105,17 +107,24 @@ void ellipsoid_wall_fit_columns(const double a[3], const double n[3],
             memset(sum, 0, 6 * sizeof(*sum));
             ellipsoid_add6(0.5 * left(a, i, j) * fit->nearest[j], by_s[i], sum);
             ellipsoid_add6(0.5 * left(a, j, i) * fit->nearest[i], by_s[j], sum);
-            ellipsoid_add6(-n[j], sum, shear[i]);
+            ellipsoid_add6(n[j], sum, tangent[i]);
         }
-        ellipsoid_add6(n[i], shear[i], along);
+        ellipsoid_add6(n[i], tangent[i], along[0]);
+        ellipsoid_add6(n[i], column[6 + i], along[1]);
     }
-    /* the shear is (I - n n) G n */
     for (int i = 0; i < 3; i++)
     {
-        ellipsoid_add6(-n[i], along, shear[i]);
+        ellipsoid_add6(-n[i], along[0], tangent[i]);
+        memcpy(shear[i], column[6 + i], sizeof(shear[i]));
+        ellipsoid_add6(-n[i], along[1], shear[i]);
+        ellipsoid_add6(-1, tangent[i], shear[i]);
+    }
+    for (int i = 0; i < 3; i++)
+    {
         for (int j = 0; j < 3; j++)
         {
             ellipsoid_add6(n[j], shear[i], by[3 * i + j]);
+            ellipsoid_add6(-n[i], tangent[j], by[3 * i + j]);
         }
     }
 }
@@ -125,38 +134,42 @@ void ellipsoid_wall_fit_slopes(const double a[3], const double n[3],
                                ellipsoid_fitted *value,
                                ellipsoid_fitted change[3])
 {
-    const double *r = fit->nearest, *w = value->motion + 3;
-    const double k = fit->towards;
-    double *shear = value->shear, strain[3][3], s[3] = {0}, back[3], along;
+    const double *r = fit->nearest, *w = value->motion + 3, k = fit->towards;
+    double *shear = value->shear, strain[3][3], bent[4][3], s[3] = {0};
+    double back[3], of_n[3], along;
 
     ellipsoid_product(g, n, shear);
     ellipsoid_combination(g, n[0], n[1], n[2], back);
     along = ellipsoid_dot(n, shear);
+    /* bent: (I - n n) E n; its derivatives by the normal */
+    for (int i = 0; i < 3; i++)
+    {
+        of_n[i] = 0.5 * (shear[i] + back[i]);
+        bent[3][i] = of_n[i] - along * n[i];
+    }
     for (int c = 0; c < 3; c++)
     {
         for (int i = 0; i < 3; i++)
         {
             change[c].shear[i] =
-                g[i][c] - (i == c) * along - n[i] * (shear[c] + back[c]);
+                g[i][c] - (i == c) * along - 2 * n[i] * of_n[c];
+            bent[c][i] = 0.5 * (g[i][c] + g[c][i]) - (i == c) * along
+                       - 2 * n[i] * of_n[c];
         }
     }
     for (int i = 0; i < 3; i++)
     {
         shear[i] -= along * n[i];
-    }
-    for (int i = 0; i < 3; i++)
-    {
         for (int j = 0; j < 3; j++)
         {
-            strain[i][j] =
-                0.5 * (g[i][j] + g[j][i] - shear[i] * n[j] - shear[j] * n[i]);
+            strain[i][j] = 0.5 * (g[i][j] + g[j][i]) - bent[3][i] * n[j]
+                         - n[i] * bent[3][j];
             s[i] += left(a, i, j) * strain[i][j] * r[j];
         }
     }
     set_motion(fit, s, value->motion);
     for (int c = 0; c < 3; c++)
     {
-        const double *bent = change[c].shear;
         double *u_c = change[c].motion, *w_c = u_c + 3;
         double r_c[3], s_c[3] = {0}, moment[3], turned[2][3];
 
@@ -168,10 +181,9 @@ void ellipsoid_wall_fit_slopes(const double a[3], const double n[3],
         {
             for (int j = 0; j < 3; j++)
             {
-                const double strain_c =
-                    -0.5
-                    * (bent[i] * n[j] + bent[j] * n[i] + shear[i] * (j == c)
-                       + shear[j] * (i == c));
+                const double strain_c = -bent[c][i] * n[j] - n[i] * bent[c][j]
+                                      - bent[3][i] * (j == c)
+                                      - bent[3][j] * (i == c);
 
                 s_c[i] +=
                     left(a, i, j) * (strain_c * r[j] + strain[i][j] * r_c[j]);
