@@ -51,10 +51,8 @@ namespace Foam
     //- The time directories of all ranks, in ascending order; collective
     static std::set<namedTime> allTimes(const fileName& path)
     {
-        List<instantList> all(gathered(Time::findTimes(path)));
-        broadcast(all);
         std::set<namedTime> times;
-        for (const instantList& some : all)
+        for (const instantList& some : fromAllRanks(Time::findTimes(path)))
         {
             for (const instant& time : some)
             {
