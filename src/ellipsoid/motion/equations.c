@@ -54,7 +54,8 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
     ellipsoid_copy(e->torque, wrench.torque);
     if (!cell->about)
     {
-        ellipsoid_wall_expansion_set(e->model, &planes, e->state, &at->walls);
+        ellipsoid_wall_expansion_set(e->model, &planes, e->state, &frame,
+                                     &at->walls);
     }
     if (balanced)
     {
