@@ -8,6 +8,24 @@
 #include "wallResistanceTest.h"
 #include "drag/wallParts.h"
 
+/* The axes of a body that is not turned. */
+static const ellipsoid_frame upright = {
+    .axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+/* The planes at a pose, in a fluid at rest. */
+static ellipsoid_planes planes_at(const ellipsoid_model *model, wall_mesh *mesh,
+                                  const ellipsoid_state *state,
+                                  const ellipsoid_frame *frame)
+{
+    test_quadratic still = {.answer = 0};
+    const ellipsoid_surroundings s = around(mesh, &still);
+    ellipsoid_planes planes;
+
+    ellipsoid_facet_cache_clear(&cache);
+    assert_ok(ellipsoid_find_planes(model, &s, state, frame, &cache, &planes));
+    return planes;
+}
+
 /* However the wall is cut; what rounding leaves. */
 static void test_cuts(void **unused)
 {
@@ -72,19 +90,14 @@ static void test_wall_that_ends(void **unused)
     wall_mesh_init(&mesh);
     wall_mesh_plane(&mesh, corner, along, across, 1, 1, 0, 0);
     wall_mesh_finish(&mesh);
-    ellipsoid_facet_cache_clear(&cache);
     for (size_t n = 0; n < sizeof(known) / sizeof(*known); n++)
     {
-        test_quadratic rest = {.answer = 0};
-        const ellipsoid_surroundings s = around(&mesh, &rest);
         const ellipsoid_state state = {
             .x = {known[n][0] * sqrt(2 * gap * radius), 0, radius + gap},
             .q = {0, 0, 0, 1}};
-        ellipsoid_frame frame = {.axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-        ellipsoid_planes planes;
+        const ellipsoid_planes planes =
+            planes_at(&model, &mesh, &state, &upright);
 
-        assert_ok(
-            ellipsoid_find_planes(&model, &s, &state, &frame, &cache, &planes));
         assert_int_equal(planes.count, 1);
         assert_near(planes.at[0].weight[ELLIPSOID_PLANE_NEAR], known[n][1],
                     0.07);
@@ -183,8 +196,6 @@ static void test_ridge(void **unused)
 
         for (int faces = 1; faces < 4; faces++)
         {
-            test_quadratic still = {.answer = 0};
-            ellipsoid_frame frame = {.axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
             const ellipsoid_state state = {.x = {0.05e-6, 0, 1.7e-6},
                                            .q = {0, 0, 0, 1}};
             ellipsoid_planes planes;
@@ -200,12 +211,7 @@ static void test_ridge(void **unused)
                 add_face(&mesh, -1, bend_of[n] / 2);
             }
             wall_mesh_finish(&mesh);
-            ellipsoid_facet_cache_clear(&cache);
-
-            const ellipsoid_surroundings around_it = around(&mesh, &still);
-
-            assert_ok(ellipsoid_find_planes(&model, &around_it, &state, &frame,
-                                            &cache, &planes));
+            planes = planes_at(&model, &mesh, &state, &upright);
             assert_int_equal(planes.count, faces < 3 ? 1 : 2);
             near[faces - 1] = planes.at[0].weight[ELLIPSOID_PLANE_NEAR];
             wall_mesh_free(&mesh);
@@ -232,7 +238,6 @@ static void test_floor_out_of_range(void **unused)
     const double back[2][3] = {{-far, -far, 0}, {-far, far, 0}};
     ellipsoid_options o = near_walls();
     ellipsoid_model model;
-    test_quadratic still = {.answer = 0};
     double gap[2];
     wall_mesh mesh;
 
@@ -246,15 +251,11 @@ static void test_floor_out_of_range(void **unused)
     wall_mesh_finish(&mesh);
     for (int n = 0; n < 2; n++)
     {
-        const ellipsoid_surroundings s = around(&mesh, &still);
         const double z = 1.5e-6 + (n ? step : -step);
         const ellipsoid_state state = {.x = {0, 0, z}, .q = {0, 0, 0, 1}};
-        ellipsoid_frame frame = {.axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-        ellipsoid_planes planes;
+        const ellipsoid_planes planes =
+            planes_at(&model, &mesh, &state, &upright);
 
-        ellipsoid_facet_cache_clear(&cache);
-        assert_ok(
-            ellipsoid_find_planes(&model, &s, &state, &frame, &cache, &planes));
         assert_int_equal(planes.count, n ? 1 : 2);
         for (int k = 0; k < planes.count; k++)
         {
@@ -321,8 +322,6 @@ static void test_too_many(void **unused)
     const double far = 0.5 * o.wall_range, size = 0.02 * o.wall_range;
     const ellipsoid_state state = {.x = {0, 0, 0.2 * o.wall_range},
                                    .q = {0, 0, 0, 1}};
-    ellipsoid_frame frame = {.axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    test_quadratic still = {.answer = 0};
     ellipsoid_planes planes;
     int floors = 0;
     wall_mesh mesh;
@@ -359,12 +358,7 @@ static void test_too_many(void **unused)
         wall_mesh_triangle(&mesh, corner[0], corner[1], corner[2], 0);
     }
     wall_mesh_finish(&mesh);
-    ellipsoid_facet_cache_clear(&cache);
-
-    const ellipsoid_surroundings s = around(&mesh, &still);
-
-    assert_ok(
-        ellipsoid_find_planes(&model, &s, &state, &frame, &cache, &planes));
+    planes = planes_at(&model, &mesh, &state, &upright);
     for (int k = 0; k < planes.count; k++)
     {
         floors += planes.at[k].effect.normal[2] > 1 - 1e-12;
@@ -398,7 +392,6 @@ static void test_unseen(void **unused)
     ellipsoid_frame frame = {.axis = {{0, 1, 0},
                                       {cos(tilt), 0, -sin(tilt)},
                                       {-sin(tilt), 0, -cos(tilt)}}};
-    test_quadratic still = {.answer = 0};
 
     (void)unused;
     o.wall_range = 2.5e-6;
@@ -419,12 +412,7 @@ static void test_unseen(void **unused)
             add_small(&mesh, 0.5e-6, 0);
         }
         wall_mesh_finish(&mesh);
-        ellipsoid_facet_cache_clear(&cache);
-
-        const ellipsoid_surroundings s = around(&mesh, &still);
-
-        assert_ok(
-            ellipsoid_find_planes(&model, &s, &state, &frame, &cache, &planes));
+        planes = planes_at(&model, &mesh, &state, &frame);
         assert_int_equal(planes.count, 1);
         if (n < 2)
         {
@@ -445,8 +433,6 @@ static void test_mirrors(void **unused)
     const ellipsoid_options o = near_walls();
     const ellipsoid_model model = test_model(&o);
     const ellipsoid_state state = {.x = {0, 0, 3e-6}, .q = {0, 0, 0, 1}};
-    ellipsoid_frame frame = {.axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    test_quadratic still = {.answer = 0};
     wall_mesh mesh;
 
     (void)unused;
@@ -455,17 +441,12 @@ static void test_mirrors(void **unused)
     wall_mesh_finish(&mesh);
     for (int mirror = 0; mirror < 2; mirror++)
     {
-        const ellipsoid_surroundings s = around(&mesh, &still);
-        ellipsoid_planes planes;
-
         for (int f = 0; f < mesh.count; f++)
         {
             mesh.facets[f].mirror = mirror;
         }
-        ellipsoid_facet_cache_clear(&cache);
-        assert_ok(
-            ellipsoid_find_planes(&model, &s, &state, &frame, &cache, &planes));
-        assert_int_equal(planes.count, !mirror);
+        assert_int_equal(planes_at(&model, &mesh, &state, &upright).count,
+                         !mirror);
     }
     wall_mesh_free(&mesh);
 }

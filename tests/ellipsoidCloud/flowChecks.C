@@ -18,6 +18,26 @@ Description
 
 namespace Foam
 {
+    //- The velocity between the points of a mesh, by fields that were gathered
+    static autoPtr<meshFlow> flowOf
+    (
+        undecomposedFlow& whole,
+        const meshFlow::schemeType scheme
+    )
+    {
+        autoPtr<meshFlow> flow
+        (
+            new meshFlow
+            (
+                whole, scheme, labelHashSet(), autoPtr<volVectorField>(),
+                false, false
+            )
+        );
+        flow->renew(whole, 1000);
+
+        return flow;
+    }
+
     //- A flow that is linear, or quadratic, free of divergence and its own
     //  mirror image in x = 20 um, turned
     struct polynomialFlow
@@ -145,12 +165,8 @@ namespace Foam
         const polynomialFlow quadratic{R, 300, 2e7};
         quadratic.setMeans(U, phi);
         whole.gather(solverFields{U, named.p, phi});
-        meshFlow flow
-        (
-            whole, meshFlow::stDivergenceFree, labelHashSet(),
-            autoPtr<volVectorField>(), false, false
-        );
-        flow.renew(whole, 1000);
+        autoPtr<meshFlow> made(flowOf(whole, meshFlow::stDivergenceFree));
+        meshFlow& flow = *made;
 
         bool exact = true;
         OStringStream os;
@@ -207,12 +223,8 @@ namespace Foam
             values == (velocity & values.patch().Sf());
         }
         whole.gather(solverFields{named.U, named.p, phi});
-        meshFlow flow
-        (
-            whole, meshFlow::stDivergenceFree, labelHashSet(),
-            autoPtr<volVectorField>(), false, false
-        );
-        flow.renew(whole, 1000);
+        autoPtr<meshFlow> made(flowOf(whole, meshFlow::stDivergenceFree));
+        meshFlow& flow = *made;
 
         bool moved = true;
         OStringStream os;
@@ -238,12 +250,8 @@ namespace Foam
     {
         wildFields fields(mesh);
         fields.change();
-        meshFlow flow
-        (
-            fields.whole, scheme, labelHashSet(),
-            autoPtr<volVectorField>(), false, false
-        );
-        flow.renew(fields.whole, 1000);
+        autoPtr<meshFlow> made(flowOf(fields.whole, scheme));
+        meshFlow& flow = *made;
 
         flowSample sample, image;
         const vector n(R & vector(1, 0, 0));
@@ -319,26 +327,17 @@ void Foam::checkOpen(fvMesh& mesh)
 
 void Foam::checkRing(fvMesh& mesh)
 {
-    // Along x, y and z; by so many mesh cells along y all is moved on
-    const label nx = 4, ny = 5, nz = 4, by = 2;
+    // Along x and y; by so many mesh cells along y all is moved on
+    const label nx = 4, ny = 5, by = 2;
     autoPtr<wildFields> fields(new wildFields(mesh));
     fields->change();
-    const auto flowOf =
+    const auto present =
         [&]() -> autoPtr<meshFlow>
         {
             fields->gather();
-            autoPtr<meshFlow> flow
-            (
-                new meshFlow
-                (
-                    fields->whole, meshFlow::stDivergenceFree, labelHashSet(),
-                    autoPtr<volVectorField>(), false, false
-                )
-            );
-            flow->renew(fields->whole, 1000);
-            return flow;
+            return flowOf(fields->whole, meshFlow::stDivergenceFree);
         };
-    autoPtr<meshFlow> flow(flowOf());
+    autoPtr<meshFlow> flow(present());
     const vectorField U(fields->U.primitiveField());
     const scalarField divergence
     (
@@ -349,7 +348,7 @@ void Foam::checkRing(fvMesh& mesh)
         const label x = celli % nx, y = celli/nx % ny, z = celli/nx/ny;
         fields->U[x + nx*((y + by) % ny + ny*z)] = U[celli];
     }
-    const autoPtr<meshFlow> moved(flowOf());
+    const autoPtr<meshFlow> moved(present());
 
     bool alike = true, continuous = true, atRest = true, even = true;
     bool images = true, beyond = true;
@@ -409,7 +408,7 @@ void Foam::checkRing(fvMesh& mesh)
     mesh.movePoints(points);
     fields.reset(new wildFields(mesh));
     fields->change();
-    flow = flowOf();
+    flow = present();
 
     // A jump is larger than what the velocity changes by over a small part of a
     // mesh cell

@@ -78,15 +78,19 @@ def make_poses():
     return poses + [("in the aperture, 0.1", (0, -1.6, 5), Y), ("far from walls", (8, -12, 5), (1, 1, 1))]
 
 
-def write_walls(file):
-    """The device in few triangles, an STL in um."""
+def make_device():
+    """The walls, rectangles of four corners [um]."""
     x0, x1, y0, y1 = CHANNEL
     edges = [pair for post in POSTS for pair in zip(post, post[1:] + post[:1])]
     edges += [((x0, y0), (x0, y1)), ((x1, y0), (x1, y1))]
-    squares = [((*a, 0), (*b, 0), (*b, DEPTH), (*a, DEPTH)) for a, b in edges]
-    squares += [((x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z)) for z in (0, DEPTH)]
+    walls = [((*a, 0), (*b, 0), (*b, DEPTH), (*a, DEPTH)) for a, b in edges]
+    return walls + [((x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z)) for z in (0, DEPTH)]
+
+
+def write_walls(file, walls):
+    """An STL in um, of few triangles."""
     with open(file, "w", encoding="utf-8") as out:
-        for a, b, c, d in squares:
+        for a, b, c, d in walls:
             for corners in ((a, b, c), (a, c, d)):
                 out.write("".join("vertex {:g} {:g} {:g}\n".format(*corner) for corner in corners))
 
@@ -119,9 +123,9 @@ def write_control(folder, **entries):
     (folder / "system/controlDict").write_text(control, encoding="utf-8")
 
 
-def motions(case, folder, poses, forces):
+def motions(case, folder, poses, forces, *entries):
     """Velocity [m/s] and spin [rad/s, body] of every cell by the program, in its first microsecond."""
-    make_case(case, folder, poses, f"forces {{ {forces} }}", "tracks { interval 1e-7; minimumMove 1e-12; }")
+    make_case(case, folder, poses, f"forces {{ {forces} }}", "tracks { interval 1e-7; minimumMove 1e-12; }", *entries)
     write_control(folder, endTime="1e-6", deltaT="1e-6", writeInterval="1e-6")
     run("ellipsoidTrapFoam -frozenFlow > log.ellipsoidTrapFoam 2>&1", folder)
     found = {}
@@ -154,11 +158,11 @@ def resolved_resistance(text, axis):
     return turn @ np.array([line.split()[:6] for line in text.splitlines() if line.startswith(" ")], float) @ turn.T
 
 
-def resolved(program, folder, poses, fineness):
+def resolved(program, folder, poses, fineness, walls=None, axes=AXES):
     """(velocity, spin, velocity of the flow at the centre, resistance over the free body's) of every cell, resolved."""
-    write_walls(folder / "walls.stl")
+    write_walls(folder / "walls.stl", walls or make_device())
     commands = [
-        " ".join([program, "walls.stl", *map(str, (*AXES, *x, *quaternion(axis), fineness))])
+        " ".join([program, "walls.stl", *map(str, (*axes, *x, *quaternion(axis), fineness))])
         for _, x, axis in poses
     ]
     panels = [np.array([line.split() for line in run(f"{one} -", folder).splitlines()], float) for one in commands]
@@ -173,7 +177,7 @@ def resolved(program, folder, poses, fineness):
     assert np.abs(sampled[:, :3] - 1e-6 * points).max() < 1e-11, "not all panels are in the fluid"
     velocities = np.split(sampled[:, 3:], np.cumsum([len(one) for one in panels]))
     free = np.diag(resolved_resistance(run(" ".join(
-        [program, "none", *map(str, (*AXES, 0, 0, 0, *quaternion(Y), fineness))]), folder), Y))
+        [program, "none", *map(str, (*axes, 0, 0, 0, *quaternion(Y), fineness))]), folder), Y))
     found = []
     for n, (_, _, axis) in enumerate(poses):
         np.savetxt(folder / "flow", np.column_stack((panels[n], velocities[n])), fmt="%.9g")

@@ -19,36 +19,31 @@ from pathlib import Path
 
 import numpy as np
 
-import poses
+from poses import MODELS, Y, motions, resolved
 
-RADIUS, POST, MIDDLE, SIDES = 2.8, 5, (110, 32), 32
+RADIUS, POST, MIDDLE, SIDES = 2.8, 5, (110, 32, 5), 32
 ANGLES, GAPS = (67.5, 45, 22.5, 0, -22.5, -45), (0.1, 0.3, 1)
 
 
-def write_walls(file):
-    """The post alone, an STL in um; its corners are those of the mesh."""
-    corners = [(x + POST*math.cos(turn), y + POST*math.sin(turn)) for x, y in (MIDDLE,)
-               for turn in (2*math.pi*k/SIDES for k in range(SIDES, 0, -1))]
-    with open(file, "w", encoding="utf-8") as out:
-        for p, q in zip(corners, corners[1:] + corners[:1]):
-            a, b, c, d = (*p, -3), (*q, -3), (*q, 13), (*p, 13)
-            for triangle in ((a, b, c), (a, c, d)):
-                out.write("".join("vertex {:g} {:g} {:g}\n".format(*corner) for corner in triangle))
+def make_post():
+    """The post alone, of rectangles; its corners are those of the mesh."""
+    x, y, _ = MIDDLE
+    turns = [2*math.pi*k/SIDES for k in range(SIDES, 0, -1)]
+    corners = [(x + POST*math.cos(turn), y + POST*math.sin(turn)) for turn in turns]
+    return [((*p, -3), (*q, -3), (*q, 13), (*p, 13)) for p, q in zip(corners, corners[1:] + corners[:1])]
 
 
 def main(program, case, folder, fineness="3"):
     """The table."""
     program, case, folder = str(Path(program).resolve()), Path(case), Path(folder)
     folder.mkdir()
-    poses.AXES, poses.write_walls = (RADIUS,)*3, write_walls
     size = f"{RADIUS}e-6"
     cell = f"cell {{ semiAxes ({size} {size} {size}); }} contact {{ beads 1; beadRadius {size}; }}"
     outward = [np.array((-math.sin(math.radians(angle)), math.cos(math.radians(angle)), 0)) for _ in GAPS for angle in ANGLES]
-    places = [np.array((*MIDDLE, 5)) + (POST + RADIUS + gap)*n for n, gap in zip(outward, np.repeat(GAPS, len(ANGLES)))]
-    listed = [("", place, poses.Y) for place in places]
-    models = {name: [u for u, _ in poses.motions(case, folder / name, listed, f"{forces} }} {cell} forces {{")]
-              for name, forces in poses.MODELS.items()}
-    truth = poses.resolved(program, folder / "none", listed, fineness)
+    places = [np.array(MIDDLE) + (POST + RADIUS + gap)*n for n, gap in zip(outward, np.repeat(GAPS, len(ANGLES)))]
+    listed = [("", place, Y) for place in places]
+    models = {name: [u for u, _ in motions(case, folder / name, listed, forces, cell)] for name, forces in MODELS.items()}
+    truth = resolved(program, folder / "none", listed, fineness, make_post(), (RADIUS,)*3)
     print("| gap [um] | angle | flow | resolved | " + " | ".join(models) + " |\n" + "| --- " * (4 + len(models)) + "|")
     for n, out in enumerate(outward):
         along, speed = np.array((out[1], -out[0], 0)), np.linalg.norm(truth[n][2])
