@@ -77,7 +77,7 @@ const char *ellipsoid_status_name(ellipsoid_status status);
 #define ELLIPSOID_WORD(enumerator, word, meaning) enumerator,
 #include "options.def"
 
-#define ELLIPSOID_MAX_FLOW_POINTS 50
+#define ELLIPSOID_MAX_FLOW_POINTS 12
 #define ELLIPSOID_MAX_BEADS 256
 
 /*

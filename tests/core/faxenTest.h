@@ -9,12 +9,11 @@
 
 #include "coreTest.h"
 
-static inline ellipsoid_model body(double a1, double a2, double a3, int points)
+static inline ellipsoid_model body(double a1, double a2, double a3)
 {
     ellipsoid_options o = test_free_cell();
 
     o.flow_at = ELLIPSOID_FLOW_BODY;
-    o.flow_points = points;
     o.pressure_gradient = ELLIPSOID_PRESSURE_NONE;
     o.motion = ELLIPSOID_MOTION_INERTIALESS;
     ellipsoid_set(o.semi_axes, a1, a2, a3);

@@ -28,7 +28,7 @@ static void mobility_at(test_walk *w, double matrix[6][6])
     ellipsoid_rotation(opposite, frame.axis);
     assert_ok(ellipsoid_find_planes(&w->model, &w->around, &w->state, &frame,
                                     w->cache, &planes));
-    ellipsoid_wall_expansion_set(&w->model, &planes, &w->state, &frame, &here);
+    ellipsoid_wall_expansion_set(&w->model, &planes, &w->state, &here);
     ellipsoid_wall_matrix(&w->model, &here, matrix);
     assert_true(ellipsoid_invert6(matrix));
 }

@@ -23,7 +23,7 @@ static void test_paper_cell_in_a_slit(void **unused)
         0};
     const double quarter = sqrt(0.5), height = 10e-6, mean = 4e-3;
     const double pose[2][4] = {{0, 0, 0, 1}, {quarter, 0, 0, quarter}};
-    const ellipsoid_model m = body(0.5e-6, 2e-6, 0.5e-6, 26);
+    const ellipsoid_model m = body(0.5e-6, 2e-6, 0.5e-6);
     const double reach[2] = {m.options.semi_axes[2], m.options.semi_axes[1]};
     test_quadratic flow = {.u = {0, 1.5 * mean, 0}};
 
@@ -103,7 +103,7 @@ typedef struct passage
 /* To the end; returns the attempts. */
 static long through_vortices(vortices *v, const passage *by, ellipsoid_state *s)
 {
-    ellipsoid_model m = body(0.5e-6, 2e-6, 0.5e-6, 26);
+    ellipsoid_model m = body(0.5e-6, 2e-6, 0.5e-6);
     ellipsoid_options o = m.options;
     const ellipsoid_surroundings around = {.flow = in_vortices,
                                            .flow_context = v,

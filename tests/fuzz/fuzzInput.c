@@ -135,7 +135,6 @@ static void read_integrator(fuzz_input *in, ellipsoid_options *o)
 
 ellipsoid_options fuzz_options(fuzz_input *in)
 {
-    static const int points[] = {26, 6, 14, 50};
     ellipsoid_options o = ellipsoid_options_default();
     const int parts = (int)fuzz_bits(in, 1);
     double size = 2e-6;
@@ -179,7 +178,6 @@ ellipsoid_options fuzz_options(fuzz_input *in)
     if (parts & 64)
     {
         o.flow_at = ELLIPSOID_FLOW_BODY;
-        o.flow_points = points[fuzz_choice(in, 4)];
     }
     if (parts & 128)
     {

@@ -37,9 +37,8 @@ static void check_points(const ellipsoid_model *model)
                 <= model->reach * (1 + 1e-14));
     }
 
-    require(o->flow_at == ELLIPSOID_FLOW_BODY
-                ? model->flow_points == o->flow_points
-                : model->flow_points == 0);
+    require(o->flow_at == ELLIPSOID_FLOW_BODY ? model->flow_points >= 10
+                                              : model->flow_points == 0);
     require(model->flow_points <= ELLIPSOID_MAX_FLOW_POINTS);
     for (int n = 0; n < model->flow_points; n++)
     {

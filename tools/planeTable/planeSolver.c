@@ -16,7 +16,7 @@
 #include <stdlib.h>
 
 /* The surface's velocity by motion m of those in (0) or across (1) the plane of
-   symmetry, and the shear flow as the fourth. */
+   symmetry, the shear flow as the fourth and that of a stagnation point. */
 static void velocity(const solver *v, int part, int m, const double x[3],
                      double u[3])
 {
@@ -27,6 +27,12 @@ static void velocity(const solver *v, int part, int m, const double x[3],
     if (m == 3)
     {
         u[part] = r[2];
+    }
+    else if (m == 4)
+    {
+        u[0] = r[0] * x[2];
+        u[1] = r[1] * x[2];
+        u[2] = -x[2] * x[2];
     }
     else if (part == 0)
     {
@@ -145,7 +151,7 @@ static int solve_part(const solver *v, int part, plane_functions *result)
     double(*block)[3] = part ? result->across : result->in;
     double *shear = part ? result->shear_across : result->shear_in;
     double(*right)[3] = malloc(3 * (size_t)v->count * sizeof(*right));
-    double sum[4][3] = {{0}};
+    double sum[5][3] = {{0}};
     int regular;
 
     if (!right)
@@ -177,7 +183,7 @@ static int solve_part(const solver *v, int part, plane_functions *result)
         plane_node_at(v, ring, sector, k, l, &s, &phi);
         weight = 2 * plane_place(v, s, phi, x) * v->weight[k] * v->weight[l]
                * pi / (v->mesh.rings * v->mesh.sectors);
-        for (int m = 0; m < 4; m++)
+        for (int m = 0; m < 5; m++)
         {
             double u[3];
 
@@ -195,6 +201,10 @@ static int solve_part(const solver *v, int part, plane_functions *result)
     for (int i = 0; i < 3; i++)
     {
         shear[i] = sum[3][i];
+        if (part == 0)
+        {
+            result->stagnation[i] = sum[4][i];
+        }
         for (int j = 0; j < 3; j++)
         {
             block[i][j] = 0.5 * (sum[i][j] + sum[j][i]);

@@ -28,12 +28,13 @@ typedef struct plane_mesh
     velocities (Ux, Uz, Wy), force and torque that keep it so (Fx, Fz, Ty), and
     across: (Uy, Wx, Wz). shear_in: force and torque on the held body in the flow
     (z - z of the centre) e_x, (Fx, Fz, Ty); shear_across: likewise along e_y,
-    (Fy, Tx, Tz).
+    (Fy, Tx, Tz). stagnation: in (x z, y z, -z^2), x and y from the centre, z from
+    the plane, (Fx, Fz, Ty).
 */
 typedef struct plane_functions
 {
     double in[3][3], across[3][3];
-    double shear_in[3], shear_across[3];
+    double shear_in[3], shear_across[3], stagnation[3];
     double asymmetry; /* largest difference of terms that should be equal, over
                          the root of the diagonal ones */
 } plane_functions;

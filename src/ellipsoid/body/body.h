@@ -55,9 +55,8 @@ typedef struct ellipsoid_body_wrench
    (invert6.c). */
 int ellipsoid_invert6(double matrix[6][6]);
 
-/* Puts the points of FLOW_BODY into the model; returns how many, 0 if the
-   options do not allow it (surfaceQuadrature.c). */
-int ellipsoid_surface_quadrature(ellipsoid_model *model);
+/* Puts the points of FLOW_BODY into the model (surfaceQuadrature.c). */
+void ellipsoid_surface_quadrature(ellipsoid_model *model);
 
 /* An ellipsoid in the lab. */
 typedef struct ellipsoid_surface

@@ -199,11 +199,8 @@ static void check_relations(verdict *v, const ellipsoid_options *o)
     const double *a = o->semi_axes;
     const double smallest = ellipsoid_smallest(a);
     const double largest = ellipsoid_largest(a);
-    const int points = o->flow_points;
 
     check_drag(v, o);
-    require(v, points == 6 || points == 14 || points == 26 || points == 50,
-            INDEX_flow_points, NULL);
     require(v,
             !matters(o, INDEX_wall_range) || o->wall_range == 0
                 || o->wall_range >= largest,

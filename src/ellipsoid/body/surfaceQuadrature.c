@@ -6,91 +6,44 @@
 */
 #include "body/body.h"
 
-/* A class of points: all that arise from one by signs and exchanges. */
-typedef struct point_class
+static void add_pair(ellipsoid_model *model, const double n[3], double weight)
 {
-    double point[3];
-    double weight;
-} point_class;
+    for (int sign = 1; sign >= -1; sign -= 2)
+    {
+        const int p = model->flow_points++;
+
+        for (int i = 0; i < 3; i++)
+        {
+            model->flow_point[p][i] = sign * model->options.semi_axes[i] * n[i];
+        }
+        model->flow_weight[p] = weight;
+    }
+}
 
 /*
-    Quadratures on the sphere with octahedral symmetry: Lebedev, USSR Comput.
-    Math. Math. Phys. 16, 10 (1976). 6, 14, 26 and 50 points are exact for
-    polynomials of degree 3, 5, 7 and 11.
+    The vertices of an icosahedron with a pole on the longest axis, in opposite
+    pairs, are exact to degree 5 (Stroud 1971, U3 5-1). With
+    three in place of five points in each of its two rings all is as exact but
+    the products of three coordinates across the axis and one or more along it,
+    which are small for slender bodies.
 */
-static const struct quadrature
+void ellipsoid_surface_quadrature(ellipsoid_model *model)
 {
-    int points, classes;
-    point_class class[4];
-} quadratures[] = {
-    {6, 1, {{{1, 0, 0}, 1.0 / 6}}},
-    {14, 2, {{{1, 0, 0}, 1.0 / 15}, {{1, 1, 1}, 3.0 / 40}}},
-    {26,
-     3,
-     {{{1, 0, 0}, 1.0 / 21}, {{1, 1, 0}, 4.0 / 105}, {{1, 1, 1}, 9.0 / 280}}},
-    {50,
-     4,
-     {{{1, 0, 0}, 4.0 / 315},
-      {{1, 1, 0}, 64.0 / 2835},
-      {{1, 1, 1}, 27.0 / 1280},
-      {{1, 1, 3}, 14641.0 / 725760}}},
-};
+    const double pi = 3.14159265358979323846, along = sqrt(0.2);
+    const double *a = model->options.semi_axes;
+    const int k = a[1] > a[0] ? (a[2] > a[1] ? 2 : 1) : (a[2] > a[0] ? 2 : 0);
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const int ring = a[k] >= 2 * fmax(a[i], a[j]) ? 4 : 5;
+    double n[3] = {0};
 
-static void add_point(ellipsoid_model *model, const double n[3], double weight)
-{
-    const double length = ellipsoid_length(n);
-    const int p = model->flow_points++;
-
-    for (int i = 0; i < 3; i++)
-    {
-        model->flow_point[p][i] = model->options.semi_axes[i] * n[i] / length;
-    }
-    model->flow_weight[p] = weight;
-}
-
-/* All signs of the numbers that are not zero; after each point the one
-   opposite. */
-static void add_signs(ellipsoid_model *model, const double n[3], double weight)
-{
-    for (int sign = 0; sign < 8; sign++)
-    {
-        const double s[3] = {sign & 1 ? -1 : 1, sign & 2 ? -1 : 1,
-                             sign & 4 ? -1 : 1};
-        const double point[3] = {s[0] * n[0], s[1] * n[1], s[2] * n[2]};
-        const double opposite[3] = {-point[0], -point[1], -point[2]};
-        const double first = n[0] > 0 ? s[0] : n[1] > 0 ? s[1] : s[2];
-
-        if (first > 0 && (n[0] > 0 || s[0] > 0) && (n[1] > 0 || s[1] > 0)
-            && (n[2] > 0 || s[2] > 0))
-        {
-            add_point(model, point, weight);
-            add_point(model, opposite, weight);
-        }
-    }
-}
-
-int ellipsoid_surface_quadrature(ellipsoid_model *model)
-{
     model->flow_points = 0;
-    for (size_t q = 0; q < sizeof quadratures / sizeof *quadratures; q++)
+    n[k] = 1;
+    add_pair(model, n, 1.0 / 12);
+    n[k] = along;
+    for (int p = 0; p < ring; p++)
     {
-        if (quadratures[q].points != model->options.flow_points)
-        {
-            continue;
-        }
-        for (int c = 0; c < quadratures[q].classes; c++)
-        {
-            const double *n = quadratures[q].class[c].point;
-            const double weight = quadratures[q].class[c].weight;
-
-            /* two of the three numbers are always equal */
-            add_signs(model, n, weight);
-            if (n[0] != n[2])
-            {
-                add_signs(model, (const double[3]){n[2], n[0], n[1]}, weight);
-                add_signs(model, (const double[3]){n[1], n[2], n[0]}, weight);
-            }
-        }
+        n[i] = 2 * along * cos(2 * pi * p / ring);
+        n[j] = 2 * along * sin(2 * pi * p / ring);
+        add_pair(model, n, 5.0 / 12 / ring);
     }
-    return model->flow_points;
 }

@@ -120,7 +120,7 @@ ellipsoid_status ellipsoid_wall_noise_begin(
         return status;
     }
     noise->start = t;
-    ellipsoid_wall_expansion_set(model, &planes, state, &frame, &here);
+    ellipsoid_wall_expansion_set(model, &planes, state, &here);
     ellipsoid_wall_matrix(model, &here, noise->factor);
     if (!factorise(noise->factor))
     {

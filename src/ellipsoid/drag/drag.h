@@ -121,7 +121,6 @@ typedef struct ellipsoid_plane_effect
 /* A wall as the body sees it; slopes, by the pose, only where asked for. */
 typedef struct ellipsoid_plane
 {
-    double wall[3]; /* unit normal, lab, into the fluid */
     ellipsoid_plane_effect effect;
     double gap[2];    /* [m] of each action, at least the lubrication_gap */
     double weight[2]; /* [-] of each action: 1 on a wall without end */
@@ -158,6 +157,38 @@ void ellipsoid_plane_action(ellipsoid_plane_effect *effect,
                             const double shear[3], double action[2][6],
                             double change[4][2][6]);
 
+/* Where a body is nearest to a plane (wallFit.c). */
+typedef struct ellipsoid_wall_fit
+{
+    double towards;       /* [-] k */
+    double nearest[3];    /* [m] r */
+    double support;       /* [m] how far r is along the normal */
+    double inverse[3][3]; /* [1/m2] */
+} ellipsoid_wall_fit;
+
+/* What the planes' functions meet of a gradient of the flow, or its derivatives:
+   the motion u [m/s], omega [1/s] besides the free one, and the shear [1/s]. */
+typedef struct ellipsoid_fitted
+{
+    double motion[6], shear[3];
+} ellipsoid_fitted;
+
+/* The normal is in the body frame. */
+void ellipsoid_wall_fit_set(const ellipsoid_model *model,
+                            const double normal[3], ellipsoid_wall_fit *fit);
+
+/* What `column` (ellipsoid_plane_effect) do by each component of the gradient,
+   body frame, [3 i + j]: du_i/dx_j. */
+void ellipsoid_wall_fit_columns(const double a[3], const double normal[3],
+                                ellipsoid_wall_fit *fit, double column[9][6],
+                                double by[9][6]);
+
+/* In a gradient g, body frame; change: by each component of the normal. */
+void ellipsoid_wall_fit_slopes(const double a[3], const double normal[3],
+                               double g[3][3], ellipsoid_wall_fit *fit,
+                               ellipsoid_fitted *value,
+                               ellipsoid_fitted change[3]);
+
 /* What the drag near walls depends on besides the pose. */
 typedef struct ellipsoid_near_walls
 {
@@ -165,11 +196,11 @@ typedef struct ellipsoid_near_walls
     ellipsoid_planes *planes;
     ellipsoid_frame *frame;
     const ellipsoid_free_motion *free;
-    const ellipsoid_flow_sample *flow;
+    ellipsoid_flow_sample *flow;
 } ellipsoid_near_walls;
 
-/* The motion that the planes act on: u_free - u, omega_free - omega, u, omega in
-   the body frame, and the flow's gradient in the lab. */
+/* The motion that the planes act on: u_free - u, omega_free - omega, u, omega
+   and the flow's gradient at the centre, all in the body frame. */
 #define ELLIPSOID_WALL_MOTION 21
 
 /*
@@ -190,7 +221,6 @@ typedef struct ellipsoid_wall_expansion
 void ellipsoid_wall_expansion_set(const ellipsoid_model *model,
                                   ellipsoid_planes *planes,
                                   const ellipsoid_state *state,
-                                  ellipsoid_frame *frame,
                                   ellipsoid_wall_expansion *expansion);
 
 /* mu (diag(K, C) + what the planes add), body frame. */

@@ -7,12 +7,12 @@
         (F^, T^) = mu (diag(K^, C) + sum_planes A(n^, g))
                    (R^T (u_free - u), omega_free - w^)
                  - mu sum_planes Q(n^, g) (R^T u, w^)
-                 + mu sum_planes D(n^, g) gamma^,
-    with the free motion as it is far from walls and gamma = (I - n n) G n of the
-    flow at the centre (planeFunctions.c, wallPlanes.c): a plane resists motion,
-    squeezing (Q) that relative to the wall, and holds back a body that the shear
-    along it carries. At a pose all this is linear in the rates, the velocity and
-    G.
+                 + mu sum_planes (A(n^, g) d(n^, G^) + D(n^, g) gamma^),
+    with the free motion as it is far from walls, d what the flow's gradient adds to
+    it near one (wallFit.c), and gamma = (I - n n) G n (planeFunctions.c,
+    wallPlanes.c): a plane resists motion, squeezing (Q) that relative to the wall,
+    and holds back a body that the shear along it carries. At a pose all this is
+    linear in the rates, the velocity and G.
 */
 #include "drag/drag.h"
 
@@ -26,12 +26,15 @@ enum
     NEAR = ELLIPSOID_PLANE_NEAR
 };
 
-static void add_plane(double viscosity, ellipsoid_plane *plane,
-                      ellipsoid_frame *frame, ellipsoid_wall_expansion *e)
+static void add_plane(const ellipsoid_model *model, ellipsoid_plane *plane,
+                      ellipsoid_wall_expansion *e)
 {
     ellipsoid_plane_effect *effect = &plane->effect;
-    const double far = viscosity * plane->weight[FAR], *n = plane->wall;
+    const double *a = model->options.semi_axes, viscosity = model->viscosity;
+    const double far = viscosity * plane->weight[FAR];
     const double near = viscosity * plane->weight[NEAR] * effect->squeeze;
+    double by_gradient[9][6];
+    ellipsoid_wall_fit fit;
 
     for (int m = 0; m < 6; m++)
     {
@@ -39,28 +42,18 @@ static void add_plane(double viscosity, ellipsoid_plane *plane,
         ellipsoid_add6(-near * effect->row[m], effect->row,
                        e->by[VELOCITY + m]);
     }
-    for (int i = 0; i < 3; i++)
+    ellipsoid_wall_fit_set(model, effect->normal, &fit);
+    ellipsoid_wall_fit_columns(a, effect->normal, &fit, effect->column,
+                               by_gradient);
+    for (int n = 0; n < 9; n++)
     {
-        double driven[6] = {0}; /* by component i of G n */
-
-        for (int c = 0; c < 3; c++)
-        {
-            const double *axis = frame->axis[c];
-
-            ellipsoid_add6(far * (axis[i] - ellipsoid_dot(axis, n) * n[i]),
-                           effect->column[6 + c], driven);
-        }
-        for (int j = 0; j < 3; j++)
-        {
-            ellipsoid_add6(n[j], driven, e->by[GRADIENT + 3 * i + j]);
-        }
+        ellipsoid_add6(far, by_gradient[n], e->by[GRADIENT + n]);
     }
 }
 
 void ellipsoid_wall_expansion_set(const ellipsoid_model *model,
                                   ellipsoid_planes *planes,
                                   const ellipsoid_state *state,
-                                  ellipsoid_frame *frame,
                                   ellipsoid_wall_expansion *e)
 {
     e->planes = planes->count;
@@ -70,7 +63,7 @@ void ellipsoid_wall_expansion_set(const ellipsoid_model *model,
     memset(e->by_pose, 0, sizeof(e->by_pose));
     for (int p = 0; p < planes->count; p++)
     {
-        add_plane(model->viscosity, &planes->at[p], frame, e);
+        add_plane(model, &planes->at[p], e);
     }
 }
 
@@ -137,6 +130,19 @@ static void add_lab(double axis[3][3], const double body[3], double lab[3])
     ellipsoid_add(lab, turned);
 }
 
+/* Adds left_i.(G right_j), as [3 i + j]. */
+static void add_turned(double g[3][3], double left[3][3], double right[3][3],
+                       double sum[9])
+{
+    for (int n = 0; n < 9; n++)
+    {
+        for (int i = 0; i < 3; i++)
+        {
+            sum[n] += left[n / 3][i] * ellipsoid_dot(g[i], right[n % 3]);
+        }
+    }
+}
+
 static void set_motion(const ellipsoid_near_walls *near,
                        const ellipsoid_state *state, double motion[MOTION])
 {
@@ -146,8 +152,9 @@ static void set_motion(const ellipsoid_near_walls *near,
     ellipsoid_difference(near->free->omega, state->omega, turn);
     to_body(near->frame->axis, outrun, turn, motion);
     to_body(near->frame->axis, state->u, state->omega, motion + VELOCITY);
-    memcpy(motion + GRADIENT, near->flow->gradient,
-           sizeof(near->flow->gradient));
+    memset(motion + GRADIENT, 0, 9 * sizeof(*motion));
+    add_turned(near->flow->gradient, near->frame->axis, near->frame->axis,
+               motion + GRADIENT);
 }
 
 void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
@@ -165,27 +172,26 @@ void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
     ellipsoid_add(wrench->torque, action + 3);
 }
 
-/* How what the planes add changes with the pose while the motion stays, but the
-   gradient in the lab. */
+/* How what the planes add changes with the pose while the motion stays. */
 static void add_slopes(const ellipsoid_near_walls *near, ellipsoid_plane *plane,
                        ellipsoid_wall_expansion *e)
 {
-    const double mu = near->model->viscosity, *n = plane->wall;
-    double lab[3], shear[3], action[2][6], by[4][2][6], along;
-    double turned[3][6] = {{0}}; /* by the normal in the body frame */
+    const double *a = near->model->options.semi_axes;
+    const double mu = near->model->viscosity;
+    const double far = mu * plane->weight[FAR];
+    ellipsoid_plane_effect *effect = &plane->effect;
+    double rates[6], action[2][6], by[4][2][6], g[3][3];
+    double turned[3][6] = {{0}}; /* by the normal */
+    ellipsoid_fitted fitted, change[3];
+    ellipsoid_wall_fit fit;
 
-    for (int i = 0; i < 3; i++)
-    {
-        lab[i] = ellipsoid_dot(near->flow->gradient[i], n);
-    }
-    along = ellipsoid_dot(n, lab);
-    for (int i = 0; i < 3; i++)
-    {
-        lab[i] -= along * n[i]; /* (I - n n) G n */
-    }
-    ellipsoid_product(near->frame->axis, lab, shear);
-    ellipsoid_plane_action(&plane->effect, e->motion, e->motion + VELOCITY,
-                           shear, action, by);
+    memcpy(g, e->motion + GRADIENT, sizeof(g));
+    ellipsoid_wall_fit_set(near->model, effect->normal, &fit);
+    ellipsoid_wall_fit_slopes(a, effect->normal, g, &fit, &fitted, change);
+    memcpy(rates, e->motion, sizeof(rates));
+    ellipsoid_add6(1, fitted.motion, rates);
+    ellipsoid_plane_action(effect, rates, e->motion + VELOCITY, fitted.shear,
+                           action, by);
     for (int m = 0; m < 2; m++)
     {
         const double weight = mu * plane->weight[m];
@@ -202,15 +208,21 @@ static void add_slopes(const ellipsoid_near_walls *near, ellipsoid_plane *plane,
             ellipsoid_add6(weight, by[c][m], turned[c]);
         }
     }
-    for (int l = 3; l < POSE; l++)
+    for (int c = 0; c < 3; c++)
     {
-        for (int c = 0; c < 3; c++)
+        for (int m = 0; m < 6; m++)
         {
-            const double *axis = near->frame->by_q[l - 3][c];
-
+            ellipsoid_add6(far * change[c].motion[m], effect->column[m],
+                           turned[c]);
+        }
+        for (int i = 0; i < 3; i++)
+        {
+            ellipsoid_add6(far * change[c].shear[i], effect->column[6 + i],
+                           turned[c]);
+        }
+        for (int l = 3; l < POSE; l++)
+        {
             ellipsoid_add6(plane->normal_slope[l][c], turned[c], e->by_pose[l]);
-            ellipsoid_add6(mu * plane->weight[FAR] * ellipsoid_dot(axis, lab),
-                           plane->effect.column[6 + c], e->by_pose[l]);
         }
     }
 }
@@ -263,13 +275,14 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
         const double omega[3] = {free->omega_x[0][l], free->omega_x[1][l],
                                  free->omega_x[2][l]};
         double moved[MOTION] = {0}, pushed[MOTION] = {0}, turned[MOTION] = {0};
+        double bent[3][3];
 
         to_body(axis, u, omega, moved);
         for (int i = 0; i < 9; i++)
         {
-            moved[GRADIENT + i] =
-                near->flow->gradient_jacobian[i / 3][i % 3][l];
+            bent[i / 3][i % 3] = near->flow->gradient_jacobian[i / 3][i % 3][l];
         }
+        add_turned(bent, axis, axis, moved + GRADIENT);
         for (int i = 0; i < 3; i++)
         {
             pushed[VELOCITY + i] = axis[i][l];
@@ -298,6 +311,8 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
                 near->model->flow_points > 0 ? ellipsoid_dot(axis[i], u) : 0;
             moved[i + 3] = free->omega_q[i][n];
         }
+        add_turned(near->flow->gradient, by_q, axis, moved + GRADIENT);
+        add_turned(near->flow->gradient, axis, by_q, moved + GRADIENT);
         add_column(near, e, moved, e->by_pose[n + 3], &b->uq[0][n],
                    &b->wq[0][n], 4);
         ellipsoid_combination(by_q, action[0], action[1], action[2], turned);

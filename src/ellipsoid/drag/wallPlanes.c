@@ -257,7 +257,6 @@ static int set_plane(const view *s, const wall *walls, int count, const wall *w,
         return 0;
     }
     set_whole(walls, count, w, sloped, &whole);
-    ellipsoid_copy(w->normal, plane->wall);
     plane->weight[FAR] = w->fade * w->part[FAR];
     plane->weight[NEAR] = w->fade * part * whole.value;
     plane->gap[NEAR] = g;

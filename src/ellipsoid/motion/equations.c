@@ -54,8 +54,7 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
     ellipsoid_copy(e->torque, wrench.torque);
     if (!cell->about)
     {
-        ellipsoid_wall_expansion_set(e->model, &planes, e->state, &frame,
-                                     &at->walls);
+        ellipsoid_wall_expansion_set(e->model, &planes, e->state, &at->walls);
     }
     if (balanced)
     {
