@@ -19,6 +19,9 @@ typedef struct ellipsoid_free_motion
     double omega[3]; /* [rad/s] body */
     double u_x[3][3], u_q[3][4];
     double omega_x[3][3], omega_q[3][4];
+    /* [b][i], [1/s]: the flow's gradient along the body axis b, lab, averaged over
+       the surface, and its derivatives; only of FLOW_BODY */
+    double along[3][3], along_x[3][3][3], along_q[3][3][4];
 } ellipsoid_free_motion;
 
 /* The free motion by FLOW_BODY at x, where the flow is centre_velocity. */
@@ -166,28 +169,21 @@ typedef struct ellipsoid_wall_fit
     double inverse[3][3]; /* [1/m2] */
 } ellipsoid_wall_fit;
 
-/* What the planes' functions meet of a gradient of the flow, or its derivatives:
-   the motion u [m/s], omega [1/s] besides the free one, and the shear [1/s]. */
-typedef struct ellipsoid_fitted
-{
-    double motion[6], shear[3];
-} ellipsoid_fitted;
-
 /* The normal is in the body frame. */
 void ellipsoid_wall_fit_set(const ellipsoid_model *model,
                             const double normal[3], ellipsoid_wall_fit *fit);
 
-/* What `column` (ellipsoid_plane_effect) do by each component of the gradient,
-   body frame, [3 i + j]: du_i/dx_j. */
+/* What the columns of a motion (ellipsoid_plane_effect) do by each component of
+   the mean gradient, body frame, [3 i + j]: du_i/dx_j. */
 void ellipsoid_wall_fit_columns(const double a[3], const double normal[3],
                                 ellipsoid_wall_fit *fit, double column[9][6],
                                 double by[9][6]);
 
-/* In a gradient g, body frame; change: by each component of the normal. */
-void ellipsoid_wall_fit_slopes(const double a[3], const double normal[3],
+/* The motion u [m/s], omega [1/s] in a mean gradient g, body frame; change: by each
+   component of the normal. */
+void ellipsoid_wall_fit_motion(const double a[3], const double normal[3],
                                double g[3][3], ellipsoid_wall_fit *fit,
-                               ellipsoid_fitted *value,
-                               ellipsoid_fitted change[3]);
+                               double motion[6], double change[3][6]);
 
 /* What the drag near walls depends on besides the pose. */
 typedef struct ellipsoid_near_walls
@@ -199,9 +195,9 @@ typedef struct ellipsoid_near_walls
     ellipsoid_flow_sample *flow;
 } ellipsoid_near_walls;
 
-/* The motion that the planes act on: u_free - u, omega_free - omega, u, omega
-   and the flow's gradient at the centre, all in the body frame. */
-#define ELLIPSOID_WALL_MOTION 21
+/* The motion that the planes act on: u_free - u, omega_free - omega, u, omega and the
+   flow's gradient, at the centre and averaged, all in the body frame. */
+#define ELLIPSOID_WALL_MOTION 30
 
 /*
     What the planes add at one pose to force [N] and torque [N m], body frame: by

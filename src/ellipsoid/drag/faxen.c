@@ -145,6 +145,36 @@ static void set_derivatives(const moments *sums, ellipsoid_frame *frame,
     }
 }
 
+/* The gradient that a linear flow of these moments has, and its derivatives. */
+static void set_along(const double a[3], const moments *sums,
+                      ellipsoid_frame *frame, ellipsoid_free_motion *free)
+{
+    for (int b = 0; b < 3; b++)
+    {
+        const double scale = 3 / (a[b] * a[b]);
+
+        for (int i = 0; i < 3; i++)
+        {
+            free->along[b][i] = scale * sums->u[b][i];
+            for (int l = 0; frame->by_q && l < 3; l++)
+            {
+                free->along_x[b][i][l] = scale * sums->cg[b][i][l];
+            }
+            for (int n = 0; frame->by_q && n < 4; n++)
+            {
+                free->along_q[b][i][n] = 0;
+                for (int s = 0; s < 3; s++)
+                {
+                    free->along_q[b][i][n] +=
+                        scale
+                        * ellipsoid_dot(sums->ccg[pair[b][s]][i],
+                                        frame->by_q[n][s]);
+                }
+            }
+        }
+    }
+}
+
 /* 3 <(x^ x u^)_i> / (a_j^2 + a_k^2), and as much of its derivatives. */
 static void set_spin(const double a[3], const moments *sums,
                      ellipsoid_frame *frame, ellipsoid_free_motion *free)
@@ -237,5 +267,9 @@ ellipsoid_status ellipsoid_faxen(const ellipsoid_model *model,
         set_derivatives(&sums, frame, free);
     }
     set_spin(a, &sums, frame, free);
+    if (model->wall_range > 0)
+    {
+        set_along(a, &sums, frame, free);
+    }
     return ELLIPSOID_OK;
 }

@@ -22,6 +22,7 @@ enum
     MOTION = ELLIPSOID_WALL_MOTION,
     VELOCITY = 6, /* where these begin in the motion */
     GRADIENT = 12,
+    MEAN = 21,
     FAR = ELLIPSOID_PLANE_FAR,
     NEAR = ELLIPSOID_PLANE_NEAR
 };
@@ -30,10 +31,11 @@ static void add_plane(const ellipsoid_model *model, ellipsoid_plane *plane,
                       ellipsoid_wall_expansion *e)
 {
     ellipsoid_plane_effect *effect = &plane->effect;
-    const double *a = model->options.semi_axes, viscosity = model->viscosity;
+    const double *a = model->options.semi_axes, *n = effect->normal;
+    const double viscosity = model->viscosity;
     const double far = viscosity * plane->weight[FAR];
     const double near = viscosity * plane->weight[NEAR] * effect->squeeze;
-    double by_gradient[9][6];
+    double by_mean[9][6], along[6] = {0};
     ellipsoid_wall_fit fit;
 
     for (int m = 0; m < 6; m++)
@@ -43,11 +45,21 @@ static void add_plane(const ellipsoid_model *model, ellipsoid_plane *plane,
                        e->by[VELOCITY + m]);
     }
     ellipsoid_wall_fit_set(model, effect->normal, &fit);
-    ellipsoid_wall_fit_columns(a, effect->normal, &fit, effect->column,
-                               by_gradient);
-    for (int n = 0; n < 9; n++)
+    ellipsoid_wall_fit_columns(a, n, &fit, effect->column, by_mean);
+    for (int i = 0; i < 3; i++)
     {
-        ellipsoid_add6(far, by_gradient[n], e->by[GRADIENT + n]);
+        ellipsoid_add6(far * n[i], effect->column[6 + i], along);
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        for (int j = 0; j < 3; j++)
+        {
+            double *by = e->by[GRADIENT + 3 * i + j];
+
+            ellipsoid_add6(far * n[j], effect->column[6 + i], by);
+            ellipsoid_add6(-n[i] * n[j], along, by);
+            ellipsoid_add6(far, by_mean[3 * i + j], e->by[MEAN + 3 * i + j]);
+        }
     }
 }
 
@@ -153,6 +165,13 @@ static void set_motion(const ellipsoid_near_walls *near,
     to_body(near->frame->axis, outrun, turn, motion);
     to_body(near->frame->axis, state->u, state->omega, motion + VELOCITY);
     memset(motion + GRADIENT, 0, 9 * sizeof(*motion));
+    for (int n = 0; n < 9; n++)
+    {
+        motion[MEAN + n] = near->model->flow_points > 0
+                             ? ellipsoid_dot(near->frame->axis[n / 3],
+                                             near->free->along[n % 3])
+                             : 0;
+    }
     add_turned(near->flow->gradient, near->frame->axis, near->frame->axis,
                motion + GRADIENT);
 }
@@ -180,18 +199,40 @@ static void add_slopes(const ellipsoid_near_walls *near, ellipsoid_plane *plane,
     const double mu = near->model->viscosity;
     const double far = mu * plane->weight[FAR];
     ellipsoid_plane_effect *effect = &plane->effect;
-    double rates[6], action[2][6], by[4][2][6], g[3][3];
+    const double *n = effect->normal;
+    double rates[6], action[2][6], by[4][2][6], g[3][3], mean[3][3];
+    double shear[3], back[3], along, change[3][6];
     double turned[3][6] = {{0}}; /* by the normal */
-    ellipsoid_fitted fitted, change[3];
     ellipsoid_wall_fit fit;
 
     memcpy(g, e->motion + GRADIENT, sizeof(g));
-    ellipsoid_wall_fit_set(near->model, effect->normal, &fit);
-    ellipsoid_wall_fit_slopes(a, effect->normal, g, &fit, &fitted, change);
-    memcpy(rates, e->motion, sizeof(rates));
-    ellipsoid_add6(1, fitted.motion, rates);
-    ellipsoid_plane_action(effect, rates, e->motion + VELOCITY, fitted.shear,
-                           action, by);
+    memcpy(mean, e->motion + MEAN, sizeof(mean));
+    ellipsoid_wall_fit_set(near->model, n, &fit);
+    ellipsoid_wall_fit_motion(a, n, mean, &fit, rates, change);
+    ellipsoid_add6(1, e->motion, rates);
+    ellipsoid_product(g, n, shear);
+    ellipsoid_combination(g, n[0], n[1], n[2], back);
+    along = ellipsoid_dot(n, shear);
+    for (int c = 0; c < 3; c++)
+    {
+        for (int m = 0; m < 6; m++)
+        {
+            ellipsoid_add6(far * change[c][m], effect->column[m], turned[c]);
+        }
+        for (int i = 0; i < 3; i++)
+        {
+            ellipsoid_add6(far
+                               * (g[i][c] - (i == c) * along
+                                  - n[i] * (shear[c] + back[c])),
+                           effect->column[6 + i], turned[c]);
+        }
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        shear[i] -= along * n[i];
+    }
+    ellipsoid_plane_action(effect, rates, e->motion + VELOCITY, shear, action,
+                           by);
     for (int m = 0; m < 2; m++)
     {
         const double weight = mu * plane->weight[m];
@@ -210,16 +251,6 @@ static void add_slopes(const ellipsoid_near_walls *near, ellipsoid_plane *plane,
     }
     for (int c = 0; c < 3; c++)
     {
-        for (int m = 0; m < 6; m++)
-        {
-            ellipsoid_add6(far * change[c].motion[m], effect->column[m],
-                           turned[c]);
-        }
-        for (int i = 0; i < 3; i++)
-        {
-            ellipsoid_add6(far * change[c].shear[i], effect->column[6 + i],
-                           turned[c]);
-        }
         for (int l = 3; l < POSE; l++)
         {
             ellipsoid_add6(plane->normal_slope[l][c], turned[c], e->by_pose[l]);
@@ -260,6 +291,7 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
 {
     static const double none[6];
     const ellipsoid_free_motion *free = near->free;
+    const int averaged = near->model->flow_points > 0;
     double(*axis)[3] = near->frame->axis, outrun[3], action[6] = {0};
 
     for (int p = 0; p < near->planes->count; p++)
@@ -283,6 +315,13 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
             bent[i / 3][i % 3] = near->flow->gradient_jacobian[i / 3][i % 3][l];
         }
         add_turned(bent, axis, axis, moved + GRADIENT);
+        for (int m = 0; averaged && m < 9; m++)
+        {
+            for (int i = 0; i < 3; i++)
+            {
+                moved[MEAN + m] += axis[m / 3][i] * free->along_x[m % 3][i][l];
+            }
+        }
         for (int i = 0; i < 3; i++)
         {
             pushed[VELOCITY + i] = axis[i][l];
@@ -307,12 +346,21 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
             const double u[3] = {free->u_q[0][n], free->u_q[1][n],
                                  free->u_q[2][n]};
 
-            moved[i] +=
-                near->model->flow_points > 0 ? ellipsoid_dot(axis[i], u) : 0;
+            moved[i] += averaged ? ellipsoid_dot(axis[i], u) : 0;
             moved[i + 3] = free->omega_q[i][n];
         }
         add_turned(near->flow->gradient, by_q, axis, moved + GRADIENT);
         add_turned(near->flow->gradient, axis, by_q, moved + GRADIENT);
+        for (int m = 0; averaged && m < 9; m++)
+        {
+            const int b = m % 3;
+
+            moved[MEAN + m] = ellipsoid_dot(by_q[m / 3], free->along[b]);
+            for (int i = 0; i < 3; i++)
+            {
+                moved[MEAN + m] += axis[m / 3][i] * free->along_q[b][i][n];
+            }
+        }
         add_column(near, e, moved, e->by_pose[n + 3], &b->uq[0][n],
                    &b->wq[0][n], 4);
         ellipsoid_combination(by_q, action[0], action[1], action[2], turned);

@@ -83,8 +83,7 @@ void ellipsoid_wall_fit_columns(const double a[3], const double n[3],
                                 ellipsoid_wall_fit *fit, double column[9][6],
                                 double by[9][6])
 {
-    double by_s[3][6] = {{0}}, tangent[3][6] = {{0}}, shear[3][6];
-    double along[2][6] = {{0}};
+    double by_s[3][6] = {{0}}, of_n[3][6] = {{0}}, along[6] = {0};
 
     for (int i = 0; i < 3; i++)
     {
@@ -97,7 +96,7 @@ void ellipsoid_wall_fit_columns(const double a[3], const double n[3],
             ellipsoid_add6(motion[m], column[m], by_s[i]);
         }
     }
-    /* by all of the strain, symmetric; its product with n; D's along n */
+    /* by all of the strain, symmetric; then without (I - n n) E n */
     for (int i = 0; i < 3; i++)
     {
         for (int j = 0; j < 3; j++)
@@ -107,70 +106,61 @@ void ellipsoid_wall_fit_columns(const double a[3], const double n[3],
             memset(sum, 0, 6 * sizeof(*sum));
             ellipsoid_add6(0.5 * left(a, i, j) * fit->nearest[j], by_s[i], sum);
             ellipsoid_add6(0.5 * left(a, j, i) * fit->nearest[i], by_s[j], sum);
-            ellipsoid_add6(n[j], sum, tangent[i]);
+            ellipsoid_add6(n[j], sum, of_n[i]);
         }
-        ellipsoid_add6(n[i], tangent[i], along[0]);
-        ellipsoid_add6(n[i], column[6 + i], along[1]);
+        ellipsoid_add6(n[i], of_n[i], along);
     }
     for (int i = 0; i < 3; i++)
     {
-        ellipsoid_add6(-n[i], along[0], tangent[i]);
-        memcpy(shear[i], column[6 + i], sizeof(shear[i]));
-        ellipsoid_add6(-n[i], along[1], shear[i]);
-        ellipsoid_add6(-1, tangent[i], shear[i]);
+        ellipsoid_add6(-n[i], along, of_n[i]);
     }
     for (int i = 0; i < 3; i++)
     {
         for (int j = 0; j < 3; j++)
         {
-            ellipsoid_add6(n[j], shear[i], by[3 * i + j]);
-            ellipsoid_add6(-n[i], tangent[j], by[3 * i + j]);
+            ellipsoid_add6(-n[j], of_n[i], by[3 * i + j]);
+            ellipsoid_add6(-n[i], of_n[j], by[3 * i + j]);
         }
     }
 }
 
-void ellipsoid_wall_fit_slopes(const double a[3], const double n[3],
+void ellipsoid_wall_fit_motion(const double a[3], const double n[3],
                                double g[3][3], ellipsoid_wall_fit *fit,
-                               ellipsoid_fitted *value,
-                               ellipsoid_fitted change[3])
+                               double motion[6], double change[3][6])
 {
-    const double *r = fit->nearest, *w = value->motion + 3, k = fit->towards;
-    double *shear = value->shear, strain[3][3], bent[4][3], s[3] = {0};
-    double back[3], of_n[3], along;
+    const double *r = fit->nearest, *w = motion + 3, k = fit->towards;
+    double whole[3][3], strain[3][3], of_n[3], bent[4][3], s[3] = {0}, along;
 
-    ellipsoid_product(g, n, shear);
-    ellipsoid_combination(g, n[0], n[1], n[2], back);
-    along = ellipsoid_dot(n, shear);
-    /* bent: (I - n n) E n; its derivatives by the normal */
     for (int i = 0; i < 3; i++)
     {
-        of_n[i] = 0.5 * (shear[i] + back[i]);
-        bent[3][i] = of_n[i] - along * n[i];
-    }
-    for (int c = 0; c < 3; c++)
-    {
-        for (int i = 0; i < 3; i++)
-        {
-            change[c].shear[i] =
-                g[i][c] - (i == c) * along - 2 * n[i] * of_n[c];
-            bent[c][i] = 0.5 * (g[i][c] + g[c][i]) - (i == c) * along
-                       - 2 * n[i] * of_n[c];
-        }
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        shear[i] -= along * n[i];
         for (int j = 0; j < 3; j++)
         {
-            strain[i][j] = 0.5 * (g[i][j] + g[j][i]) - bent[3][i] * n[j]
-                         - n[i] * bent[3][j];
+            whole[i][j] = 0.5 * (g[i][j] + g[j][i]);
+        }
+    }
+    ellipsoid_product(whole, n, of_n);
+    along = ellipsoid_dot(n, of_n);
+    /* (I - n n) E n, after its derivatives by the normal */
+    for (int i = 0; i < 3; i++)
+    {
+        for (int c = 0; c < 3; c++)
+        {
+            bent[c][i] = whole[i][c] - (i == c) * along - 2 * n[i] * of_n[c];
+        }
+        bent[3][i] = of_n[i] - along * n[i];
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        for (int j = 0; j < 3; j++)
+        {
+            strain[i][j] = whole[i][j] - bent[3][i] * n[j] - n[i] * bent[3][j];
             s[i] += left(a, i, j) * strain[i][j] * r[j];
         }
     }
-    set_motion(fit, s, value->motion);
+    set_motion(fit, s, motion);
     for (int c = 0; c < 3; c++)
     {
-        double *u_c = change[c].motion, *w_c = u_c + 3;
+        double *u_c = change[c], *w_c = u_c + 3;
         double r_c[3], s_c[3] = {0}, moment[3], turned[2][3];
 
         for (int i = 0; i < 3; i++)
