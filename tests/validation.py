@@ -84,9 +84,10 @@ def differences(rows, table, tests, full):
     return [f"- {' | '.join(row)}" for row in sorted(then - now)] + [f"+ {' | '.join(row)}" for row in sorted(now - then)]
 
 
-def merged(rows, table, tests):
+def merged(rows, table, tests, full):
     """The rows to write: those of tests that were not run stay, and those that have not moved."""
-    result = [row for row in table.values() if row["test"] not in tests]
+    result = [row for key, row in table.items()
+              if row["test"] not in tests or not full and row["often"] == "full" and key not in rows]
     for key, row in rows.items():
         old = table.get(key)
         same = old and all(old[c] == row[c] for c in SAID)
@@ -190,7 +191,7 @@ def main(words):
     wrong = differences(rows, table, tests, "--full" in options)
     print(*wrong, sep="\n", end="\n" if wrong else "")
     if "--write" in options:
-        write(merged(rows, table, tests), table)
+        write(merged(rows, table, tests, "--full" in options), table)
     sys.exit(bool(wrong))
 
 
