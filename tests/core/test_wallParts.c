@@ -313,8 +313,29 @@ static void test_how_far(void **unused)
     }
 }
 
+/* Large triangles of planes below a cell at x3, whose nearest edges no kernel sees
+   though the spheres about them come near. */
+static void add_beside(wall_mesh *mesh, double x3, double range)
+{
+    for (int n = 0; n < 12; n++)
+    {
+        const double turn = 2 * test_pi * n / 12, edge = 0.8 * range;
+        const double along = 0.6 * sqrt(12) * range, away = 1.8 * range;
+        const double c = cos(turn), s = sin(turn);
+        const double height = x3 - (0.3 + 0.01 * n) * range;
+        const double a[3] = {edge * c - along / 2 * s, edge * s + along / 2 * c,
+                             height};
+        const double b[3] = {edge * c + along / 2 * s, edge * s - along / 2 * c,
+                             height};
+        const double d[3] = {(edge + away) * c, (edge + away) * s, height};
+
+        wall_mesh_triangle(mesh, b, d, a, 0);
+    }
+}
+
 /* Planes are 48 at most, those of the nearest facets: of a floor of which a far
-   facet comes first, too. Others are parts of a dome above. */
+   facet comes first, too. Others are parts of a dome above. A facet that is not
+   seen takes nobody's place. */
 static void test_too_many(void **unused)
 {
     const ellipsoid_options o = near_walls();
@@ -322,7 +343,7 @@ static void test_too_many(void **unused)
     const double far = 0.5 * o.wall_range, size = 0.02 * o.wall_range;
     const ellipsoid_state state = {.x = {0, 0, 0.2 * o.wall_range},
                                    .q = {0, 0, 0, 1}};
-    ellipsoid_planes planes;
+    ellipsoid_planes planes, alone;
     int floors = 0;
     wall_mesh mesh;
 
@@ -366,6 +387,16 @@ static void test_too_many(void **unused)
     print_message("%d planes\n", planes.count);
     assert_int_equal(planes.count, ELLIPSOID_MAX_PLANES);
     assert_int_equal(floors, 1);
+    alone = planes;
+    add_beside(&mesh, state.x[2], o.wall_range);
+    wall_mesh_finish(&mesh);
+    planes = planes_at(&model, &mesh, &state, &upright);
+    assert_int_equal(planes.count, alone.count);
+    for (int k = 0; k < planes.count; k++)
+    {
+        assert_memory_equal(planes.at[k].effect.normal,
+                            alone.at[k].effect.normal, 3 * sizeof(double));
+    }
     wall_mesh_free(&mesh);
 }
 

@@ -117,15 +117,14 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
     return status;
 }
 
-/* The wall of this plane among those found, or a new one; NULL: it is too far.
-   Where there are too many, the farthest goes. away: of its facet [m]. */
+/* The wall of this plane among those found, or one begun behind them. away: of its
+   facet [m]. */
 static wall *find_wall(view *s, const double normal[3], double height,
-                       double away, wall *walls, int *count)
+                       double away, wall *walls, int count)
 {
     const double same = in_plane * s->model->wall_range;
-    int at = *count;
 
-    for (int k = 0; k < *count; k++)
+    for (int k = 0; k < count; k++)
     {
         double d[3];
 
@@ -138,25 +137,26 @@ static wall *find_wall(view *s, const double normal[3], double height,
             return &walls[k];
         }
     }
+    ellipsoid_wall_begin(s, normal, height, &walls[count]);
+    walls[count].away = away;
+    return &walls[count];
+}
+
+/* Keeps the wall behind those found; of too many the farthest goes. */
+static void keep_wall(wall *walls, int *count)
+{
+    int at = *count;
+
     if (*count < ELLIPSOID_MAX_PLANES)
     {
         (*count)++;
+        return;
     }
-    else
+    for (int k = 0; k < *count; k++)
     {
-        at = 0;
-        for (int k = 1; k < *count; k++)
-        {
-            at = walls[k].away > walls[at].away ? k : at;
-        }
-        if (walls[at].away <= away)
-        {
-            return NULL;
-        }
+        at = walls[k].away > walls[at].away ? k : at;
     }
-    ellipsoid_wall_begin(s, normal, height, &walls[at]);
-    walls[at].away = away;
-    return &walls[at];
+    walls[at] = walls[*count];
 }
 
 /* Axes of length one, and their derivatives, from those of any q. */
@@ -294,7 +294,7 @@ ellipsoid_status ellipsoid_find_planes(
     const double longest = ellipsoid_largest(a);
     const ellipsoid_status status =
         collect(surroundings, x, range, looked * range + longest, cache);
-    wall walls[ELLIPSOID_MAX_PLANES];
+    wall walls[ELLIPSOID_MAX_PLANES + 1];
     view s = {.model = model, .x = x};
     int count = 0;
 
@@ -310,7 +310,6 @@ ellipsoid_status ellipsoid_find_planes(
             &cache->near_facets[cache->near_facet[k]];
         const double *normal, height = height_over(facet, x, &normal);
         double d[3], square, off, width;
-        int before;
         wall *w;
 
         if (!(height > 0 && height < range))
@@ -327,15 +326,14 @@ ellipsoid_status ellipsoid_find_planes(
         {
             continue;
         }
-        before = count;
         w = find_wall(&s, normal, height, sqrt(square) - facet->radius, walls,
-                      &count);
-        if (w)
-        {
-            ellipsoid_wall_add(&s, facet, w);
-        }
+                      count);
+        ellipsoid_wall_add(&s, facet, w);
         /* which facets are listed must not tell whose plane it is */
-        count = count > before && is_unseen(w) ? before : count;
+        if (w == &walls[count] && !is_unseen(w))
+        {
+            keep_wall(walls, &count);
+        }
     }
     for (int k = 0; k < count; k++)
     {
