@@ -185,6 +185,7 @@ void Foam::ellipsoidCloud::reportInertia(const volVectorField& U)
 
 Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
 :
+    cloud(mesh, "ellipsoidCloud"),
     mesh_(mesh),
     flowType_(type),
     properties_(mesh),
@@ -299,17 +300,7 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow)
     reportCells(through.inflow);
     reportInertia(flow.U);
 
-    particles_.reset
-    (
-        new cellParticles
-        (
-            mesh_,
-            population_,
-            cells_,
-            domain_->flow,
-            undecomposed_->localCells()
-        )
-    );
+    localCells_ = undecomposed_->localCells();
 
     if (occupancy_.valid())
     {
@@ -338,7 +329,7 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow)
 
     if (flowType_ == UNSTEADY)
     {
-        begin();
+        beginTables();
     }
 }
 

@@ -156,7 +156,7 @@ void Foam::ellipsoidCloud::reportWork() const
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::ellipsoidCloud::write()
+void Foam::ellipsoidCloud::writeTime()
 {
     const Time& time = mesh_.time();
 
@@ -173,7 +173,7 @@ void Foam::ellipsoidCloud::write()
         cannotWrite(time.path()/time.timeName()/"uniform"/"time");
     }
     tracks_->flush();
-    particles_->writeFiles();
+    writeParticles();
     writePoses(tracks_->set(), cells_, time.timeName());
 
     // Entries of a dictionary are texts, with the digits that it is written with

@@ -16,7 +16,7 @@ Description
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::ellipsoidCloud::begin()
+void Foam::ellipsoidCloud::beginTables()
 {
     const fileName folder(statistics_->log.name().path());
     const fileName copy(folder + ".part");
@@ -79,7 +79,7 @@ void Foam::ellipsoidCloud::track
     flowRenewal* occupied
 )
 {
-    begin();
+    beginTables();
     if (occupied)
     {
         occupied->begin();
@@ -97,7 +97,7 @@ void Foam::ellipsoidCloud::track
 
         if (every ? runTime.timeIndex() % every == 0 : runTime.writeTime())
         {
-            write();
+            writeTime();
         }
     }
 

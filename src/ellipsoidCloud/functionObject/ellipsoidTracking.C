@@ -354,7 +354,7 @@ bool Foam::functionObjects::ellipsoidTracking::write()
 
     if (!idle_ && !steady_)
     {
-        cells_->write();
+        cells_->writeTime();
     }
 
     return true;
