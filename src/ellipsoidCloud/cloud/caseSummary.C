@@ -30,53 +30,6 @@ static string um(const vector& v)
 }
 
 
-static void reportSieves
-(
-    const fvMesh& mesh,
-    const captureCriterion& criterion,
-    const domainImages& images,
-    const scalar width
-)
-{
-    // With n the flux through a slit is 1 + 2/n^2 times as large
-    const scalar fewest = 4;
-
-    if (criterion.sieves().empty())
-    {
-        Warning
-            << "capture names no sieves: no cell can be caught" << nl << endl;
-        return;
-    }
-
-    const labelList& sieves = criterion.sieves();
-    const List<narrowGap> gaps(narrowestGaps(mesh, images, sieves));
-
-    forAll(sieves, i)
-    {
-        const word& name = mesh.boundaryMesh()[sieves[i]].name();
-        const narrowGap& gap = gaps[i];
-
-        if (gap.width >= GREAT)
-        {
-            continue;
-        }
-        Info<< "case: narrowest gap of " << name << ' ' << um(gap.width)
-            << " um: " << word::printf("%.3g", gap.meshCells)
-            << " mesh cells across, " << word::printf("%.3g", gap.width/width)
-            << " of a cell's width" << endl;
-
-        if (gap.meshCells < fewest - 0.5)
-        {
-            Warning
-                << "The narrowest gap of " << name << ", at "
-                << shortText(gap.at).c_str() << ", is only "
-                << word::printf("%.3g", gap.meshCells) << " mesh cells wide:"
-                << " the flow through it is not resolved" << nl << endl;
-        }
-    }
-}
-
-
 //- The part of a cell's surface below which, along the normal, no bead is
 static scalar bareSurface(const ellipsoid_options& options)
 {
@@ -204,7 +157,40 @@ void Foam::reportCapture
     const captureCriterion& criterion
 )
 {
-    reportSieves(mesh, criterion, images, width);
+    // With n the flux through a slit is 1 + 2/n^2 times as large
+    const label fewest = 4;
+
+    const labelList& sieves = criterion.sieves();
+    const List<narrowGap> gaps(narrowestGaps(mesh, images, sieves));
+
+    if (sieves.empty())
+    {
+        Warning
+            << "capture names no sieves: no cell can be caught" << nl << endl;
+    }
+    forAll(sieves, i)
+    {
+        const word& name = mesh.boundaryMesh()[sieves[i]].name();
+        const narrowGap& gap = gaps[i];
+
+        if (gap.width >= GREAT)
+        {
+            continue;
+        }
+        Info<< "case: narrowest gap of " << name << ' ' << um(gap.width)
+            << " um: " << gap.meshCells << " mesh cells across, "
+            << word::printf("%.3g", gap.width/width)
+            << " of a cell's width" << endl;
+
+        if (gap.meshCells < fewest)
+        {
+            Warning
+                << "The narrowest gap of " << name << ", at "
+                << shortText(gap.at).c_str() << ", is only "
+                << gap.meshCells << " mesh cells wide:"
+                << " the flow through it is not resolved" << nl << endl;
+        }
+    }
 
     const scalar holdTime = criterion.holdTime();
 

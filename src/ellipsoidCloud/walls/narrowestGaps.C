@@ -2,11 +2,9 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "narrowestGaps.H"
+#include "cyclicPolyPatch.H"
 #include "domainImages.H"
-#include "indexedOctree.H"
 #include "polyMesh.H"
-#include "SubField.H"
-#include "treeDataFace.H"
 #include "wallPolyPatch.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -14,109 +12,127 @@
 namespace Foam
 {
 
-//- From a point on a face to the wall that a unit vector leads to [m], seen
-//  from so far off the face; GREAT if that does not face it
-static scalar widthAlong
-(
-    const indexedOctree<treeDataFace>& faces,
-    const polyMesh& mesh,
-    const domainImages& images,
-    point from,
-    vector along,
-    const scalar off
-)
+//- A line through one mesh cell after the other
+struct meshLine
 {
-    // A wall faces another if their normals are within 60 degrees of opposite:
-    // the sides of a corner do not
-    const scalar facing = 0.5;
-    // Beyond a period of the device walls come again
-    const label mostSeams = 4;
+    const polyMesh& mesh;
 
-    const scalar far = mesh.bounds().mag();
-    scalar width = 0;
+    //- Position [m] and direction, in a mesh cell that it entered by a face
+    point x;
+    vector along;
+    label celli;
+    label facei;
 
-    for (label i = 0; i <= mostSeams; ++i)
+    //- Go to the face by which it leaves the mesh cell; returns the way there [m],
+    //  GREAT if there is none
+    scalar leave()
     {
-        const pointIndexHit hit
-        (
-            faces.findLine(from + off*along, from + far*along)
-        );
-
-        if (!hit.hit())
-        {
-            return GREAT;
-        }
-        width += mag(hit.hitPoint() - from);
-
-        const label facei = faces.shapes().faceLabels()[hit.index()];
-        const domainImages::seam* seam =
-            images.at(mesh.boundaryMesh().whichPatch(facei));
-
-        if (!seam)
-        {
-            const vector& area = mesh.faceAreas()[facei];
-
-            return (area & along) > facing*mag(area) ? width : GREAT;
-        }
-        from = seam->inward(hit.hitPoint());
-        along = seam->inward.turn() & along;
-    }
-
-    return GREAT;
-}
-
-
-//- Mesh cells by length on the line from a face of the boundary along a vector
-//  to where it leaves the mesh [1/m]
-static scalar meshCellsAlong
-(
-    const polyMesh& mesh,
-    label facei,
-    const vector& along
-)
-{
-    const point from(mesh.faceCentres()[facei]);
-    label celli = mesh.faceOwner()[facei];
-    label nCells = 0;
-    scalar length = 0;
-
-    // Through the plane of a face that is met first, farther on
-    while (celli >= 0 && nCells < mesh.nCells())
-    {
-        scalar next = GREAT;
+        scalar way = GREAT;
         label out = -1;
 
         for (const label i : mesh.cells()[celli])
         {
+            const vector& area = mesh.faceAreas()[i];
             const scalar side = mesh.faceOwner()[i] == celli ? 1 : -1;
-            const vector area(side*mesh.faceAreas()[i]);
-            const scalar speed = area & along;
+            const scalar speed = side*(area & along);
+            const scalar distance =
+                side*((mesh.faceCentres()[i] - x) & area)/max(speed, VSMALL);
 
-            if (i != facei && speed > SMALL*mag(area))
+            if (i != facei && speed > SMALL*mag(area) && distance < way)
             {
-                const scalar l =
-                    ((mesh.faceCentres()[i] - from) & area)/speed;
-                if (l < next)
-                {
-                    next = l;
-                    out = i;
-                }
+                way = distance;
+                out = i;
             }
         }
-        if (out < 0)
+
+        facei = out;
+        way = max(way, scalar(0));
+        x += way*along;
+        return way;
+    }
+
+    //- Go on beyond the face: in the next mesh cell, or in the image there.
+    //  False at the boundary
+    bool enter(const domainImages& images)
+    {
+        const label patchi = mesh.boundaryMesh().whichPatch(facei);
+        if (patchi < 0)
+        {
+            const label owner = mesh.faceOwner()[facei];
+            celli = celli == owner ? mesh.faceNeighbour()[facei] : owner;
+            return true;
+        }
+
+        const domainImages::seam* seam = images.at(patchi);
+        if (!seam)
+        {
+            return false;
+        }
+        if (!seam->mirrors())
+        {
+            const cyclicPolyPatch& half =
+                refCast<const cyclicPolyPatch>(mesh.boundaryMesh()[patchi]);
+            facei += half.neighbPatch().start() - half.start();
+        }
+        celli = mesh.faceOwner()[facei];
+        x = seam->inward(x);
+        along = seam->inward.turn() & along;
+        return true;
+    }
+
+    //- Does it meet a wall that faces it? Within 60 degrees: the sides of a corner
+    //  do not. In a mesh cell that is not convex the face may lie elsewhere
+    bool meetsWall() const
+    {
+        const polyBoundaryMesh& patches = mesh.boundaryMesh();
+        const vector& area = mesh.faceAreas()[facei];
+
+        return
+            isA<wallPolyPatch>(patches[patches.whichPatch(facei)])
+         && (area & along) > 0.5*mag(area)
+         && mesh.faces()[facei].intersection
+            (
+                x, along, mesh.faceCentres()[facei], mesh.points(),
+                intersection::FULL_RAY, 1e-6
+            ).hit();
+    }
+};
+
+
+//- The passage along the normal of a face of a wall. If it is not narrower than
+//  the narrowest so far, that
+static narrowGap narrower
+(
+    const polyMesh& mesh,
+    const domainImages& images,
+    const label facei,
+    const narrowGap& narrowest
+)
+{
+    const point from(mesh.faceCentres()[facei]);
+    const vector n(mesh.faceAreas()[facei]/mag(mesh.faceAreas()[facei]));
+    meshLine line{mesh, from, -n, mesh.faceOwner()[facei], facei};
+    scalar width = 0;
+
+    for (label nMeshCells = 1; nMeshCells < 10000; ++nMeshCells)
+    {
+        width += line.leave();
+
+        // Beyond a period of the device walls come again
+        if (width >= min(narrowest.width, 4*mesh.bounds().mag()))
         {
             break;
         }
-        ++nCells;
-        length = max(length, next);
-        celli =
-            !mesh.isInternalFace(out) ? -1
-          : mesh.faceOwner()[out] == celli ? mesh.faceNeighbour()[out]
-          : mesh.faceOwner()[out];
-        facei = out;
+        if (!line.enter(images))
+        {
+            return
+                line.meetsWall()
+              ? narrowGap{width, from - 0.5*width*n, nMeshCells}
+              : narrowest;
+        }
     }
 
-    return nCells/max(length, VSMALL);
+    return narrowest;
 }
 
 } // End namespace Foam
@@ -131,52 +147,14 @@ Foam::List<Foam::narrowGap> Foam::narrowestGaps
     const labelUList& patches
 )
 {
-    DynamicList<label> limits;
-    for (const polyPatch& patch : mesh.boundaryMesh())
-    {
-        if (isA<wallPolyPatch>(patch) || images.at(patch.index()))
-        {
-            limits.append(identity(patch.size(), patch.start()));
-        }
-    }
-
-    // A search tree does not bear faces that lie on its boundary
-    treeBoundBox box(boundBox(mesh.points(), false));
-    box.inflate(1e-3);
-    const indexedOctree<treeDataFace> faces
-    (
-        treeDataFace(true, mesh, limits), box, 8, 40, 3
-    );
-
-    List<narrowGap> gaps(patches.size(), narrowGap{GREAT, Zero, GREAT});
+    List<narrowGap> gaps(patches.size(), narrowGap{GREAT, Zero, 0});
 
     forAll(patches, k)
     {
         const polyPatch& patch = mesh.boundaryMesh()[patches[k]];
-        const vectorField::subField centres(patch.faceCentres());
-        const vectorField::subField areas(patch.faceAreas());
-        label narrowest = -1;
-
         forAll(patch, i)
         {
-            const scalar area = mag(areas[i]);
-            const vector n(areas[i]/area);
-            const scalar width = widthAlong
-            (
-                faces, mesh, images, centres[i], -n, 1e-4*sqrt(area)
-            );
-
-            if (width < gaps[k].width)
-            {
-                gaps[k] = narrowGap{width, centres[i] - 0.5*width*n, 0};
-                narrowest = patch.start() + i;
-            }
-        }
-        if (narrowest >= 0)
-        {
-            const vector& area = mesh.faceAreas()[narrowest];
-            gaps[k].meshCells = gaps[k].width
-                *meshCellsAlong(mesh, narrowest, -area/mag(area));
+            gaps[k] = narrower(mesh, images, patch.start() + i, gaps[k]);
         }
     }
 
