@@ -139,11 +139,6 @@ namespace Foam
             [](const label celli) { return celli >= 0; }
         );
         string complaint(complaintOf(patches, nInternal, owner.size()));
-        if (!complaint.empty())
-        {
-            complaint = patches.objectPath() + ": " + complaint;
-        }
-        const List<string> complaints(fromAllRanks(complaint));
 
         // Faces that a rank shares with others: the sum is for cyclic ones
         labelList shared(Pstream::nProcs(), Zero);
@@ -160,29 +155,27 @@ namespace Foam
             }
         }
         const List<labelList> between(fromAllRanks(shared));
-        const masterGate once;
+        const label me = Pstream::myProcNo();
 
-        forAll(complaints, ranki)
+        for (label other = 0; complaint.empty() && other < me; ++other)
         {
-            if (!complaints[ranki].empty())
+            const label here = between[me][other];
+            const label there = between[other][me];
+            if (here != there)
             {
-                FatalErrorInFunction
-                    << complaints[ranki].c_str() << exit(FatalError);
-            }
-            for (label other = 0; other < ranki; ++other)
-            {
-                if (between[ranki][other] != between[other][ranki])
-                {
-                    FatalErrorInFunction
-                        << "processor " << ranki << " has "
-                        << between[ranki][other] << " faces to processor "
-                        << other << ", and that "
-                        << between[other][ranki] << " to it" << nl
-                        << "    They are of two decompositions: decomposePar"
-                        << " -force" << exit(FatalError);
-                }
+                OStringStream text;
+                text<< "processor " << me << " has " << here
+                    << " faces to processor " << other << ", and that " << there
+                    << " to it" << nl << "    They are of two decompositions:"
+                    << " decomposePar -force";
+                complaint = text.str();
             }
         }
+        if (!complaint.empty())
+        {
+            complaint = patches.objectPath() + ": " + complaint;
+        }
+        refuseFirst(complaint);
     }
 
     //- Which step makes the mesh of this rank
