@@ -83,42 +83,25 @@ void Foam::groupSharing::exchange
     const labelUList& ranks
 )
 {
-    const label me = Pstream::myProcNo();
-    labelList counts(Pstream::nProcs(), Zero);
-    DynamicList<label> mine;
-
+    DynamicList<cellSweep> mine;
     forAll(groups, k)
     {
-        counts[ranks[k]] += groups[k].size();
-        if (ranks[k] == me)
+        if (ranks[k] == Pstream::myProcNo())
         {
-            mine.append(groups[k]);
+            mine.append(List<cellSweep>(cells, groups[k]));
         }
     }
 
-    List<List<cellSweep>> sent(counts.size());
+    const List<List<cellSweep>> sent(Pstream::nProcs(), mine);
     List<List<cellSweep>> all;
-    forAll(sent, rank)
-    {
-        if (rank != me)
-        {
-            sent[rank] = UIndirectList<cellSweep>(cells, mine);
-        }
-    }
-    counts[me] = 0;
-    Pstream::exchange<List<cellSweep>, cellSweep>(sent, counts, all);
+    Pstream::exchange<List<cellSweep>, cellSweep>(sent, all);
 
-    labelList next(counts.size(), Zero);
+    labelList next(all.size(), Zero);
     forAll(groups, k)
     {
-        const label rank = ranks[k];
-
         for (const label i : groups[k])
         {
-            if (rank != me)
-            {
-                cells[i] = all[rank][next[rank]++];
-            }
+            cells[i] = all[ranks[k]][next[ranks[k]]++];
         }
     }
 }

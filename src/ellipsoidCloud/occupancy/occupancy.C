@@ -257,24 +257,6 @@ Foam::scalar Foam::occupancy::aperture::area(const fvMesh& mesh) const
 }
 
 
-Foam::labelList Foam::occupancy::counts(const UList<cellState>& cells) const
-{
-    labelList n(setting_.apertures.size(), 0);
-
-    forAll(n, i)
-    {
-        for (const cellState& cell : cells)
-        {
-            n[i] +=
-                held_.found(cell.id)
-             && cell.patch == setting_.apertures[i].patch;
-        }
-    }
-
-    return n;
-}
-
-
 void Foam::occupancy::update
 (
     List<cellState>& cells,
@@ -383,16 +365,18 @@ void Foam::occupancy::write
     const UList<cellState>& cells
 )
 {
-    const labelList n(counts(cells));
-
-    forAll(n, i)
+    for (const aperture& a : setting_.apertures)
     {
-        const aperture& a = setting_.apertures[i];
         const scalar flux = a.flux(phi);
+        label nHeld = 0;
+        for (const cellState& cell : cells)
+        {
+            nHeld += held_.found(cell.id) && cell.patch == a.patch;
+        }
 
         fluxes_.stream()
             << set_.timeText(time, 9) << ',' << csvField(a.name) << ','
-            << flux << ',' << flux/max(inflow, VSMALL) << ',' << n[i] << '\n';
+            << flux << ',' << flux/max(inflow, VSMALL) << ',' << nHeld << '\n';
     }
     fluxes_.flush();
 }

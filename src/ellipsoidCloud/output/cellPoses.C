@@ -3,6 +3,7 @@
 
 #include "cellPoses.H"
 #include "atomicWrite.H"
+#include "diagTensor.H"
 #include "masterGate.H"
 #include "OSspecific.H"
 #include "vtkPolyData.H"
@@ -114,18 +115,7 @@ Foam::tensor Foam::fullAxes
     const double* a = population.model(cell.id).options.semi_axes;
     const tensor R(rotationOf(cell.body.q));
 
-    tensor axes(Zero);
-    for (int i = 0; i < 3; ++i)
-    {
-        for (int j = 0; j < 3; ++j)
-        {
-            for (int k = 0; k < 3; ++k)
-            {
-                axes(i, j) += 2*a[k]*R(i, k)*R(j, k);
-            }
-        }
-    }
-    return axes;
+    return R & diagTensor(2*a[0], 2*a[1], 2*a[2]) & R.T();
 }
 
 
