@@ -2,7 +2,6 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "meshFlow.H"
-#include "baffleSides.H"
 #include "cellFluxes.H"
 #include "foamVersions.H"
 #include "indexedOctree.H"
@@ -27,6 +26,13 @@ const Foam::Enum<Foam::meshFlow::schemeType> Foam::meshFlow::schemeNames
 
 namespace Foam
 {
+    //- Take a value at the start of a time step to that after a part of it
+    template<class Type>
+    static void goOn(Type& value, const Type& later, const scalar part)
+    {
+        value += part*(later - value);
+    }
+
     //- Take coordinates beyond a face back to it
     static void toFace(scalar weight[4])
     {
@@ -254,7 +260,7 @@ void Foam::meshFlow::renew
     {
         const undecomposedFlow::serialScope serial;
 
-        setFlow(undecomposed, rho, baffleSides(undecomposed.mesh()));
+        setFlow(undecomposed, rho);
     }
 
     values_.share();
@@ -301,49 +307,32 @@ void Foam::meshFlow::sample
     flowSample later;
     sampleOf(laterValues_, c, derivatives, later);
 
-    const auto mix =
-        [&](scalar* value, const scalar* at, const int n, scalar* rate)
-        {
-            for (int i = 0; i < n; ++i)
-            {
-                const scalar change = at[i] - value[i];
-
-                value[i] += passed(t)*change;
-                if (rate)
-                {
-                    rate[i] = change/(end_ - start_);
-                }
-            }
-        };
-
-    mix(sample.velocity.v_, later.velocity.v_, 3, sample.acceleration.v_);
-    mix(sample.gradient.v_, later.gradient.v_, 9, nullptr);
+    const scalar part = passed(t);
+    const scalar dt = end_ - start_;
+    sample.acceleration = (later.velocity - sample.velocity)/dt;
+    goOn(sample.velocity, later.velocity, part);
+    goOn(sample.gradient, later.gradient, part);
     if (pressure_)
     {
-        mix
-        (
-            sample.pressureGradient.v_, later.pressureGradient.v_, 3, nullptr
-        );
+        goOn(sample.pressureGradient, later.pressureGradient, part);
     }
     if (derivatives)
     {
-        mix
-        (
-            sample.derivatives.v_, later.derivatives.v_, 9,
-            sample.accelerationDerivatives.v_
-        );
-        mix
-        (
-            sample.gradientDerivatives, later.gradientDerivatives, 27, nullptr
-        );
+        sample.accelerationDerivatives =
+            (later.derivatives - sample.derivatives)/dt;
+        goOn(sample.derivatives, later.derivatives, part);
+        for (int i = 0; i < 27; ++i)
+        {
+            goOn
+            (
+                sample.gradientDerivatives[i], later.gradientDerivatives[i],
+                part
+            );
+        }
     }
     if (pressure_ && derivatives)
     {
-        mix
-        (
-            sample.pressureDerivatives.v_, later.pressureDerivatives.v_, 9,
-            nullptr
-        );
+        goOn(sample.pressureDerivatives, later.pressureDerivatives, part);
     }
 }
 
@@ -370,9 +359,9 @@ Foam::vector Foam::meshFlow::velocity
 
     if (derivatives)
     {
-        *derivatives += passed(t)*(laterDerivatives - *derivatives);
+        goOn(*derivatives, laterDerivatives, passed(t));
     }
-    value += passed(t)*(later - value);
+    goOn(value, later, passed(t));
     return value;
 }
 

@@ -259,11 +259,11 @@ namespace Foam
 void Foam::meshFlow::setFlow
 (
     const undecomposedFlow& undecomposed,
-    const scalar rho,
-    const baffleSides& baffles
+    const scalar rho
 )
 {
     UList<flowVertex>& vertices = values_.vertices;
+    const baffleSides baffles(undecomposed.mesh());
     const pointField& apexes = undecomposed.decomposition().apexes();
     const vertexPlaces places{apexes, images_, baffles};
     const pointImages images(undecomposed.mesh(), images_);
