@@ -5,202 +5,169 @@
 #include "atomicWrite.H"
 #include "checkedEntries.H"
 #include "csvFields.H"
-#include "FixedList.H"
-#include "HashTable.H"
-#include "pointField.H"
 
+#include <algorithm>
 #include <fstream>
+#include <sstream>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
-    typedef HashTable<DynamicList<scalar>> columnTable;
-
-    //- The next line, as spreadsheets write it, too
-    static bool hasLine(std::istream& is, std::string& text)
+    //- The fields of the first line of a file, and the lines after it
+    struct listedFile
     {
-        const bool found(std::getline(is, text));
+        const dictionary& dict;
+        const fileName name;
+        std::vector<std::string> head;
+        std::vector<std::string> lines;
 
-        if (text.compare(0, 3, "\xEF\xBB\xBF") == 0)
+        //- Read what the entry file of an injection names
+        listedFile(const dictionary& injection, const fileName& caseFolder)
+        :
+            dict(injection),
+            name(path(injection.get<fileName>("file"), caseFolder))
         {
-            text.erase(0, 3);
+            std::ifstream is(name);
+            std::string text;
+            for (label line = 1; std::getline(is, text); ++line)
+            {
+                // As spreadsheets write it, too
+                if (line == 1 && text.compare(0, 3, "\xEF\xBB\xBF") == 0)
+                {
+                    text.erase(0, 3);
+                }
+                if (text.size() && text.back() == '\r')
+                {
+                    text.pop_back();
+                }
+                lines.push_back(text);
+            }
+            if (lines.empty())
+            {
+                refuse(1, "cannot be read, or is empty");
+            }
+            head = csvFields(lines.front());
+            lines.erase(lines.begin());
         }
-        if (text.size() && text.back() == '\r')
+
+        static fileName path(fileName file, const fileName& caseFolder)
         {
-            text.pop_back();
+            file.expand();
+            return file.isAbsolute() ? file : caseFolder/file;
         }
 
-        return found;
-    }
-
-
-    //- The columns of these names that a file has
-    static columnTable columnsOf
-    (
-        const dictionary& dict,
-        const fileName& file,
-        const wordList& names
-    )
-    {
-        const auto refuse = [&](const label line, const std::string& why)
+        //- End the run because of a line
+        void refuse(const std::size_t line, const std::string& why) const
         {
             FatalIOErrorInFunction(streamOf(dict, "file"))
-                << file.c_str() << ", line " << line << ": " << why.c_str()
-                << exit(FatalIOError);
-        };
-
-        std::ifstream is(file);
-        std::string text;
-        if (!hasLine(is, text))
-        {
-            refuse(1, "cannot be read, or is empty");
+                << name.c_str() << ", line " << label(line) << ": "
+                << why.c_str() << exit(FatalIOError);
         }
 
-        const std::vector<std::string> head(csvFields(text));
-        columnTable found;
-        for (const std::string& name : head)
+        //- The places of those of these columns that there are
+        std::vector<std::size_t> placesOf(const wordList& columns) const
         {
-            if (names.found(word(name, false)))
+            std::vector<std::size_t> places;
+            for (const word& column : columns)
             {
-                found.insert(word(name, false), DynamicList<scalar>());
-            }
-        }
-
-        for (label line = 2; hasLine(is, text); ++line)
-        {
-            const std::vector<std::string> fields(csvFields(text));
-            if (fields.size() != head.size())
-            {
-                refuse
-                (
-                    line,
-                    std::to_string(fields.size()) + " fields, but the head has "
-                  + std::to_string(head.size())
-                );
-            }
-            for (size_t i = 0; i < head.size(); ++i)
-            {
-                const word name(head[i], false);
-                scalar value = 0;
-
-                if (!found.found(name))
+                const auto at = std::find(head.begin(), head.end(), column);
+                if (at != head.end())
                 {
-                    continue;
+                    places.push_back(at - head.begin());
                 }
-                if (!readScalar(fields[i].c_str(), value))
+            }
+
+            return places;
+        }
+
+        //- Write the numbers in these places, those of a line in brackets if
+        //  they are several
+        void write(const std::vector<std::size_t>& places, std::ostream& os) const
+        {
+            for (std::size_t i = 0; i < lines.size(); ++i)
+            {
+                const std::vector<std::string> fields(csvFields(lines[i]));
+                if (fields.size() != head.size())
                 {
-                    refuse(line, head[i] + " is no number: " + fields[i]);
+                    refuse
+                    (
+                        i + 2,
+                        std::to_string(fields.size())
+                      + " fields, but the head has "
+                      + std::to_string(head.size())
+                    );
                 }
-                found[name].append(value);
+
+                os << (places.size() > 1 ? "(" : "");
+                for (const std::size_t place : places)
+                {
+                    scalar value = 0;
+                    if (!readScalar(fields[place].c_str(), value))
+                    {
+                        refuse
+                        (
+                            i + 2,
+                            head[place] + " is no number: " + fields[place]
+                        );
+                    }
+                    os << value << ' ';
+                }
+                os << (places.size() > 1 ? ")\n" : "\n");
             }
         }
-
-        return found;
-    }
-
-
-    //- Are all of these columns there? End the run if only some are, or none
-    //  where they must be
-    static bool hasAll
-    (
-        const dictionary& dict,
-        const fileName& file,
-        const columnTable& columns,
-        const wordList& names,
-        const bool required
-    )
-    {
-        label n = 0;
-        for (const word& name : names)
-        {
-            n += columns.found(name);
-        }
-        if (n != names.size() && (n || required))
-        {
-            FatalIOErrorInFunction(streamOf(dict, "file"))
-                << file.c_str() << ", line 1: the head must name all of the "
-                << "columns " << flatOutput(names) << exit(FatalIOError);
-        }
-
-        return n;
-    }
-
+    };
 
     //- Put the lists of a file into an injection
     static void fill(dictionary& dict, const fileName& caseFolder)
     {
-        const wordList place({"x1", "x2", "x3"});
-        const wordList turn({"eps1", "eps2", "eps3", "eta"});
-        const wordList size({"length", "width"});
-
-        for
-        (
-            const word& given
-          : wordList({"positions", "orientations", "sizes", "densities"})
-        )
+        const listedFile file(dict, caseFolder);
+        const struct
         {
-            if (dict.found(given))
+            word entry;
+            wordList columns;
+        }
+        lists[] =
+        {
+            {"positions", {"x1", "x2", "x3"}},
+            {"orientations", {"eps1", "eps2", "eps3", "eta"}},
+            {"sizes", {"length", "width"}},
+            {"densities", {"density"}}
+        };
+        std::ostringstream entries;
+        entries.precision(17);
+
+        for (const auto& list : lists)
+        {
+            if (dict.found(list.entry))
             {
-                FatalIOErrorInFunction(streamOf(dict, given))
-                    << given << " is not read with file" << exit(FatalIOError);
+                FatalIOErrorInFunction(streamOf(dict, list.entry))
+                    << list.entry << " is not read with file"
+                    << exit(FatalIOError);
             }
-        }
 
-        fileName file(dict.get<fileName>("file"));
-        file.expand();
-        if (!file.isAbsolute())
-        {
-            file = caseFolder/file;
-        }
+            const std::vector<std::size_t> places(file.placesOf(list.columns));
+            const bool turned =
+                list.entry == "orientations" && dict.found("orientation");
 
-        wordList all(place);
-        all.append(turn);
-        all.append(size);
-        all.append("density");
-        const columnTable columns(columnsOf(dict, file, all));
-
-        hasAll(dict, file, columns, place, true);
-        pointField positions(columns["x1"].size());
-        forAll(positions, i)
-        {
-            positions[i] =
-                point(columns["x1"][i], columns["x2"][i], columns["x3"][i]);
-        }
-        const exactDigits exact;
-        dict.set("positions", positions);
-
-        if
-        (
-            !dict.found("orientation")
-         && hasAll(dict, file, columns, turn, false)
-        )
-        {
-            List<FixedList<scalar, 4>> orientations(positions.size());
-            forAll(orientations, i)
+            if (turned || (places.empty() && list.entry != "positions"))
             {
-                forAll(turn, j)
-                {
-                    orientations[i][j] = columns[turn[j]][i];
-                }
+                continue;
             }
-            dict.set("orientations", orientations);
-        }
-        if (hasAll(dict, file, columns, size, false))
-        {
-            List<FixedList<scalar, 2>> sizes(positions.size());
-            forAll(sizes, i)
+            if (label(places.size()) != list.columns.size())
             {
-                sizes[i][0] = columns["length"][i];
-                sizes[i][1] = columns["width"][i];
+                FatalIOErrorInFunction(streamOf(dict, "file"))
+                    << file.name.c_str() << ", line 1: the head must name all of"
+                    << " the columns " << flatOutput(list.columns)
+                    << exit(FatalIOError);
             }
-            dict.set("sizes", sizes);
+            entries << list.entry << "\n(\n";
+            file.write(places, entries);
+            entries << ");\n";
         }
-        if (columns.found("density"))
-        {
-            dict.set("densities", columns["density"]);
-        }
+
         dict.remove("file");
+        dict.merge(dictionaryOf(entries.str(), dict.name()));
     }
 }
 

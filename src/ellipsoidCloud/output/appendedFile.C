@@ -5,7 +5,6 @@
 #include "atomicWrite.H"
 #include "error.H"
 #include "OSspecific.H"
-#include "foamVersions.H"
 
 #include <cmath>
 #include <cstdio>
@@ -114,14 +113,10 @@ Foam::dictionary Foam::appendedFile::notes()
     {
         toDisk(name_);
     }
-    scalar size = size_;
-    string digits(digest_.str());
-    broadcast(size);
-    broadcast(digits);
 
     dictionary dict;
-    dict.add("bytes", size);
-    dict.add("digest", digits);
+    dict.add("bytes", size_);
+    dict.add("digest", string(digest_.str()));
     return dict;
 }
 

@@ -246,22 +246,18 @@ void Foam::cellTracks::finish(cellState& cell, DynamicList<row>& rows) const
 
 void Foam::cellTracks::flush(const scalar until)
 {
-    DynamicList<row> due;
-    label nKept = 0;
-    for (const row& r : rows_)
-    {
-        if (r[0] < until)
-        {
-            due.append(r);
-        }
-        else
-        {
-            rows_[nKept++] = r;
-        }
-    }
+    // Those that are due go to the end of the list
+    const auto due = std::partition
+    (
+        rows_.begin(), rows_.end(),
+        [&](const row& r) { return !(r[0] < until); }
+    );
+    const label nKept = due - rows_.begin();
+    const List<List<row>> all
+    (
+        gathered(List<row>(SubList<row>(rows_, rows_.size() - nKept, nKept)))
+    );
     rows_.setSize(nKept);
-
-    const List<List<row>> all(gathered(List<row>(std::move(due))));
 
     if (!Pstream::master())
     {
