@@ -83,61 +83,8 @@ namespace Foam
     }
 
     static_assert(fills(0, 0), "cellFields lacks a member of cellState");
-
-
-    //- Write a member of cells, the numbers of one after those of another
-    template<class Type>
-    static void writeMembers
-    (
-        const cellField& field,
-        const UList<cellState>& cells,
-        Ostream& os
-    )
-    {
-        List<Type> values(field.count*cells.size());
-        forAll(cells, i)
-        {
-            const void* state = &cells[i];
-            std::memcpy
-            (
-                values.data() + i*field.count,
-                static_cast<const char*>(state) + field.offset,
-                field.size()
-            );
-        }
-        os.writeEntry(field.name, values);
-    }
-
-
-    //- Read it
-    template<class Type>
-    static void readMembers
-    (
-        const cellField& field,
-        const dictionary& dict,
-        UList<cellState>& cells
-    )
-    {
-        const List<Type> values(dict.get<List<Type>>(field.name));
-        if (std::size_t(values.size()) != field.count*cells.size())
-        {
-            FatalIOErrorInFunction(dict)
-                << field.name << " of " << cells.size() << " cells has "
-                << values.size() << " values: the state is of another version"
-                << " of this program" << exit(FatalIOError);
-        }
-        forAll(cells, i)
-        {
-            void* state = &cells[i];
-            std::memcpy
-            (
-                static_cast<char*>(state) + field.offset,
-                values.cdata() + i*field.count,
-                field.size()
-            );
-        }
-    }
 }
+
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
@@ -191,9 +138,22 @@ void Foam::writeStates(const UList<cellState>& cells, Ostream& os)
 {
     for (const cellField& field : cellFields)
     {
-        const auto write =
-            field.isLabel ? writeMembers<label> : writeMembers<scalar>;
-        write(field, cells, os);
+        scalarList values(field.count*cells.size());
+        scalar* value = values.data();
+
+        for (const cellState& cell : cells)
+        {
+            const void* member =
+                reinterpret_cast<const char*>(&cell) + field.offset;
+            for (std::size_t i = 0; i < field.count; ++i)
+            {
+                *value++ =
+                    field.isLabel
+                  ? static_cast<const label*>(member)[i]
+                  : static_cast<const scalar*>(member)[i];
+            }
+        }
+        os.writeEntry(field.name, values);
     }
 }
 
@@ -203,9 +163,31 @@ Foam::List<Foam::cellState> Foam::readStates(const dictionary& dict)
     List<cellState> cells(dict.get<labelList>("id").size(), cellState());
     for (const cellField& field : cellFields)
     {
-        const auto read =
-            field.isLabel ? readMembers<label> : readMembers<scalar>;
-        read(field, dict, cells);
+        const scalarList values(dict.get<scalarList>(field.name));
+        if (std::size_t(values.size()) != field.count*cells.size())
+        {
+            FatalIOErrorInFunction(dict)
+                << field.name << " of " << cells.size() << " cells has "
+                << values.size() << " values: the state is of another version"
+                << " of this program" << exit(FatalIOError);
+        }
+
+        const scalar* value = values.cdata();
+        for (cellState& cell : cells)
+        {
+            void* member = reinterpret_cast<char*>(&cell) + field.offset;
+            for (std::size_t i = 0; i < field.count; ++i, ++value)
+            {
+                if (field.isLabel)
+                {
+                    static_cast<label*>(member)[i] = label(*value);
+                }
+                else
+                {
+                    static_cast<scalar*>(member)[i] = *value;
+                }
+            }
+        }
     }
 
     return cells;
