@@ -34,13 +34,25 @@ struct meshLine
         {
             const vector& area = mesh.faceAreas()[i];
             const scalar side = mesh.faceOwner()[i] == celli ? 1 : -1;
-            const scalar speed = side*(area & along);
-            const scalar distance =
-                side*((mesh.faceCentres()[i] - x) & area)/max(speed, VSMALL);
 
-            if (i != facei && speed > SMALL*mag(area) && distance < way)
+            if (i == facei || side*(area & along) <= SMALL*mag(area))
             {
-                way = distance;
+                continue;
+            }
+
+            // The plane of a face is not enough: mesh cells need not be convex
+            const pointHit hit
+            (
+                mesh.faces()[i].intersection
+                (
+                    x, along, mesh.faceCentres()[i], mesh.points(),
+                    intersection::FULL_RAY, 1e-6
+                )
+            );
+            const scalar least = -1e-6*Foam::sqrt(mag(area));
+            if (hit.hit() && hit.distance() > least && hit.distance() < way)
+            {
+                way = hit.distance();
                 out = i;
             }
         }
@@ -81,7 +93,7 @@ struct meshLine
     }
 
     //- Does it meet a wall that faces it? Within 60 degrees: the sides of a corner
-    //  do not. In a mesh cell that is not convex the face may lie elsewhere
+    //  do not
     bool meetsWall() const
     {
         const polyBoundaryMesh& patches = mesh.boundaryMesh();
@@ -89,12 +101,7 @@ struct meshLine
 
         return
             isA<wallPolyPatch>(patches[patches.whichPatch(facei)])
-         && (area & along) > 0.5*mag(area)
-         && mesh.faces()[facei].intersection
-            (
-                x, along, mesh.faceCentres()[facei], mesh.points(),
-                intersection::FULL_RAY, 1e-6
-            ).hit();
+         && (area & along) > 0.5*mag(area);
     }
 };
 
