@@ -121,7 +121,6 @@ namespace Foam
     //- Put the lists of a file into an injection
     static void fill(dictionary& dict, const fileName& caseFolder)
     {
-        const listedFile file(dict, caseFolder);
         const struct
         {
             word entry;
@@ -134,8 +133,6 @@ namespace Foam
             {"sizes", {"length", "width"}},
             {"densities", {"density"}}
         };
-        std::ostringstream entries;
-        entries.precision(17);
 
         for (const auto& list : lists)
         {
@@ -145,7 +142,13 @@ namespace Foam
                     << list.entry << " is not read with file"
                     << exit(FatalIOError);
             }
+        }
 
+        const listedFile file(dict, caseFolder);
+        std::ostringstream entries;
+        entries.precision(17);
+        for (const auto& list : lists)
+        {
             const std::vector<std::size_t> places(file.placesOf(list.columns));
             const bool turned =
                 list.entry == "orientations" && dict.found("orientation");
