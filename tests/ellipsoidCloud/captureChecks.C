@@ -110,9 +110,20 @@ namespace Foam
             near(cell.state.imbalance, 0.1)
         );
 
-        // Neither slow nor in contact: nothing is asked
+        // In contact with a cell alone
         cell.nWalls = 0;
+        cell.nCells = 1;
         cell.state.slowTime = 0;
+        cell.state.netImpulse = Zero;
+        advance(1, 0.8);
+        holds
+        (
+            "of one that touches a cell the drag is known",
+            same(cell.state.netImpulse, at.drag(moves[1]))
+        );
+
+        // Neither slow nor in contact: nothing is asked
+        cell.nCells = 0;
         const vector kept(cell.state.netImpulse);
         advance(1, 0.8);
         holds("of a free cell nothing is kept", cell.state.netImpulse == kept);
@@ -306,7 +317,89 @@ namespace Foam
          && events[0].cell.patch == sieve
         );
     }
+
+    //- By which of the walls that it touches a cell is caught or stalls, and when
+    static void checkWalls(const layer& at)
+    {
+        const label sieve = at.mesh.boundaryMesh().findPatchID("post");
+        const label wall = at.mesh.boundaryMesh().findPatchID("plates");
+        List<cellState> before(2, at.cellAt(point(10e-6, 10e-6, 5e-6)));
+        List<cellSweep> after(2, cellSweep());
+        DynamicList<cellEvent> events;
+        const auto judge = [&](const char* sieves, const scalar end)
+        {
+            forAll(before, i)
+            {
+                before[i].id = i;
+                before[i].time = end - 0.25;
+                after[i].state = before[i];
+                after[i].state.time = end;
+            }
+            events.clear();
+            criterionOf(at, sieves).judge(before, after, end, events);
+            forAll(before, i)
+            {
+                before[i] = after[i].state;
+            }
+        };
+        const char* both = "speed 1; holdTime 0.5; sieves (post plates post);";
+        const char* one = "speed 1; holdTime 0.5; sieves (post);";
+
+        // 0 touches both, the sieve last, 1 nothing yet
+        after[0].nWalls = 2;
+        after[0].walls[0] = wall;
+        after[0].walls[1] = sieve;
+        judge(one, 0.5);
+        holds
+        (
+            "slow for half of the hold time is not yet held",
+            events.empty() && near(after[0].state.slowTime, 0.25)
+        );
+        List<cellState> slow(before);
+        judge(both, 0.75);
+        holds
+        (
+            "for all of it is, by the first sieve that it touches",
+            events.size() == 2 && after[0].state.fate == cellState::caught
+         && after[0].state.patch == wall
+        );
+        before = slow;
+        after[0].walls[1] = wall;
+        after[0].walls[0] = at.mesh.boundaryMesh().findPatchID("left");
+        judge(one, 0.75);
+        holds
+        (
+            "without a sieve it stalls, at the first wall, or none",
+            after[0].state.fate == cellState::stalled
+         && after[0].state.patch == after[0].walls[0]
+         && after[1].state.fate == cellState::stalled
+         && after[1].state.patch == -1
+        );
+        after[0].walls[1] = sieve;
+        judge(one, 1);
+        holds
+        (
+            "one that has stalled is caught as soon as it touches a sieve",
+            after[0].state.fate == cellState::caught
+         && after[0].state.patch == sieve && events.size() == 1
+        );
+        holds
+        (
+            "a sieve that is named twice is one",
+            criterionOf(at, both).sieves() == labelList({sieve, wall})
+        );
+        holds
+        (
+            "the speed of one that is confined is that over its hold time",
+            near
+            (
+                criterionOf(at, "displacement 1e-6; holdTime 4;").slowSpeed(),
+                0.25e-6
+            )
+        );
+    }
 }
+
 
 
 // * * * * * * * * * * * * * * * Shared Functions  * * * * * * * * * * * * * //
@@ -317,4 +410,5 @@ void Foam::checkCaptures(const layer& at)
     checkPlace(at);
     checkOthers(at);
     checkChain(at);
+    checkWalls(at);
 }

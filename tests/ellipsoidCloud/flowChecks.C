@@ -5,9 +5,7 @@
 Description
     The velocity between mesh points. Where no wall is: planes of symmetry,
     x = 0 and x = 20 um, open patches on all other sides; in a mesh along the
-    axes and in one that leans and lies aslant. And in a ring of mesh cells that
-    are all alike: cyclic patches at both ends of y, a plane of symmetry below,
-    walls on all other sides.
+    axes and in one that leans and lies aslant.
 
 \*---------------------------------------------------------------------------*/
 
@@ -18,26 +16,6 @@ Description
 
 namespace Foam
 {
-    //- The velocity between the points of a mesh, by fields that were gathered
-    static autoPtr<meshFlow> flowOf
-    (
-        undecomposedFlow& whole,
-        const meshFlow::schemeType scheme
-    )
-    {
-        autoPtr<meshFlow> flow
-        (
-            new meshFlow
-            (
-                whole, scheme, labelHashSet(), autoPtr<volVectorField>(),
-                false, false
-            )
-        );
-        flow->renew(whole, 1000);
-
-        return flow;
-    }
-
     //- A flow that is linear, or quadratic, free of divergence and its own
     //  mirror image in x = 20 um, turned
     struct polynomialFlow
@@ -132,25 +110,6 @@ namespace Foam
             U.primitiveFieldRef() = sums/mesh.V().field();
         }
     };
-
-    //- Is the velocity at a place known to the library?
-    static bool reaches
-    (
-        const meshFlow& flow,
-        const point& from,
-        const point& x,
-        flowSample& sample
-    )
-    {
-        meshFlow::probe at;
-        tetCoordinates c;
-        if (!flow.find(from, at) || !flow.reach(x, at, c))
-        {
-            return false;
-        }
-        flow.sample(0, c, true, sample);
-        return true;
-    }
 
     //- What has the means of a quadratic flow is that flow, and of a linear
     //  one beyond open patches, too
@@ -322,122 +281,4 @@ void Foam::checkOpen(fvMesh& mesh)
     checkPolynomials(mesh, R);
     checkFluxes(mesh, R);
     checkPlanes(mesh, R, meshFlow::stDivergenceFree);
-}
-
-
-void Foam::checkRing(fvMesh& mesh)
-{
-    // Along x and y; by so many mesh cells along y all is moved on
-    const label nx = 4, ny = 5, by = 2;
-    autoPtr<wildFields> fields(new wildFields(mesh));
-    fields->change();
-    const auto present =
-        [&]() -> autoPtr<meshFlow>
-        {
-            fields->gather();
-            return flowOf(fields->whole, meshFlow::stDivergenceFree);
-        };
-    autoPtr<meshFlow> flow(present());
-    const vectorField U(fields->U.primitiveField());
-    const scalarField divergence
-    (
-        fvc::surfaceIntegrate(fields->whole.phi())().primitiveField()
-    );
-    forAll(U, celli)
-    {
-        const label x = celli % nx, y = celli/nx % ny, z = celli/nx/ny;
-        fields->U[x + nx*((y + by) % ny + ny*z)] = U[celli];
-    }
-    const autoPtr<meshFlow> moved(present());
-
-    bool alike = true, continuous = true, atRest = true, even = true;
-    bool images = true, beyond = true;
-    flowSample a, b;
-    Random random(3);
-    for (label i = 0; i < 300; ++i)
-    {
-        // The mesh leans by 0.3 along y
-        const scalar x = 8e-6*random.sample01<scalar>();
-        const scalar z = 8e-6*random.sample01<scalar>();
-        const scalar part = random.sample01<scalar>();
-        const auto in = [&](const scalar y) { return point(x, y + 0.3*x, z); };
-        const point at(in(10e-6*part));
-        const point on(in(10e-6*fmod(part + by/scalar(ny), 1)));
-
-        alike = reaches(*flow, at, at, a) && alike
-         && reaches(*moved, on, on, b)
-         && same(a.velocity, b.velocity, 1e-9)
-         && mag(a.gradient - b.gradient) < 1e-9*mag(a.gradient);
-        even = even
-         && mag(tr(a.derivatives) - divergence[mesh.findCell(at)]) < 1e-6;
-
-        // In a mirror and once round, and the other way
-        const isometry mirror(isometry::mirror(Zero, vector(0, 0, 1)));
-        const point image(mirror(at) + vector(0, i % 2 ? 10e-6 : -10e-6, 0));
-        images = reaches(*flow, at, image, b) && images
-         && same(b.velocity, mirror.turn() & a.velocity, 1e-9);
-
-        continuous = reaches(*flow, in(1e-8), in(1e-18), a) && continuous
-         && reaches(*flow, in(9.99e-6), in(10e-6 - 1e-18), b)
-         && same(a.velocity, b.velocity, 1e-6);
-
-        const vector up(0, 0, 8e-6 - z);
-        atRest = reaches(*flow, at, at + (1 - 1e-9)*up, a) && atRest
-         && mag(a.velocity) < 1e-9;
-        meshFlow::probe from;
-        tensor derivatives(I);
-        beyond = flow->find(at + 0.999*up, from) && beyond
-         && mag(flow->velocity(0, at + 1.1*up, from, &derivatives)) < 1e-15
-         && derivatives == tensor::zero;
-    }
-    holds("where a ring of mesh cells begins makes no difference", alike);
-    holds("the divergence is that of the fluxes all over a mesh cell", even);
-    holds("beyond a plane of symmetry and a cyclic patch it is both", images);
-    holds("the velocity is continuous over cyclic patches", continuous);
-    holds("the fluid has the velocity of the wall", atRest);
-    holds("and so beyond it, whatever the place there", beyond);
-
-    // Walls that are round
-    pointField points(mesh.points());
-    for (point& x : points)
-    {
-        const scalar y = x.y() - 0.3*x.x();
-        x.x() += 1e-6*std::sin(constant::mathematical::twoPi*y/10e-6);
-        x.z() += 0.05*x.z()*std::sin(3*x.x()/8e-6 + 0.5);
-    }
-    mesh.movePoints(points);
-    fields.reset(new wildFields(mesh));
-    fields->change();
-    flow = present();
-
-    // A jump is larger than what the velocity changes by over a small part of a
-    // mesh cell
-    const label n = 20000;
-    scalar largest = 0, change = 0;
-    for (label line = 0; line < 12; ++line)
-    {
-        const point far
-        (
-            8e-6*random.sample01<scalar>(), 10e-6*random.sample01<scalar>(),
-            8e-6*random.sample01<scalar>()
-        );
-        const vector way((point(4e-6, 6.2e-6, 4e-6) - far)/n);
-        bool before = false;
-        for (label i = 0; i < n; ++i)
-        {
-            const point x(far + i*way);
-            const bool found = reaches(*flow, x, x, a);
-            if (found && before)
-            {
-                const scalar step = mag(a.velocity - b.velocity);
-                largest = max(largest, step);
-                change = max(change, mag(b.derivatives)*mag(way));
-            }
-            b = a;
-            before = found;
-        }
-    }
-    OStringStream os;
-    os << largest << " in a step, " << change << " by its derivatives";
-    holds("it is continuous by round walls", largest < 1.5*change, os.str());
 }

@@ -34,7 +34,8 @@ namespace Foam
             const layer& at,
             const cellState& cell,
             const dictionary& notes = dictionary(),
-            const char* rests = "speed 1e-6; holdTime 0.05;"
+            const char* rests = "speed 1e-6; holdTime 0.05;",
+            const char* how = "active yes;"
         )
         :
             at(at),
@@ -43,7 +44,7 @@ namespace Foam
             (
                 occupancy::setting
                 (
-                    entries("active yes;"),
+                    entries(how),
                     at.mesh.boundaryMesh()
                 ),
                 criterion,
@@ -468,30 +469,4 @@ void Foam::checkBodies(const layer& at)
         mag(one.torque - (-off ^ one.force)) < 1e-9*mag(one.torque)
      && mag(one.torque) > 0
     );
-}
-
-
-// Sections at y = 10 um, where the flow goes along by 2 mm/s
-void Foam::checkApertures(const layer& at)
-{
-    const auto flux = [&](const char* max, const char* normal)
-    {
-        const occupancy::setting of
-        (
-            entries
-            (
-                "apertures { post { min (0 9e-6 0); max (" + string(max)
-              + " 11e-6 1e-5); normal (0 " + normal + " 0); } }"
-            ),
-            at.mesh.boundaryMesh()
-        );
-        return of.apertures[0].flux(at.undecomposed.phi());
-    };
-    const auto is = [](const scalar found, const scalar expected)
-    {
-        return mag(found - expected) < 1e-9*mag(expected);
-    };
-    holds("a section has the flux through it", is(flux("2e-5", "3"), 4e-13));
-    holds("of the other sign the other way", is(flux("2e-5", "-3"), -4e-13));
-    holds("and of a part of it that part", is(flux("1e-5", "3"), 2e-13));
 }

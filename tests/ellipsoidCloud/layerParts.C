@@ -325,6 +325,7 @@ int main(int argc, char *argv[])
             checkApertures(stream);
             checkCaptures(stream);
             checkStatistics(still);
+            checkTables(still);
         }
     }
     Info<< "End" << nl << endl;

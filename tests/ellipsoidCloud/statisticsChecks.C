@@ -96,6 +96,60 @@ namespace Foam
         every("a caught one rarely", cellState::caught, 1e-6, 0, 0.1);
         every("and none if it rests", cellState::caught, 0, 0, 1);
     }
+
+    //- Of a cell that waits, one under way and one that has left
+    static void checkRemaining(const layer& at)
+    {
+        const tableSet set
+        {
+            at.mesh.boundaryMesh().names(), at.population,
+            at.mesh.time().path()/"remaining", true, dictionary(), 0.1
+        };
+        captureStatistics statistics(set, labelList());
+        statistics.log.open();
+        List<cellState> cells(3, at.cellAt(point(10e-6, 10e-6, 5e-6)));
+        DynamicList<cellEvent> events;
+        forAll(cells, i)
+        {
+            cells[i].id = i;
+            cells[i].fate = i ? cellState::inFlight : cellState::waiting;
+            events.append(cellEvent{i ? "injected" : "waiting", cells[i]});
+        }
+        cells[2].body.x[0] = 12e-6;
+        cells[2].fate = cellState::escaped;
+        cells[2].time = 1;
+        events.append(cellEvent{"escaped", cells[2]});
+        statistics.add(std::move(events));
+        cells[1].unfold = isometry::translation(vector(20e-6, 0, 0));
+        cells.setSize(2);
+        OStringStream os;
+        statistics.finish(cells, os);
+
+        const auto says = [&](const char* text)
+        {
+            return os.str().find(text) != std::string::npos;
+        };
+        holds
+        (
+            "one that waits is not counted as injected",
+            says("cells: 2 injected, 0 caught, 1 escaped, 0 stalled, 1 in")
+         && says("waited to enter: 0 cells, 0 s in all; 1 still wait"),
+            os.str()
+        );
+        const std::string table(textOf(set.folder/"cells.csv"));
+        const auto lines(stringOps::split(table, '\n'));
+        const std::string one(lines[1].str()), two(lines[2].str());
+        const std::string end("1.2e-05,1e-05,5e-06,");
+        holds
+        (
+            "those that have entered have a line, with where they are",
+            lines.size() == 3
+         && one.find(",3e-05,1e-05,5e-06") == one.size() - 18
+         && two.find(end) > two.find("escaped")
+         && two.find(end) != std::string::npos,
+            table
+        );
+    }
 }
 
 
@@ -117,6 +171,8 @@ void Foam::checkStatistics(const layer& at)
     // Half as wide, so that its beads are, too
     cellState cell(at.cellAt(point(10e-6, 10e-6, 5e-6), 7));
     cell.size.width *= 0.5;
+    cell.body.q[0] = 0.6;
+    cell.body.q[3] = 0.8;
     cellState next(at.cellAt(point(5e-6, 10e-6, 5e-6), 8));
     DynamicList<cellEvent> events;
     const auto tell = [&]
@@ -136,11 +192,12 @@ void Foam::checkStatistics(const layer& at)
     tell(cell, "released", cellState::inFlight, -1, 2);
     tell(cell, "caught", cellState::caught, plates, 3);
     tell(next, "injected", cellState::inFlight, -1, 0.5);
-    tell(next, "caught", cellState::caught, plates, 2.5);
+    tell(next, "caught", cellState::caught, plates, 2.50125);
     statistics.add(std::move(events));
 
     cell.time = 4;
     cell.deepest = 1e-9;
+    cell.deepestCell = 2e-9;
     cell.imbalance = 0.02;
     OStringStream os;
     statistics.finish(List<cellState>({cell, next}), os);
@@ -168,13 +225,14 @@ void Foam::checkStatistics(const layer& at)
      && is("patch", "plates"),
         table
     );
+    holds("with the pose with which it entered", is("eta", "0.8"), table);
     holds("its fate is of when it came to it", is("tFate", "3"), table);
 
     const std::string captures(textOf(set.folder/"captures.csv"));
     holds
     (
         "the times at a sieve are in order",
-        captures.find("plates,2, 2.5 3\n") != std::string::npos,
+        captures.find("plates,2, 2.50125 3\n") != std::string::npos,
         captures
     );
 
@@ -204,5 +262,19 @@ void Foam::checkStatistics(const layer& at)
         says("waited to enter: 1 cells, 0.25 s in all"),
         os.str()
     );
+    holds
+    (
+        "those with other cells are told by themselves",
+        says("another cell's: 2 nm, ") && says("with a wall: 1 nm, "),
+        os.str()
+    );
+    const std::string log(textOf(set.folder/"events.csv"));
+    holds
+    (
+        "events are told in the order of their times",
+        log.find("\n2.50125,8,") < log.find("\n3,7,"),
+        log
+    );
+    checkRemaining(at);
     checkTracks(at, set);
 }

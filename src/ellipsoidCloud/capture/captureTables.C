@@ -35,10 +35,7 @@ void Foam::captureStatistics::writeCells(std::ostream& os) const
         os  << of.first << ',' << set_.timeText(cell.injected, 12)
             << commas{cell.start.v_, 3} << commas{cell.startQ.cdata(), 4}
             << ',' << cellState::fateNames[fate] << ','
-            << set_.patchName
-               (
-                   fate == cellState::inFlight ? -1 : cell.patch
-               )
+            << set_.patchName(cell.patch)
             << ',' << set_.timeText(cell.time, 12) << ','
             << set_.patchName(cell.firstSieve) << ',';
         if (cell.firstSieve >= 0)

@@ -167,7 +167,7 @@ bool Foam::occupancy::pulledOff
 bool Foam::occupancy::isUnchanged(const cellState& cell) const
 {
     const auto before = stayedUnder_.cfind(cell.id);
-    if (!changesFlow() || !before.found())
+    if (!before.found())
     {
         return false;
     }
