@@ -8,24 +8,6 @@
 #include "wallResistanceTest.h"
 #include "drag/wallParts.h"
 
-/* The axes of a body that is not turned. */
-static const ellipsoid_frame upright = {
-    .axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-
-/* The planes at a pose, in a fluid at rest. */
-static ellipsoid_planes planes_at(const ellipsoid_model *model, wall_mesh *mesh,
-                                  const ellipsoid_state *state,
-                                  const ellipsoid_frame *frame)
-{
-    test_quadratic still = {.answer = 0};
-    const ellipsoid_surroundings s = around(mesh, &still);
-    ellipsoid_planes planes;
-
-    ellipsoid_facet_cache_clear(&cache);
-    assert_ok(ellipsoid_find_planes(model, &s, state, frame, &cache, &planes));
-    return planes;
-}
-
 /* However the wall is cut; what rounding leaves. */
 static void test_cuts(void **unused)
 {
@@ -313,93 +295,6 @@ static void test_how_far(void **unused)
     }
 }
 
-/* Large triangles of planes below a cell at x3, whose nearest edges no kernel sees
-   though the spheres about them come near. */
-static void add_beside(wall_mesh *mesh, double x3, double range)
-{
-    for (int n = 0; n < 12; n++)
-    {
-        const double turn = 2 * test_pi * n / 12, edge = 0.8 * range;
-        const double along = 0.6 * sqrt(12) * range, away = 1.8 * range;
-        const double c = cos(turn), s = sin(turn);
-        const double height = x3 - (0.3 + 0.01 * n) * range;
-        const double a[3] = {edge * c - along / 2 * s, edge * s + along / 2 * c,
-                             height};
-        const double b[3] = {edge * c + along / 2 * s, edge * s - along / 2 * c,
-                             height};
-        const double d[3] = {(edge + away) * c, (edge + away) * s, height};
-
-        wall_mesh_triangle(mesh, b, d, a, 0);
-    }
-}
-
-/* Planes are 48 at most, those of the nearest facets: of a floor of which a far
-   facet comes first, too. Others are parts of a dome above. A facet that is not
-   seen takes nobody's place. */
-static void test_too_many(void **unused)
-{
-    const ellipsoid_options o = near_walls();
-    const ellipsoid_model model = test_model(&o);
-    const double far = 0.5 * o.wall_range, size = 0.02 * o.wall_range;
-    const ellipsoid_state state = {.x = {0, 0, 0.2 * o.wall_range},
-                                   .q = {0, 0, 0, 1}};
-    ellipsoid_planes planes, alone;
-    int floors = 0;
-    wall_mesh mesh;
-
-    (void)unused;
-    wall_mesh_init(&mesh);
-    for (int n = 0; n < 2; n++)
-    {
-        const double at = n == 0 ? far : 0;
-        const double a[3] = {at - size, -size, 0}, b[3] = {at + size, -size, 0},
-                     c[3] = {at, 2 * size, 0};
-
-        wall_mesh_triangle(&mesh, a, b, c, 0);
-    }
-    for (int n = 0; n < 60; n++)
-    {
-        /* seen from their middles, the normal leads to the cell */
-        const double turn = 2 * test_pi * n / 60, tilt = 0.2 + 0.01 * n;
-        const double inward[3] = {-sin(tilt) * cos(turn),
-                                  -sin(tilt) * sin(turn), -cos(tilt)};
-        const double u[3] = {-sin(turn), cos(turn), 0};
-        const double away = (0.4 + 0.001 * n) * o.wall_range;
-        double v[3], corner[3][3];
-
-        ellipsoid_cross(inward, u, v);
-        for (int i = 0; i < 3; i++)
-        {
-            const double middle = state.x[i] - away * inward[i];
-
-            corner[0][i] = middle - size * u[i] - size * v[i];
-            corner[1][i] = middle + size * u[i] - size * v[i];
-            corner[2][i] = middle + 2 * size * v[i];
-        }
-        wall_mesh_triangle(&mesh, corner[0], corner[1], corner[2], 0);
-    }
-    wall_mesh_finish(&mesh);
-    planes = planes_at(&model, &mesh, &state, &upright);
-    for (int k = 0; k < planes.count; k++)
-    {
-        floors += planes.at[k].effect.normal[2] > 1 - 1e-12;
-    }
-    print_message("%d planes\n", planes.count);
-    assert_int_equal(planes.count, ELLIPSOID_MAX_PLANES);
-    assert_int_equal(floors, 1);
-    alone = planes;
-    add_beside(&mesh, state.x[2], o.wall_range);
-    wall_mesh_finish(&mesh);
-    planes = planes_at(&model, &mesh, &state, &upright);
-    assert_int_equal(planes.count, alone.count);
-    for (int k = 0; k < planes.count; k++)
-    {
-        assert_memory_equal(planes.at[k].effect.normal,
-                            alone.at[k].effect.normal, 3 * sizeof(double));
-    }
-    wall_mesh_free(&mesh);
-}
-
 /* A small facet of the floor at x1, tilted, with its x3 axis turned by so much. */
 static void add_small(wall_mesh *mesh, double at, double turned)
 {
@@ -491,7 +386,6 @@ int main(void)
         cmocka_unit_test(test_ridge),
         cmocka_unit_test(test_floor_out_of_range),
         cmocka_unit_test(test_how_far),
-        cmocka_unit_test(test_too_many),
         cmocka_unit_test(test_unseen),
         cmocka_unit_test(test_mirrors),
     };
