@@ -353,12 +353,12 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
         add_turned(near->flow->gradient, axis, by_q, moved + GRADIENT);
         for (int m = 0; averaged && m < 9; m++)
         {
-            const int b = m % 3;
+            const int j = m % 3;
 
-            moved[MEAN + m] = ellipsoid_dot(by_q[m / 3], free->along[b]);
+            moved[MEAN + m] = ellipsoid_dot(by_q[m / 3], free->along[j]);
             for (int i = 0; i < 3; i++)
             {
-                moved[MEAN + m] += axis[m / 3][i] * free->along_q[b][i][n];
+                moved[MEAN + m] += axis[m / 3][i] * free->along_q[j][i][n];
             }
         }
         add_column(near, e, moved, e->by_pose[n + 3], &b->uq[0][n],
