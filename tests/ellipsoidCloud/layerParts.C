@@ -304,6 +304,10 @@ int main(int argc, char *argv[])
     {
         checkRing(mesh);
     }
+    else if (mesh.boundaryMesh().findPatchID("ahead") >= 0)
+    {
+        checkStepped(mesh);
+    }
     else if (mesh.boundaryMesh().findPatchID("mirror") >= 0)
     {
         checkBoundaries(mesh);

@@ -11,6 +11,7 @@ Description
 
 #include "cyclicPolyPatch.H"
 #include "layerParts.H"
+#include "pointImages.H"
 #include "wildFields.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -214,4 +215,39 @@ void Foam::checkRing(fvMesh& mesh)
     OStringStream os;
     os << largest << " in a step, " << change << " by its derivatives";
     holds("it is continuous by round walls", largest < 1.5*change, os.str());
+}
+
+
+// Mirror and period do not commute: the one after the other is about a point of
+// both, the other way round it is not
+void Foam::checkStepped(const fvMesh& mesh)
+{
+    const pointField& x = mesh.points();
+    const pointImages images(mesh, domainImages(mesh, labelHashSet()));
+    const auto isOn = [&](const char* name, const label pointi)
+    {
+        return mesh.boundaryMesh()[name].whichPoint(pointi) >= 0;
+    };
+    bool there = true, all = true;
+
+    forAll(x, pointi)
+    {
+        DynamicList<isometry> ways;
+        placeOf(isometry(), 1e-5, ways);
+        for (const pointImage& other : images.at(pointi))
+        {
+            there = there
+             && mag(other.image(x[other.point]) - x[pointi]) < 1e-12;
+            all = all && placeOf(other.image, 1e-5, ways) == ways.size() - 1;
+        }
+        bool mirrored = isOn("low", pointi);
+        for (const label one : images.with(pointi))
+        {
+            mirrored = mirrored || isOn("low", one);
+        }
+        const label nPeriods = isOn("ahead", pointi) + isOn("behind", pointi);
+        all = all && ways.size() == (mirrored ? 2 : 1)*(1 + nPeriods);
+    }
+    holds("what is seen about a point of the mesh is seen there", there);
+    holds("once each: mirrored, a period on, and both", all);
 }
