@@ -32,7 +32,7 @@ USES = {
     "src/ellipsoidCloud": {"src/ellipsoid": ["."], "src/meshFlow": []},
     "applications": {"src/ellipsoidCloud": [], "src/meshFlow": [], "src/coupledStokes": ["coupledStokes.H"]},
     "tests": {
-        "src/ellipsoid": [], "src/meshFlow": [], "src/coupledStokes": ["coupledStokes.H"], "src/ellipsoidCloud": [], "applications": [],
+        "src/ellipsoid": [], "src/meshFlow": [], "src/coupledStokes": ["coupledStokes.H", "flow"], "src/ellipsoidCloud": [], "applications": [],
     },
 }
 # Not part of what is built of the folder's rooms
