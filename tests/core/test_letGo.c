@@ -10,7 +10,7 @@
 /* The judge is local to it. */
 #include "motion/advance.c"
 
-static const double h = 0.01, far = 1e-9, angle = 1e-3;
+static const double interval = 0.01, distance = 1e-9, angle = 1e-3;
 static const double exact = 1e-7;
 
 /* A step that lets go of a contact: where it began and where it ends. */
@@ -42,10 +42,10 @@ static released_step let_go(double tolerance)
 static int is_held_back(released_step *s)
 {
     s->cell.model = &s->model;
-    return was_held_back(&s->cell, &s->start, &s->next, h);
+    return was_held_back(&s->cell, &s->start, &s->next, interval);
 }
 
-/* The next pose: moved so far in the lab, and turned about an axis of the
+/* The next pose: moved so distance in the lab, and turned about an axis of the
    body. */
 static void move(released_step *s, const double shift[3], const double axis[3],
                  double turn)
@@ -71,7 +71,7 @@ static void move(released_step *s, const double shift[3], const double axis[3],
    four times the way that the step went the cell was held back. */
 static void test_force(void **unused)
 {
-    const double way[3] = {far / 3, 2 * far / 3, 2 * far / 3};
+    const double way[3] = {distance / 3, 2 * distance / 3, 2 * distance / 3};
     const double axis[3] = {0, 1, 0};
 
     (void)unused;
@@ -84,7 +84,7 @@ static void test_force(void **unused)
         ellipsoid_set(force, 1e-9, 2e-9, 2e-9);
         for (int i = 0; i < 3; i++)
         {
-            s.next.state.u[i] = way[i] / h;
+            s.next.state.u[i] = way[i] / interval;
         }
         move(&s, (double[3]){0}, axis, 0);
         assert_true(is_held_back(&s));
@@ -118,7 +118,7 @@ static void test_torque(void **unused)
         ellipsoid_set(torque, 2e-15, -1e-15, 2e-15);
         for (int i = 0; i < 3; i++)
         {
-            s.next.state.omega[i] = angle / h * axis[i];
+            s.next.state.omega[i] = angle / interval * axis[i];
         }
         for (int part = 2; part < 6; part++)
         {
@@ -139,13 +139,13 @@ static void test_sum(void **unused)
 
     (void)unused;
     ellipsoid_set(s.start.contact.force, 0, 0, 1e-9);
-    ellipsoid_set(s.start.contact.torque, 1e-9 * far / angle, 0, 0);
-    ellipsoid_set(s.next.state.u, 0, 0, far / h);
+    ellipsoid_set(s.start.contact.torque, 1e-9 * distance / angle, 0, 0);
+    ellipsoid_set(s.next.state.u, 0, 0, distance / interval);
     move(&s, (double[3]){0}, axis, 0.3 * angle);
     assert_false(is_held_back(&s));
     move(&s, (double[3]){0}, axis, 0.2 * angle);
     assert_true(is_held_back(&s));
-    move(&s, (double[3]){0, 0, -0.1 * far}, axis, 0.3 * angle);
+    move(&s, (double[3]){0, 0, -0.1 * distance}, axis, 0.3 * angle);
     assert_true(is_held_back(&s));
 }
 
@@ -167,9 +167,9 @@ static void test_slight(void **unused)
         ellipsoid_set(s.next.state.u, 0, 0, 0);
         ellipsoid_set(push, 1e-12, 0, 0);
         move(&s, (double[3]){0}, axis, 0);
-        ellipsoid_set(rate, 0.99 * most / h, 0, 0);
+        ellipsoid_set(rate, 0.99 * most / interval, 0, 0);
         assert_false(is_held_back(&s));
-        ellipsoid_set(rate, 1.01 * most / h, 0, 0);
+        ellipsoid_set(rate, 1.01 * most / interval, 0, 0);
         assert_true(is_held_back(&s));
     }
 }
@@ -186,19 +186,20 @@ static void test_inertia(void **unused)
         for (int slow = 0; slow < 2; slow++)
         {
             released_step s = let_go(exact);
-            const double rate = slow ? 0.1 / h : 10 / h;
-            const double lag = slow ? h : 1 / rate;
+            const double rate = slow ? 0.1 / interval : 10 / interval;
+            const double lag = slow ? interval : 1 / rate;
 
             s.cell.rate = turns ? 0 : rate;
             s.cell.rotation_rate = turns ? rate : 0;
             ellipsoid_set(s.start.contact.force, turns ? 0 : 1e-9, 0, 0);
             ellipsoid_set(s.start.contact.torque, turns ? 1e-15 : 0, 0, 0);
-            move(&s, (double[3]){far, 0, 0}, axis, angle);
+            move(&s, (double[3]){distance, 0, 0}, axis, angle);
             for (int part = 3; part < 6; part += 2)
             {
-                ellipsoid_set(s.next.derivative.u, part * far / h / lag, 0, 0);
-                ellipsoid_set(s.next.derivative.omega, part * angle / h / lag,
-                              0, 0);
+                ellipsoid_set(s.next.derivative.u,
+                              part * distance / interval / lag, 0, 0);
+                ellipsoid_set(s.next.derivative.omega,
+                              part * angle / interval / lag, 0, 0);
                 s.cell.inertial = 1;
                 assert_int_equal(is_held_back(&s), part > 4);
                 s.cell.inertial = 0;
@@ -217,7 +218,7 @@ static void test_kept(void **unused)
 
     (void)unused;
     ellipsoid_set(was->force, 1e-9, 0, 0);
-    ellipsoid_set(s.next.state.u, far / h, 0, 0);
+    ellipsoid_set(s.next.state.u, distance / interval, 0, 0);
     was->bead_contacts = was->cell_count = 2;
     was->deepest = was->cell_deepest = 1e-9;
     *is = *was;

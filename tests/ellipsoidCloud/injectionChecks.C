@@ -7,6 +7,7 @@ Description
 
 \*---------------------------------------------------------------------------*/
 
+#include "cellOrientation.H"
 #include "layerParts.H"
 #include "mathematicalConstants.H"
 
@@ -164,6 +165,87 @@ namespace Foam
             starts
         );
     }
+
+    //- Orientations that are given, and those that are drawn
+    static void checkOrientations()
+    {
+        scalar q[4], other[4], angles[3], R[3][3];
+        const auto given = [&](const string& text)
+        {
+            cellOrientation(entries(text)).draw(5, 3, q);
+        };
+
+        given("orientation aligned; axis (2 4 4);");
+        ellipsoid_rotation(q, R);
+        const vector axis(R[0][1], R[1][1], R[2][1]);
+        holds("an axis is of any length", same(axis, vector(1, 2, 2)/3));
+
+        given("orientation euler; eulerAngles (30 40 50);");
+        ellipsoid_euler_from_quaternion(q, angles);
+        const scalar degree = constant::mathematical::pi/180;
+        holds
+        (
+            "Euler angles are in degrees",
+            same(pointOf(angles), degree*vector(30, 40, 50))
+        );
+
+        given("orientation quaternion; quaternion (0 0 0.6 0.8006);");
+        const scalar length = std::inner_product(q, q + 4, q, scalar(0));
+        holds
+        (
+            "a quaternion is of length 1, but for its digits, which go",
+            mag(length - 1) < 1e-12
+         && refuses([&]()
+            {
+                given("orientation quaternion; quaternion (0 0 0.6 0.802);");
+            }),
+            Foam::name(length - 1)
+        );
+
+        scalar uniform[6];
+        ellipsoid_random_uniform(5, 3, rsPose, 0, 6, uniform);
+        ellipsoid_quaternion_from_uniform(uniform + 3, other);
+        given("orientation random;");
+        holds
+        (
+            "one that is drawn is not by the numbers of the place",
+            std::equal(q, q + 4, other)
+        );
+    }
+
+    //- How many cells are asked for
+    static void checkNumbers(const layer& at)
+    {
+        const auto refused = [&](const string& text)
+        {
+            const dictionary dict
+            (
+                entries
+                (
+                    "type box; min (8e-6 8e-6 5e-6); max (12e-6 12e-6 5e-6);"
+                  + text
+                )
+            );
+            const cellInjection::setting from
+            {
+                dict, at.undecomposed, at.domain, at.population, 0, 0, true
+            };
+            return refuses([&]() { cellInjection::New(from); });
+        };
+        holds
+        (
+            "either their number is given or their rate",
+            refused("") && refused("number 3; rate 3; duration 1;")
+         && !refused("number 3; duration 1;") && !refused("rate 3; duration 1;")
+        );
+        holds
+        (
+            "and makes one cell at least, and no more than can be",
+            refused("rate 0.49; duration 1;")
+         && !refused("rate 0.51; duration 1;")
+         && refused("rate 1e9; duration 1;")
+        );
+    }
 }
 
 
@@ -173,4 +255,6 @@ void Foam::checkInjections(const layer& at)
 {
     checkDraws(at);
     checkEntries(at);
+    checkOrientations();
+    checkNumbers(at);
 }
