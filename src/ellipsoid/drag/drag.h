@@ -121,10 +121,20 @@ typedef struct ellipsoid_plane_effect
     ellipsoid_plane_values values;
 } ellipsoid_plane_effect;
 
+/* Where a body is nearest to a plane (wallFit.c). */
+typedef struct ellipsoid_wall_fit
+{
+    double towards;       /* [-] k */
+    double nearest[3];    /* [m] r */
+    double support;       /* [m] how far r is along the normal */
+    double inverse[3][3]; /* [1/m2] */
+} ellipsoid_wall_fit;
+
 /* A wall as the body sees it; slopes, by the pose, only where asked for. */
 typedef struct ellipsoid_plane
 {
     ellipsoid_plane_effect effect;
+    ellipsoid_wall_fit fit;
     double gap[2];    /* [m] of each action, at least the lubrication_gap */
     double weight[2]; /* [-] of each action: 1 on a wall without end */
     double normal_slope[ELLIPSOID_POSE_SIZE][3];
@@ -160,14 +170,9 @@ void ellipsoid_plane_action(ellipsoid_plane_effect *effect,
                             const double shear[3], double action[2][6],
                             double change[4][2][6]);
 
-/* Where a body is nearest to a plane (wallFit.c). */
-typedef struct ellipsoid_wall_fit
-{
-    double towards;       /* [-] k */
-    double nearest[3];    /* [m] r */
-    double support;       /* [m] how far r is along the normal */
-    double inverse[3][3]; /* [1/m2] */
-} ellipsoid_wall_fit;
+/* (I - n n) M n, and its derivatives by each component of n. */
+void ellipsoid_along_wall(double m[3][3], const double n[3], double value[3],
+                          double change[3][3]);
 
 /* The normal is in the body frame. */
 void ellipsoid_wall_fit_set(const ellipsoid_model *model,

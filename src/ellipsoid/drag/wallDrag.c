@@ -36,7 +36,6 @@ static void add_plane(const ellipsoid_model *model, ellipsoid_plane *plane,
     const double far = viscosity * plane->weight[FAR];
     const double near = viscosity * plane->weight[NEAR] * effect->squeeze;
     double by_mean[9][6], along[6] = {0};
-    ellipsoid_wall_fit fit;
 
     for (int m = 0; m < 6; m++)
     {
@@ -44,8 +43,7 @@ static void add_plane(const ellipsoid_model *model, ellipsoid_plane *plane,
         ellipsoid_add6(-near * effect->row[m], effect->row,
                        e->by[VELOCITY + m]);
     }
-    ellipsoid_wall_fit_set(model, effect->normal, &fit);
-    ellipsoid_wall_fit_columns(a, n, &fit, effect->column, by_mean);
+    ellipsoid_wall_fit_columns(a, n, &plane->fit, effect->column, by_mean);
     for (int i = 0; i < 3; i++)
     {
         ellipsoid_add6(far * n[i], effect->column[6 + i], along);
@@ -201,18 +199,14 @@ static void add_slopes(const ellipsoid_near_walls *near, ellipsoid_plane *plane,
     ellipsoid_plane_effect *effect = &plane->effect;
     const double *n = effect->normal;
     double rates[6], action[2][6], by[4][2][6], g[3][3], mean[3][3];
-    double shear[3], back[3], along, change[3][6];
+    double shear[3], bent[3][3], change[3][6];
     double turned[3][6] = {{0}}; /* by the normal */
-    ellipsoid_wall_fit fit;
 
     memcpy(g, e->motion + GRADIENT, sizeof(g));
     memcpy(mean, e->motion + MEAN, sizeof(mean));
-    ellipsoid_wall_fit_set(near->model, n, &fit);
-    ellipsoid_wall_fit_motion(a, n, mean, &fit, rates, change);
+    ellipsoid_wall_fit_motion(a, n, mean, &plane->fit, rates, change);
     ellipsoid_add6(1, e->motion, rates);
-    ellipsoid_product(g, n, shear);
-    ellipsoid_combination(g, n[0], n[1], n[2], back);
-    along = ellipsoid_dot(n, shear);
+    ellipsoid_along_wall(g, n, shear, bent);
     for (int c = 0; c < 3; c++)
     {
         for (int m = 0; m < 6; m++)
@@ -221,15 +215,8 @@ static void add_slopes(const ellipsoid_near_walls *near, ellipsoid_plane *plane,
         }
         for (int i = 0; i < 3; i++)
         {
-            ellipsoid_add6(far
-                               * (g[i][c] - (i == c) * along
-                                  - n[i] * (shear[c] + back[c])),
-                           effect->column[6 + i], turned[c]);
+            ellipsoid_add6(far * bent[c][i], effect->column[6 + i], turned[c]);
         }
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        shear[i] -= along * n[i];
     }
     ellipsoid_plane_action(effect, rates, e->motion + VELOCITY, shear, action,
                            by);

@@ -15,8 +15,8 @@
     where G'_ij = 2 a_i^2/(a_i^2 + a_j^2) E^_ij is the gradient without what
     w_free follows. Left out of the strain E^ are the parts along and across the
     wall, (I - n n) E n: the force in the shear is known (planeFunctions.c), and
-    velocities along n do not change along a wall that is plane. k is 0 for FLOW_CENTRE, which
-    knows the flow at one point.
+    velocities along n do not change along a wall that is plane. k is 0 for
+    FLOW_CENTRE, which knows the flow at one point.
 */
 #include "drag/drag.h"
 
@@ -30,6 +30,25 @@ static const double towards = 0.43;
 static double left(const double a[3], int i, int j)
 {
     return 2 * a[i] * a[i] / (a[i] * a[i] + a[j] * a[j]);
+}
+
+void ellipsoid_along_wall(double m[3][3], const double n[3], double value[3],
+                          double change[3][3])
+{
+    double of_n[3], back[3], along;
+
+    ellipsoid_product(m, n, of_n);
+    ellipsoid_combination(m, n[0], n[1], n[2], back);
+    along = ellipsoid_dot(n, of_n);
+    for (int i = 0; i < 3; i++)
+    {
+        value[i] = of_n[i] - along * n[i];
+        for (int c = 0; c < 3; c++)
+        {
+            change[c][i] =
+                m[i][c] - (i == c) * along - n[i] * (of_n[c] + back[c]);
+        }
+    }
 }
 
 void ellipsoid_wall_fit_set(const ellipsoid_model *model,
@@ -130,7 +149,7 @@ void ellipsoid_wall_fit_motion(const double a[3], const double n[3],
                                double motion[6], double change[3][6])
 {
     const double *r = fit->nearest, *w = motion + 3, k = fit->towards;
-    double whole[3][3], strain[3][3], of_n[3], bent[4][3], s[3] = {0}, along;
+    double whole[3][3], strain[3][3], shear[3], bent[3][3], s[3] = {0};
 
     for (int i = 0; i < 3; i++)
     {
@@ -139,22 +158,12 @@ void ellipsoid_wall_fit_motion(const double a[3], const double n[3],
             whole[i][j] = 0.5 * (g[i][j] + g[j][i]);
         }
     }
-    ellipsoid_product(whole, n, of_n);
-    along = ellipsoid_dot(n, of_n);
-    /* (I - n n) E n, after its derivatives by the normal */
-    for (int i = 0; i < 3; i++)
-    {
-        for (int c = 0; c < 3; c++)
-        {
-            bent[c][i] = whole[i][c] - (i == c) * along - 2 * n[i] * of_n[c];
-        }
-        bent[3][i] = of_n[i] - along * n[i];
-    }
+    ellipsoid_along_wall(whole, n, shear, bent);
     for (int i = 0; i < 3; i++)
     {
         for (int j = 0; j < 3; j++)
         {
-            strain[i][j] = whole[i][j] - bent[3][i] * n[j] - n[i] * bent[3][j];
+            strain[i][j] = whole[i][j] - shear[i] * n[j] - n[i] * shear[j];
             s[i] += left(a, i, j) * strain[i][j] * r[j];
         }
     }
@@ -173,8 +182,8 @@ void ellipsoid_wall_fit_motion(const double a[3], const double n[3],
             for (int j = 0; j < 3; j++)
             {
                 const double strain_c = -bent[c][i] * n[j] - n[i] * bent[c][j]
-                                      - bent[3][i] * (j == c)
-                                      - bent[3][j] * (i == c);
+                                      - shear[i] * (j == c)
+                                      - shear[j] * (i == c);
 
                 s_c[i] +=
                     left(a, i, j) * (strain_c * r[j] + strain[i][j] * r_c[j]);

@@ -281,6 +281,7 @@ static int set_plane(const view *s, const wall *walls, int count, const wall *w,
     }
     ellipsoid_plane_effect_set(&s->model->plane, w->seen[FAR].normal,
                                plane->gap, sloped, &plane->effect);
+    ellipsoid_wall_fit_set(s->model, w->seen[FAR].normal, &plane->fit);
     return 1;
 }
 
