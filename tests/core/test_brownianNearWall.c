@@ -17,6 +17,17 @@ static ellipsoid_options near_wall(ellipsoid_motion motion, double interval)
     return o;
 }
 
+static const double no_load[3] = {0, 0, 0};
+
+/* The noise of the interval that begins at t. */
+static void begin_noise(test_walk *w, double t, const double load[3],
+                        ellipsoid_noise *noise)
+{
+    assert_ok(ellipsoid_noise_at(&w->model, &w->around, t, noise));
+    assert_ok(ellipsoid_wall_noise_begin(&w->model, &w->around, &w->state,
+                                         w->cache, t, load, noise));
+}
+
 /* The mobility [s/kg, ...] in the body frame. */
 static void mobility_at(test_walk *w, double matrix[6][6])
 {
@@ -128,9 +139,7 @@ static void check_interval(ellipsoid_motion motion, long count)
         double rates[6] = {0}, action[6];
 
         w = walk_over_wall(&o, 1, (uint32_t)id, height);
-        assert_ok(ellipsoid_noise_at(&w.model, &w.around, 0, &noise));
-        assert_ok(ellipsoid_wall_noise_begin(&w.model, &w.around, &w.state,
-                                             &cache, 0, &noise));
+        begin_noise(&w, 0, no_load, &noise);
         assert_true(noise.near);
         dt = noise.end;
         ellipsoid_wall_noise_set(&w.model, &w.around, dt, &noise);
@@ -177,14 +186,13 @@ static void test_numbers(void **unused)
     ellipsoid_noise far, near;
 
     (void)unused;
+    memset(&near, 0, sizeof(near));
+    memset(&far, 0, sizeof(far));
     assert_ok(ellipsoid_noise_at(&w.model, &w.around, 0.0305, &far));
-    near = far;
-    assert_ok(ellipsoid_wall_noise_begin(&w.model, &w.around, &w.state, &cache,
-                                         0.0305, &near));
+    begin_noise(&w, 0.0305, no_load, &near);
     assert_memory_equal(&far, &near, sizeof(far));
     w.state.x[2] = 0.6e-6;
-    assert_ok(ellipsoid_wall_noise_begin(&w.model, &w.around, &w.state, &cache,
-                                         0.0305, &near));
+    begin_noise(&w, 0.0305, no_load, &near);
     assert_true(near.near && near.start == 0.0305 && near.end <= far.end);
 }
 
@@ -233,9 +241,7 @@ static void test_past_rims(void **unused)
         }
         ellipsoid_set(w.state.x, 3e-6 * test_signed(&seed), 0,
                       sqrt(square) + 1e-6 * pow(10, -3 * test_uniform(&seed)));
-        assert_ok(ellipsoid_noise_at(&w.model, &w.around, 0, &noise));
-        assert_ok(ellipsoid_wall_noise_begin(&w.model, &w.around, &w.state,
-                                             &cache, 0, &noise));
+        begin_noise(&w, 0, no_load, &noise);
     }
     for (int k = 0; k < 4; k++)
     {
@@ -267,9 +273,7 @@ static void test_interval_past_a_rim(void **unused)
         w.around.walls_context = &block;
         ellipsoid_quaternion_from_axis(axis, 0, w.state.q);
         ellipsoid_set(w.state.x, -0.5e-6, 0, 0.82e-6);
-        assert_ok(ellipsoid_noise_at(&w.model, &w.around, 0, &noise));
-        assert_ok(ellipsoid_wall_noise_begin(&w.model, &w.around, &w.state,
-                                             &cache, 0, &noise));
+        begin_noise(&w, 0, no_load, &noise);
         end[n] = noise.end;
         wall_mesh_free(&block);
     }
@@ -288,9 +292,7 @@ static void test_even_intervals(void **unused)
     double end;
 
     (void)unused;
-    assert_ok(ellipsoid_noise_at(&whole.model, &whole.around, 0, &noise));
-    assert_ok(ellipsoid_wall_noise_begin(&whole.model, &whole.around,
-                                         &whole.state, &cache, 0, &noise));
+    begin_noise(&whole, 0, no_load, &noise);
     end = 1.5 * noise.end;
     assert_true(noise.near && end < 1);
     assert_ok(test_walk_to(&whole, end));
@@ -300,6 +302,76 @@ static void test_even_intervals(void **unused)
     {
         assert_near(whole.state.x[i], parts.state.x[i], 1e-15);
     }
+}
+
+/* Pressed by ten kT per gap to the wall that is next to it, and not away from it
+   or along, a body is held there, and has the regular interval. */
+static void test_load(void **unused)
+{
+    static const double regular = 0.05;
+    static const struct
+    {
+        double direction[3], energies;
+        int held;
+    } loads[] = {{{0, 0, -1}, 10.1, 1},
+                 {{0, 0, -1}, 9.9, 0},
+                 {{0, 0, 1}, 1000, 0},
+                 {{1, 0, 0}, 1000, 0}};
+    const ellipsoid_options o = near_wall(ELLIPSOID_MOTION_INERTIAL, regular);
+    const double gap = 50e-9; /* beyond the cut-off */
+
+    (void)unused;
+    for (size_t n = 0; n < sizeof(loads) / sizeof(*loads); n++)
+    {
+        test_walk w = walk_over_wall(&o, 1, 1, o.semi_axes[2] + gap);
+        ellipsoid_noise noise;
+        double load[3];
+
+        /* the length lies along y, and turned its load is another in its frame */
+        ellipsoid_quaternion_from_axis((const double[3]){0.6, 0.8, 0}, 0.3,
+                                       w.state.q);
+        for (int i = 0; i < 3; i++)
+        {
+            load[i] = loads[n].energies * test_kt / gap * loads[n].direction[i];
+        }
+        begin_noise(&w, 0, load, &noise);
+        assert_true(noise.near);
+        assert_int_equal(noise.end == regular, loads[n].held);
+    }
+}
+
+/* So a heavy sphere that lies on the wall takes a few steps in each interval; one
+   that is pushed as hard by noise alone takes as many as its gap asks for. */
+static void test_lying(void **unused)
+{
+    static const double weight[] = {40, 1}; /* times gap over kT */
+    const double regular = 0.05, gap = 20e-9;
+    long attempts[2];
+
+    (void)unused;
+    for (int n = 0; n < 2; n++)
+    {
+        ellipsoid_options o = near_wall(ELLIPSOID_MOTION_INERTIALESS, regular);
+        test_walk w;
+        double volume;
+
+        o.contact = 1;
+        o.buoyancy = 1;
+        o.bead_count = 1;
+        o.semi_axes[1] = o.semi_axes[0];
+        o.bead_radius = o.semi_axes[0];
+        o.tolerance = 1e-4;
+        volume = 4 * test_pi / 3 * pow(o.semi_axes[0], 3);
+        o.density = o.fluid_density
+                  - weight[n] * test_kt / (gap * volume * o.gravity[2]);
+        w = walk_over_wall(&o, 1, 5, o.semi_axes[2]);
+        assert_ok(test_walk_to(&w, 10 * regular));
+        attempts[n] = w.statistics.accepted + w.statistics.rejected;
+    }
+    print_message("# attempts in ten intervals: heavy %ld, light %ld\n",
+                  attempts[0], attempts[1]);
+    assert_true(attempts[0] < 300);
+    assert_true(attempts[1] > 600);
 }
 
 static int not_asked(void *context, double t, const double centre[3],
@@ -418,6 +490,8 @@ int main(void)
         cmocka_unit_test(test_past_rims),
         cmocka_unit_test(test_interval_past_a_rim),
         cmocka_unit_test(test_even_intervals),
+        cmocka_unit_test(test_load),
+        cmocka_unit_test(test_lying),
         cmocka_unit_test(test_no_place),
         cmocka_unit_test(test_profile),
     };

@@ -13,7 +13,7 @@
     same while the body moves and its mobility M = 1/R changes: in the mean that
     displaces it by kT div M dt, the drift that is needed, as in the midpoint
     scheme of Fixman, J. Chem. Phys. 69, 1527 (1978). Intervals are so short that
-    the body moves by a part of its gap.
+    the body moves by a part of its gap, where a load does not hold it to the wall.
 */
 #include "drag/drag.h"
 
@@ -69,20 +69,32 @@ static int factorise(double matrix[6][6])
     return 1;
 }
 
+/* A body is off a wall that it touches by a gap with the probability
+   exp(-load gap/kT): from so many kT on it is taken for held there. */
+static const double holding = 10;
+
 /* Of an interval in which the nearest point moves by `part` of the gap along the
    normal, rms: (part gap)^2/(2 kT o.M o), o.M o the square of 1/L o; the gap is
-   that at which the table is read, which is wider past a wall's rim. */
+   that at which the table is read, which is wider past a wall's rim. load [N],
+   body frame: what holds it. */
 static double longest_interval(const ellipsoid_model *model,
                                const ellipsoid_noise *noise,
-                               const ellipsoid_plane *plane)
+                               const ellipsoid_plane *plane,
+                               const double load[3])
 {
     static const double part = 0.4;
+    const double energy = ELLIPSOID_BOLTZMANN * model->options.temperature;
+    const double gap = plane->gap[ELLIPSOID_PLANE_FAR], moved = part * gap;
     const double *a = model->options.semi_axes, *n = plane->effect.normal;
     const double stretched[3] = {a[0] * a[0] * n[0], a[1] * a[1] * n[1],
                                  a[2] * a[2] * n[2]};
     const double p = sqrt(ellipsoid_dot(n, stretched));
     double out[6] = {n[0], n[1], n[2]}, square = 0;
 
+    if (-ellipsoid_dot(n, load) * gap > holding * energy)
+    {
+        return HUGE_VAL;
+    }
     ellipsoid_cross(n, stretched, out + 3);
     for (int i = 0; i < 6; i++)
     {
@@ -94,24 +106,23 @@ static double longest_interval(const ellipsoid_model *model,
         out[i] /= noise->factor[i][i];
         square += out[i] * out[i];
     }
-    const double moved = part * plane->gap[ELLIPSOID_PLANE_FAR];
-
-    return moved * moved
-         / (2 * ELLIPSOID_BOLTZMANN * model->options.temperature * square);
+    return moved * moved / (2 * energy * square);
 }
 
 ellipsoid_status ellipsoid_wall_noise_begin(
     const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
     const ellipsoid_state *state, ellipsoid_facet_cache *cache, double t,
-    ellipsoid_noise *noise)
+    const double load[3], ellipsoid_noise *noise)
 {
     const double *q = state->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
     ellipsoid_frame frame = {.by_q = NULL};
     ellipsoid_planes planes;
     ellipsoid_wall_expansion here;
+    double in_body[3];
     ellipsoid_status status;
 
     ellipsoid_rotation_inline(opposite, frame.axis);
+    ellipsoid_product(frame.axis, load, in_body);
     status = ellipsoid_find_planes(model, surroundings, state, &frame, cache,
                                    &planes);
     noise->near = status == ELLIPSOID_OK && planes.count > 0;
@@ -129,7 +140,8 @@ ellipsoid_status ellipsoid_wall_noise_begin(
     for (int p = 0; p < planes.count; p++)
     {
         noise->end =
-            fmin(noise->end, t + longest_interval(model, noise, &planes.at[p]));
+            fmin(noise->end,
+                 t + longest_interval(model, noise, &planes.at[p], in_body));
     }
     return noise->end > t ? ELLIPSOID_OK : ELLIPSOID_STEP_UNDERFLOW;
 }

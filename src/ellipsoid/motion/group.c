@@ -56,6 +56,57 @@ static int is_complete(const ellipsoid_member *m)
                  || ellipsoid_has_near_walls(m->model, m->surroundings)));
 }
 
+/* Does one touch a wall? */
+static int is_one_touching(ellipsoid_group *g)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_cell *p = &g->cell[cell];
+        ellipsoid_contact contact;
+
+        if (!p->fixed && ellipsoid_has_near_walls(p->model, &p->surroundings)
+            && ellipsoid_contact_evaluate(p->model, &p->surroundings,
+                                          &g->start[cell].state, p->cache,
+                                          &contact, NULL)
+                   == ELLIPSOID_OK
+            && contact.bead_contacts > 0)
+        {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Evaluates what acts on cells at rest, without noise; 0 if that cannot be done,
+   as when a step begins. */
+static int evaluate_at_rest(ellipsoid_group *g, double t)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        ellipsoid_state *at = &g->next[cell].state;
+
+        *at = g->start[cell].state;
+        ellipsoid_set(at->u, 0, 0, 0);
+        ellipsoid_set(at->omega, 0, 0, 0);
+        memset(&g->noise[cell], 0, sizeof g->noise[cell]);
+        g->cell[cell].surroundings.time = t;
+    }
+    return ellipsoid_group_evaluate_once(g, g->next, 0, 0) == ELLIPSOID_OK;
+}
+
+/* [N, lab] what presses a cell to the walls that it touches. */
+static void set_load(const ellipsoid_cell *p, const ellipsoid_evaluation *rest,
+                     double load[3])
+{
+    for (int i = 0; i < 3; i++)
+    {
+        load[i] = rest->contact.bead_contacts > 0
+                    ? p->model->mass * rest->derivative.u[i]
+                          - rest->contact.force[i]
+                    : 0;
+    }
+}
+
 /* The noise of all cells from t on, and until when. Near walls the interval ends
    with the run, too, as it cannot be continued: the resistance was that of its
    start. What is left until then is divided evenly, so that no interval is much
@@ -64,6 +115,7 @@ static ellipsoid_status set_noise(ellipsoid_group *g, double t, double end,
                                   double *until)
 {
     ellipsoid_status status = ELLIPSOID_OK;
+    const int loaded = is_one_touching(g) && evaluate_at_rest(g, t);
     double whole = end;
     int near = 0;
 
@@ -72,7 +124,12 @@ static ellipsoid_status set_noise(ellipsoid_group *g, double t, double end,
     {
         const ellipsoid_cell *p = &g->cell[cell];
         ellipsoid_noise *noise = &g->noise[cell];
+        double load[3] = {0, 0, 0};
 
+        if (loaded)
+        {
+            set_load(p, &g->next[cell], load);
+        }
         status = ellipsoid_noise_at(p->model, &p->surroundings, t, noise);
         if (noise->end < whole - noise->tolerance)
         {
@@ -83,7 +140,7 @@ static ellipsoid_status set_noise(ellipsoid_group *g, double t, double end,
         {
             status = ellipsoid_wall_noise_begin(p->model, &p->surroundings,
                                                 &g->start[cell].state, p->cache,
-                                                t, noise);
+                                                t, load, noise);
         }
         if (noise->end < *until - noise->tolerance)
         {
