@@ -4,6 +4,7 @@
 #include "cellState.H"
 #include "dictionary.H"
 #include "quaternion.H"
+#include "scalarList.H"
 
 #include <cstddef>
 

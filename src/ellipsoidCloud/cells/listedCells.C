@@ -5,6 +5,7 @@
 #include "atomicWrite.H"
 #include "checkedEntries.H"
 #include "csvFields.H"
+#include "FlatOutput.H"
 
 #include <algorithm>
 #include <fstream>

@@ -12,6 +12,7 @@ Description
 #include "atomicWrite.H"
 #include "cellPoses.H"
 #include "Cloud.H"
+#include "fvMesh.H"
 #include "IOField.H"
 #include "IOPosition.H"
 #include "passiveParticle.H"

@@ -4,6 +4,7 @@
 #include "groupSharing.H"
 #include "DynamicList.H"
 #include "ListOps.H"
+#include "scalarList.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
