@@ -42,13 +42,19 @@ void Foam::caseFiles::checkDimensions(const solverFields& flow)
     (
         flow.p,
         sqr(dimVelocity),
-        ": the kinematic pressure, that is, Pa by kg/m3"
+        ": the kinematic pressure, that is, Pa by kg/m3\n"
+        "    A pressure in Pa is that of compressible flows and of several"
+        " phases, in which cells do not go.\n"
+        "    That of one liquid: solve it with simpleFoam or pimpleFoam"
     );
     needDimensions
     (
         flow.phi,
         dimVelocity*dimArea,
-        ": the flux of volume, that is, one of mass by kg/m3"
+        ": the flux of volume, that is, one of mass by kg/m3\n"
+        "    A flux of mass is that of compressible flows, in which cells do"
+        " not go.\n"
+        "    That of one liquid: solve it with simpleFoam or pimpleFoam"
     );
 }
 
