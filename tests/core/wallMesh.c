@@ -297,10 +297,10 @@ void wall_mesh_finish(wall_mesh *mesh)
     mesh->listed = grown(NULL, mesh->count * sizeof *mesh->listed);
     for (int f = 0; f < mesh->count; f++)
     {
-        double vertex[3][3];
+        double points[3][3];
 
-        memcpy(vertex, mesh->facets[f].vertex, sizeof vertex);
-        ellipsoid_facet_set(&mesh->facets[f], (const double(*)[3])vertex);
+        memcpy(points, mesh->facets[f].vertex, sizeof points);
+        ellipsoid_facet_set(&mesh->facets[f], (const double(*)[3])points);
         mesh->index[f] = f;
     }
     for (int c = 0; c < n; c++)
