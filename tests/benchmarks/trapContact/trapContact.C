@@ -164,7 +164,7 @@ int observe(void* context, const ellipsoid_step* step)
 
     isometry image;
     const bool inside =
-        j.here.settle(point(x[0], x[1], x[2]), image) == meshFlow::pInside;
+        j.here.moveHome(point(x[0], x[1], x[2]), image) == meshFlow::pInside;
 
     taken t;
     t.cost = seconds() - j.since - j.clock;
