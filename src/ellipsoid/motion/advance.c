@@ -368,6 +368,11 @@ ellipsoid_status ellipsoid_group_start(ellipsoid_group *g,
     return status;
 }
 
+ellipsoid_status ellipsoid_status_at_start(ellipsoid_status status)
+{
+    return status == ELLIPSOID_STEP_UNDERFLOW ? ELLIPSOID_OUTSIDE : status;
+}
+
 /* Where an interval begins. */
 static ellipsoid_status begin(ellipsoid_group *g, double t, double end)
 {
@@ -379,8 +384,7 @@ static ellipsoid_status begin(ellipsoid_group *g, double t, double end)
         status = ellipsoid_group_evaluate(g, t, g->start, !g->inertial,
                                           g->has_blocks);
     }
-    /* no step is short enough for a callback that has no answer here */
-    return status == ELLIPSOID_STEP_UNDERFLOW ? ELLIPSOID_OUTSIDE : status;
+    return ellipsoid_status_at_start(status);
 }
 
 /* The step control of the group follows from those of its members. */

@@ -57,30 +57,34 @@ static int is_complete(const ellipsoid_member *m)
 }
 
 /* Does one touch a wall? */
-static int is_one_touching(ellipsoid_group *g)
+static ellipsoid_status find_touching(ellipsoid_group *g, int *touching)
 {
-    for (int cell = 0; cell < g->count; cell++)
+    ellipsoid_status status = ELLIPSOID_OK;
+
+    *touching = 0;
+    for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
         const ellipsoid_cell *p = &g->cell[cell];
         ellipsoid_contact contact;
 
-        if (!p->fixed && ellipsoid_has_near_walls(p->model, &p->surroundings)
-            && ellipsoid_contact_evaluate(p->model, &p->surroundings,
-                                          &g->start[cell].state, p->cache,
-                                          &contact, NULL)
-                   == ELLIPSOID_OK
-            && contact.bead_contacts > 0)
+        if (!p->fixed && ellipsoid_has_near_walls(p->model, &p->surroundings))
         {
-            return 1;
+            g->failed = cell;
+            status = ellipsoid_contact_evaluate(p->model, &p->surroundings,
+                                                &g->start[cell].state, p->cache,
+                                                &contact, NULL);
+            *touching = *touching || contact.bead_contacts > 0;
         }
     }
-    return 0;
+    return status;
 }
 
-/* Evaluates what acts on cells at rest, without noise; 0 if that cannot be done,
-   as when a step begins. */
-static int evaluate_at_rest(ellipsoid_group *g, double t)
+/* Where one touches a wall, evaluates what acts on all at rest, without noise. */
+static ellipsoid_status evaluate_at_rest(ellipsoid_group *g, double t,
+                                         int *touching)
 {
+    ellipsoid_status status;
+
     for (int cell = 0; cell < g->count; cell++)
     {
         ellipsoid_state *at = &g->next[cell].state;
@@ -91,7 +95,12 @@ static int evaluate_at_rest(ellipsoid_group *g, double t)
         memset(&g->noise[cell], 0, sizeof g->noise[cell]);
         g->cell[cell].surroundings.time = t;
     }
-    return ellipsoid_group_evaluate_once(g, g->next, 0, 0) == ELLIPSOID_OK;
+    status = find_touching(g, touching);
+    if (status == ELLIPSOID_OK && *touching)
+    {
+        status = ellipsoid_group_evaluate_once(g, g->next, 0, 0);
+    }
+    return ellipsoid_status_at_start(status);
 }
 
 /* [N, lab] what presses a cell to the walls that it touches. */
@@ -114,8 +123,8 @@ static void set_load(const ellipsoid_cell *p, const ellipsoid_evaluation *rest,
 static ellipsoid_status set_noise(ellipsoid_group *g, double t, double end,
                                   double *until)
 {
-    ellipsoid_status status = ELLIPSOID_OK;
-    const int loaded = is_one_touching(g) && evaluate_at_rest(g, t);
+    int touching;
+    ellipsoid_status status = evaluate_at_rest(g, t, &touching);
     double whole = end;
     int near = 0;
 
@@ -126,7 +135,7 @@ static ellipsoid_status set_noise(ellipsoid_group *g, double t, double end,
         ellipsoid_noise *noise = &g->noise[cell];
         double load[3] = {0, 0, 0};
 
-        if (loaded)
+        if (touching)
         {
             set_load(p, &g->next[cell], load);
         }

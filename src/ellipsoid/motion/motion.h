@@ -338,6 +338,9 @@ ellipsoid_group_evaluate(ellipsoid_group *g, double t,
     return ellipsoid_group_evaluate_once(g, points, balanced, with_blocks);
 }
 
+/* Where an advance begins no step is short enough for an answer (advance.c). */
+ellipsoid_status ellipsoid_status_at_start(ellipsoid_status status);
+
 /* A cell of the group where the points are, placed at most once. */
 const ellipsoid_body *ellipsoid_placed_body(ellipsoid_group *group,
                                             const ellipsoid_evaluation *points,
