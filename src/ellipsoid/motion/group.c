@@ -56,47 +56,39 @@ static int is_complete(const ellipsoid_member *m)
                  || ellipsoid_has_near_walls(m->model, m->surroundings)));
 }
 
-/* Does one touch a wall? */
-static ellipsoid_status find_touching(ellipsoid_group *g, int *touching)
+/* Is its random force that near walls? */
+static int is_near_walls(const ellipsoid_cell *p)
+{
+    return !p->fixed && ellipsoid_has_near_walls(p->model, &p->surroundings);
+}
+
+/* Evaluates what acts on the cells at rest, without noise; where none touches a
+   wall, their contacts alone. */
+static ellipsoid_status evaluate_at_rest(ellipsoid_group *g, double t)
 {
     ellipsoid_status status = ELLIPSOID_OK;
+    int touching = 0;
 
-    *touching = 0;
     for (int cell = 0; status == ELLIPSOID_OK && cell < g->count; cell++)
     {
-        const ellipsoid_cell *p = &g->cell[cell];
-        ellipsoid_contact contact;
+        ellipsoid_cell *p = &g->cell[cell];
+        ellipsoid_evaluation *rest = &g->next[cell];
 
-        if (!p->fixed && ellipsoid_has_near_walls(p->model, &p->surroundings))
+        rest->state = g->start[cell].state;
+        ellipsoid_set(rest->state.u, 0, 0, 0);
+        ellipsoid_set(rest->state.omega, 0, 0, 0);
+        memset(&g->noise[cell], 0, sizeof g->noise[cell]);
+        p->surroundings.time = t;
+        if (is_near_walls(p))
         {
             g->failed = cell;
             status = ellipsoid_contact_evaluate(p->model, &p->surroundings,
-                                                &g->start[cell].state, p->cache,
-                                                &contact, NULL);
-            *touching = *touching || contact.bead_contacts > 0;
+                                                &rest->state, p->cache,
+                                                &rest->contact, NULL);
+            touching = touching || rest->contact.bead_contacts > 0;
         }
     }
-    return status;
-}
-
-/* Where one touches a wall, evaluates what acts on all at rest, without noise. */
-static ellipsoid_status evaluate_at_rest(ellipsoid_group *g, double t,
-                                         int *touching)
-{
-    ellipsoid_status status;
-
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        ellipsoid_state *at = &g->next[cell].state;
-
-        *at = g->start[cell].state;
-        ellipsoid_set(at->u, 0, 0, 0);
-        ellipsoid_set(at->omega, 0, 0, 0);
-        memset(&g->noise[cell], 0, sizeof g->noise[cell]);
-        g->cell[cell].surroundings.time = t;
-    }
-    status = find_touching(g, touching);
-    if (status == ELLIPSOID_OK && *touching)
+    if (status == ELLIPSOID_OK && touching)
     {
         status = ellipsoid_group_evaluate_once(g, g->next, 0, 0);
     }
@@ -123,8 +115,7 @@ static void set_load(const ellipsoid_cell *p, const ellipsoid_evaluation *rest,
 static ellipsoid_status set_noise(ellipsoid_group *g, double t, double end,
                                   double *until)
 {
-    int touching;
-    ellipsoid_status status = evaluate_at_rest(g, t, &touching);
+    ellipsoid_status status = evaluate_at_rest(g, t);
     double whole = end;
     int near = 0;
 
@@ -133,20 +124,17 @@ static ellipsoid_status set_noise(ellipsoid_group *g, double t, double end,
     {
         const ellipsoid_cell *p = &g->cell[cell];
         ellipsoid_noise *noise = &g->noise[cell];
-        double load[3] = {0, 0, 0};
 
-        if (touching)
-        {
-            set_load(p, &g->next[cell], load);
-        }
         status = ellipsoid_noise_at(p->model, &p->surroundings, t, noise);
         if (noise->end < whole - noise->tolerance)
         {
             whole = noise->end;
         }
-        if (status == ELLIPSOID_OK && !p->fixed
-            && ellipsoid_has_near_walls(p->model, &p->surroundings))
+        if (status == ELLIPSOID_OK && is_near_walls(p))
         {
+            double load[3];
+
+            set_load(p, &g->next[cell], load);
             status = ellipsoid_wall_noise_begin(p->model, &p->surroundings,
                                                 &g->start[cell].state, p->cache,
                                                 t, load, noise);

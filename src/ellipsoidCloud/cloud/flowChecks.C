@@ -12,13 +12,18 @@
 
 namespace Foam
 {
+    //- What a field means that a solver has with the density
+    static const char* const ofOtherSolvers =
+        ", in which cells do not go.\n"
+        "    That of one liquid: solve it with simpleFoam or pimpleFoam";
+
     //- End the run if a field is not of the dimensions that the solver has it in
     template<class Field>
     static void needDimensions
     (
         const Field& field,
         const dimensionSet& dimensions,
-        const char* hint
+        const string& hint
     )
     {
         if (field.dimensions() != dimensions)
@@ -26,7 +31,7 @@ namespace Foam
             const masterGate once;
             FatalErrorInFunction
                 << "The dimensions " << field.dimensions() << " of "
-                << field.name() << " are not " << dimensions << hint << nl
+                << field.name() << " are not " << dimensions << hint.c_str() << nl
                 << "    " << field.objectPath() << exit(FatalError);
         }
     }
@@ -42,19 +47,17 @@ void Foam::caseFiles::checkDimensions(const solverFields& flow)
     (
         flow.p,
         sqr(dimVelocity),
-        ": the kinematic pressure, that is, Pa by kg/m3\n"
-        "    A pressure in Pa is that of compressible flows and of several"
-        " phases, in which cells do not go.\n"
-        "    That of one liquid: solve it with simpleFoam or pimpleFoam"
+        string(": the kinematic pressure, that is, Pa by kg/m3\n")
+      + "    A pressure in Pa is that of compressible flows and of several phases"
+      + ofOtherSolvers
     );
     needDimensions
     (
         flow.phi,
         dimVelocity*dimArea,
-        ": the flux of volume, that is, one of mass by kg/m3\n"
-        "    A flux of mass is that of compressible flows, in which cells do"
-        " not go.\n"
-        "    That of one liquid: solve it with simpleFoam or pimpleFoam"
+        string(": the flux of volume, that is, one of mass by kg/m3\n")
+      + "    A flux of mass is that of compressible flows"
+      + ofOtherSolvers
     );
 }
 
