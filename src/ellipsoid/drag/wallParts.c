@@ -207,10 +207,24 @@ static void add_edge(const kernel *k, const double r1[3], const double r2[3],
     }
 }
 
+/* Is all of a facet farther from the foot than anything is seen? */
+static int is_beyond(const kernel *k, const ellipsoid_facet *facet)
+{
+    const double most = k->reach * (1 + 1e-9) + facet->radius;
+    double off[3];
+
+    ellipsoid_difference(k->foot, facet->middle, off);
+    return ellipsoid_dot(off, off) > most * most;
+}
+
 void ellipsoid_wall_add(view *s, const ellipsoid_facet *facet, wall *w)
 {
     double side[2][3]; /* [m] of the foot on the left of each edge */
 
+    if (is_beyond(&w->seen[FAR], facet) && is_beyond(&w->seen[NEAR], facet))
+    {
+        return;
+    }
     for (int i = 0; i < 3; i++)
     {
         const double *from = facet->vertex[i];

@@ -117,12 +117,14 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
     return status;
 }
 
-/* The wall of this plane among those found, or one begun behind them. away: of its
-   facet [m]. */
+/* The wall of this plane among those found, or one begun behind them; what of that
+   plane was begun there last, and is not seen, serves if it is the same to the last
+   bit. away: of its facet [m]. */
 static wall *find_wall(view *s, const double normal[3], double height,
-                       double away, wall *walls, int count)
+                       double away, wall *walls, int count, int begun)
 {
     const double same = in_plane * s->model->wall_range;
+    wall *last = &walls[count];
 
     for (int k = 0; k < count; k++)
     {
@@ -137,9 +139,13 @@ static wall *find_wall(view *s, const double normal[3], double height,
             return &walls[k];
         }
     }
-    ellipsoid_wall_begin(s, normal, height, &walls[count]);
-    walls[count].away = away;
-    return &walls[count];
+    if (!begun || height != last->height
+        || memcmp(normal, last->normal, 3 * sizeof(*normal)))
+    {
+        ellipsoid_wall_begin(s, normal, height, last);
+    }
+    last->away = away;
+    return last;
 }
 
 /* Keeps the wall behind those found; of too many the farthest goes. */
@@ -297,7 +303,7 @@ ellipsoid_status ellipsoid_find_planes(
         collect(surroundings, x, range, looked * range + longest, cache);
     wall walls[ELLIPSOID_MAX_PLANES + 1];
     view s = {.model = model, .x = x};
-    int count = 0;
+    int count = 0, begun = 0;
 
     planes->count = 0;
     if (status != ELLIPSOID_OK || cache->near_count == 0)
@@ -328,10 +334,15 @@ ellipsoid_status ellipsoid_find_planes(
             continue;
         }
         w = find_wall(&s, normal, height, sqrt(square) - facet->radius, walls,
-                      count);
+                      count, begun);
         ellipsoid_wall_add(&s, facet, w);
+        if (w != &walls[count])
+        {
+            continue;
+        }
         /* which facets are listed must not tell whose plane it is */
-        if (w == &walls[count] && !is_unseen(w))
+        begun = is_unseen(w);
+        if (!begun)
         {
             keep_wall(walls, &count);
         }
