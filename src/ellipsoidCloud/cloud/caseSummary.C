@@ -2,9 +2,7 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "caseSummary.H"
-#include "captureCriterion.H"
-#include "cellPopulation.H"
-#include "domainImages.H"
+#include "ellipsoidCloud.H"
 #include "fvMesh.H"
 #include "gaussGrad.H"
 #include "inletFlux.H"
@@ -68,6 +66,96 @@ static scalar bareSurface(const ellipsoid_options& options)
 }
 
 } // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::ellipsoidCloud::reportCapture(const domainImages& images) const
+{
+    // With n the flux through a slit is 1 + 2/n^2 times as large
+    const label fewest = 4;
+
+    const fvMesh& mesh = undecomposed_->mesh();
+    const labelList& sieves = criterion_.sieves();
+    const List<narrowGap> gaps(narrowestGaps(mesh, images, sieves));
+    const scalar width = 2*shortestSemiAxis(properties_.options());
+
+    if (sieves.empty())
+    {
+        Warning
+            << "capture names no sieves: no cell can be caught" << nl << endl;
+    }
+    forAll(sieves, i)
+    {
+        const word& name = mesh.boundaryMesh()[sieves[i]].name();
+        const narrowGap& gap = gaps[i];
+
+        if (gap.width >= GREAT)
+        {
+            continue;
+        }
+        Info<< "case: narrowest gap of " << name << ' ' << um(gap.width)
+            << " um: " << gap.meshCells << " mesh cells across, "
+            << word::printf("%.3g", gap.width/width)
+            << " of a cell's width" << endl;
+
+        if (gap.meshCells < fewest)
+        {
+            Warning
+                << "The narrowest gap of " << name << ", at "
+                << shortText(gap.at).c_str() << ", is only "
+                << gap.meshCells << " mesh cells wide:"
+                << " the flow through it is not resolved" << nl << endl;
+        }
+    }
+
+    const scalar deltaT = mesh_.time().deltaTValue();
+    const scalar holdTime = criterion_.holdTime();
+
+    if (deltaT > holdTime)
+    {
+        Warning
+            << "deltaT " << deltaT << " s is longer than holdTime " << holdTime
+            << " s: cells are judged once a deltaT" << nl << endl;
+    }
+}
+
+
+void Foam::ellipsoidCloud::reportFlow(const inletFlux& through) const
+{
+    const scalar slowSpeed = criterion_.slowSpeed();
+
+    if (slowSpeed >= through.speed && through.speed > 0)
+    {
+        Warning
+            << "capture: what is below " << slowSpeed << " m/s is slow, and"
+            << " the mean inlet speed only " << through.speed << " m/s: cells"
+            << " that move with the flow would be caught" << nl << endl;
+    }
+    if (through.closed())
+    {
+        return;
+    }
+
+    // Beyond, a steady laminar flow is not to be taken for granted
+    const scalar largest = 100;
+
+    const scalar area = through.inflow/through.speed;
+    const scalar number =
+        through.speed*sqrt(area)
+       /properties_.options().kinematic_viscosity;
+
+    Info<< "case: Reynolds number " << word::printf("%.3g", number) << " of the"
+        << " inlets" << endl;
+
+    if (number > largest)
+    {
+        Warning
+            << "The Reynolds number is " << word::printf("%.3g", number)
+            << ". The pressure p is kinematic: Pa by the density, m2/s2" << nl
+            << endl;
+    }
+}
 
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
@@ -148,99 +236,6 @@ void Foam::reportSize
 }
 
 
-void Foam::reportCapture
-(
-    const fvMesh& mesh,
-    const scalar deltaT,
-    const domainImages& images,
-    const scalar width,
-    const captureCriterion& criterion
-)
-{
-    // With n the flux through a slit is 1 + 2/n^2 times as large
-    const label fewest = 4;
-
-    const labelList& sieves = criterion.sieves();
-    const List<narrowGap> gaps(narrowestGaps(mesh, images, sieves));
-
-    if (sieves.empty())
-    {
-        Warning
-            << "capture names no sieves: no cell can be caught" << nl << endl;
-    }
-    forAll(sieves, i)
-    {
-        const word& name = mesh.boundaryMesh()[sieves[i]].name();
-        const narrowGap& gap = gaps[i];
-
-        if (gap.width >= GREAT)
-        {
-            continue;
-        }
-        Info<< "case: narrowest gap of " << name << ' ' << um(gap.width)
-            << " um: " << gap.meshCells << " mesh cells across, "
-            << word::printf("%.3g", gap.width/width)
-            << " of a cell's width" << endl;
-
-        if (gap.meshCells < fewest)
-        {
-            Warning
-                << "The narrowest gap of " << name << ", at "
-                << shortText(gap.at).c_str() << ", is only "
-                << gap.meshCells << " mesh cells wide:"
-                << " the flow through it is not resolved" << nl << endl;
-        }
-    }
-
-    const scalar holdTime = criterion.holdTime();
-
-    if (deltaT > holdTime)
-    {
-        Warning
-            << "deltaT " << deltaT << " s is longer than holdTime " << holdTime
-            << " s: cells are judged once a deltaT" << nl << endl;
-    }
-}
-
-
-void Foam::reportFlow
-(
-    const inletFlux& through,
-    const scalar nu,
-    const scalar slowSpeed
-)
-{
-    if (slowSpeed >= through.speed && through.speed > 0)
-    {
-        Warning
-            << "capture: what is below " << slowSpeed << " m/s is slow, and"
-            << " the mean inlet speed only " << through.speed << " m/s: cells"
-            << " that move with the flow would be caught" << nl << endl;
-    }
-    if (through.closed())
-    {
-        return;
-    }
-
-    // Beyond, a steady laminar flow is not to be taken for granted
-    const scalar largest = 100;
-
-    const scalar area = through.inflow/through.speed;
-    const scalar number = through.speed*sqrt(area)/nu;
-
-    Info<< "case: Reynolds number " << word::printf("%.3g", number) << " of the"
-        << " inlets" << endl;
-
-    if (number > largest)
-    {
-        Warning
-            << "The Reynolds number is " << word::printf("%.3g", number)
-            << ". The pressure p is kinematic: Pa by the density, m2/s2" << nl
-            << endl;
-    }
-}
-
-
 bool Foam::reportInertia
 (
     const volVectorField& U,
@@ -267,18 +262,4 @@ bool Foam::reportInertia
         << " cell does not have, turns and shifts it" << nl << endl;
 
     return true;
-}
-
-
-void Foam::reportFilling(const scalar cells, const scalar fluid)
-{
-    const scalar part = cells/fluid;
-
-    if (part > 0.01)
-    {
-        Warning
-            << "The cells fill " << word::printf("%.2g", 100*part)
-            << " % of the fluid that they enter with: above 1 % they change"
-            << " the flow, which the model leaves out" << nl << endl;
-    }
 }

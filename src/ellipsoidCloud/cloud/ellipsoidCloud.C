@@ -222,7 +222,6 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
         if (Pstream::master())
         {
             const fvMesh& whole = undecomposed_->mesh();
-            const scalar width = 2*shortestSemiAxis(properties_.options());
             const domainImages images(whole, properties_.unreached());
 
             checkImages(images);
@@ -232,14 +231,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
             {
                 reportSize(whole.nCells(), whole.bounds(), population_);
             }
-            reportCapture
-            (
-                whole,
-                mesh.time().deltaTValue(),
-                images,
-                width,
-                criterion_
-            );
+            reportCapture(images);
         }
     }
     reportApertures(false);
@@ -283,12 +275,7 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow)
     domain_->flow.renew(*undecomposed_, fluidDensity());
     criterion_.setInletSpeed(inletFlux::speedOf(*undecomposed_));
 
-    reportFlow
-    (
-        through,
-        properties_.options().kinematic_viscosity,
-        criterion_.slowSpeed()
-    );
+    reportFlow(through);
 
     if (flowType_ != UNSTEADY)
     {

@@ -8,7 +8,6 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "ellipsoidCloud.H"
-#include "caseSummary.H"
 #include "masterGate.H"
 #include "SHA1.H"
 #include "volFields.H"
@@ -139,7 +138,15 @@ void Foam::ellipsoidCloud::reportCells(const scalar inflow) const
     {
         cells += injection.volume();
     }
-    reportFilling(cells, max(there, inflow*(max(all) - min(all))));
+    const scalar part = cells/max(there, inflow*(max(all) - min(all)));
+
+    if (part > 0.01)
+    {
+        Warning
+            << "The cells fill " << word::printf("%.2g", 100*part)
+            << " % of the fluid that they enter with: above 1 % they change"
+            << " the flow, which the model leaves out" << nl << endl;
+    }
 }
 
 
