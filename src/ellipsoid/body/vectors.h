@@ -70,6 +70,15 @@ static inline void ellipsoid_add(double v[3], const double change[3])
     v[2] += change[2];
 }
 
+/* v += factor change */
+static inline void ellipsoid_add_times(double v[3], double factor,
+                                       const double change[3])
+{
+    v[0] += factor * change[0];
+    v[1] += factor * change[1];
+    v[2] += factor * change[2];
+}
+
 /* |q|^2 of four components */
 static inline double ellipsoid_square4(const double q[4])
 {

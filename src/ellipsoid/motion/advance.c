@@ -85,7 +85,6 @@ static ellipsoid_status solve_step(ellipsoid_group *g,
 {
     ellipsoid_status status = ellipsoid_rosenbrock_step(g, planned);
 
-    *error = 0;
     if (status == ELLIPSOID_OK)
     {
         status = ellipsoid_judge_step(g, planned->h, error);
@@ -102,24 +101,9 @@ static ellipsoid_status solve_step(ellipsoid_group *g,
     return status;
 }
 
-/* Evaluates the equations where a step ends; with derivatives if the next step
-   needs them. */
-static ellipsoid_status evaluate_end(ellipsoid_group *g,
-                                     const ellipsoid_plan *planned)
-{
-    const int with_blocks = !planned->last;
-    const ellipsoid_status status = ellipsoid_group_evaluate(
-        g, planned->end, g->next, !g->inertial, with_blocks);
-
-    g->next_has_blocks = with_blocks;
-    /* there is room for the couplings of one time only */
-    g->has_blocks = g->has_blocks && !(g->pairs && with_blocks);
-    return status;
-}
-
 /*
     One attempt at a Rosenbrock step. A step counts only if the equations can be
-    evaluated where it ends.
+    evaluated where it ends; with derivatives if the next step needs them.
 */
 static ellipsoid_status
 try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
@@ -138,17 +122,18 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
     }
     if (status == ELLIPSOID_OK && *error <= 1)
     {
-        status = evaluate_end(g, planned);
+        g->next_has_blocks = !planned->last;
+        status = ellipsoid_group_evaluate(g, planned->end, g->next,
+                                          !g->inertial, g->next_has_blocks);
+        /* there is room for the couplings of one time only */
+        g->has_blocks = g->has_blocks && !(g->pairs && g->next_has_blocks);
     }
     if (status == ELLIPSOID_OK && *error <= 1)
     {
         status = ellipsoid_judge_expansions(g, planned->h, error);
     }
-    if (status != ELLIPSOID_OK || *error > 1)
-    {
-        return status;
-    }
-    if (is_one_held_back(g, planned->h))
+    if (status == ELLIPSOID_OK && *error <= 1
+        && is_one_held_back(g, planned->h))
     {
         *error = far_too_large;
     }
@@ -179,43 +164,33 @@ static ellipsoid_status try_step(ellipsoid_group *g,
         int touched;
         ellipsoid_status status = ellipsoid_explicit_step(g, planned, &touched);
 
-        if (status == ELLIPSOID_OK && !touched)
+        if (status != ELLIPSOID_OK || !touched)
         {
-            status = ellipsoid_judge_step(g, planned->h, error);
+            g->next_has_blocks = 0;
+            return status == ELLIPSOID_OK
+                     ? ellipsoid_judge_step(g, planned->h, error)
+                     : status;
         }
-        if (status != ELLIPSOID_OK || *error > 1)
-        {
-            return status;
-        }
-        *explicitly = !touched;
+        *explicitly = 0;
     }
-    if (!*explicitly)
-    {
-        *error = 0;
-        return try_rosenbrock(g, planned, error);
-    }
-    g->next_has_blocks = 0;
-    return ELLIPSOID_OK;
+    return try_rosenbrock(g, planned, error);
 }
 
-/* Tells the accepted step, of which g->step has the times. */
-static void describe_step(const ellipsoid_group *g, int explicitly)
+/* Tells the accepted step. */
+static void describe_step(const ellipsoid_group *g,
+                          const ellipsoid_plan *planned, int explicitly)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
         ellipsoid_step *step = &g->step[cell];
 
+        step->start = planned->start;
+        step->end = planned->end;
         step->before = g->start[cell].state;
         step->after = g->next[cell].state;
         step->contact = g->next[cell].contact;
-        if (explicitly)
-        {
-            ellipsoid_explicit_dense(g, cell, step->dense);
-        }
-        else
-        {
-            ellipsoid_rosenbrock_dense(g, cell, step->dense);
-        }
+        (explicitly ? ellipsoid_explicit_dense
+                    : ellipsoid_rosenbrock_dense)(g, cell, step->dense);
     }
 }
 
@@ -245,7 +220,7 @@ static void count_attempt(const ellipsoid_group *g, int accepted)
     }
 }
 
-/* Sets the times of an accepted step, all of it if it is observed, and the
+/* Sets what is told of an accepted step, if it is observed, and the
    controller. largest: the factor by which the next may be longer. */
 static void accept_step(ellipsoid_group *g, const ellipsoid_plan *planned,
                         int explicitly, double error, double largest,
@@ -263,30 +238,25 @@ static void accept_step(ellipsoid_group *g, const ellipsoid_plan *planned,
     {
         controller->previous_error = fmax(error, 1e-4);
     }
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        g->step[cell].start = planned->start;
-        g->step[cell].end = planned->end;
-    }
     if (g->observed)
     {
-        describe_step(g, explicitly);
+        describe_step(g, planned, explicitly);
     }
 }
 
 /*
     Takes one step from the start, shortened until it succeeds. Sets next, the
-    steps and the controller.
+    steps, the time and the controller.
 */
-static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
+static ellipsoid_status take_step(ellipsoid_group *g, double *t, double end,
                                   long *attempts,
                                   ellipsoid_controller *controller)
 {
     const ellipsoid_options *o = &g->cell[0].model->options;
     const double shortest =
-        fmax(smallest_step, 4 * DBL_EPSILON * fmax(fabs(t), DBL_MIN));
+        fmax(smallest_step, 4 * DBL_EPSILON * fmax(fabs(*t), DBL_MIN));
     double largest_factor = 5, proposal = controller->step, landing;
-    ellipsoid_status status = propose_step(g, t, end, shortest, &proposal);
+    ellipsoid_status status = propose_step(g, *t, end, shortest, &proposal);
 
     if (status != ELLIPSOID_OK)
     {
@@ -296,7 +266,7 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
     while (*attempts < o->maximum_steps)
     {
         const ellipsoid_plan planned =
-            ellipsoid_plan_step(proposal, landing, t, end);
+            ellipsoid_plan_step(proposal, landing, *t, end);
         double error = 0;
         int explicitly;
 
@@ -308,6 +278,7 @@ static ellipsoid_status take_step(ellipsoid_group *g, double t, double end,
         {
             accept_step(g, &planned, explicitly, error, largest_factor,
                         controller);
+            *t = planned.end;
             return ELLIPSOID_OK;
         }
         if (status != ELLIPSOID_OK && !ellipsoid_may_recover(status))
@@ -443,12 +414,11 @@ ellipsoid_status ellipsoid_group_advance(ellipsoid_group *g,
 
     while (status == ELLIPSOID_OK && *t < end)
     {
-        status = take_step(g, *t, end, attempts, &controller);
+        status = take_step(g, t, end, attempts, &controller);
         if (status == ELLIPSOID_OK)
         {
             ellipsoid_evaluation *finished = g->start;
 
-            *t = g->step[0].end;
             if (update_members(g, members, &controller, observer))
             {
                 status = ELLIPSOID_STOPPED;

@@ -91,10 +91,7 @@ static ellipsoid_status add_electric(const ellipsoid_model *m,
         }
     }
     ellipsoid_add(field, o->electric_field);
-    for (int i = 0; i < 3; i++)
-    {
-        wrench->force[i] += o->charge * field[i];
-    }
+    ellipsoid_add_times(wrench->force, o->charge, field);
     add_torque_of_dipole(o->dipole, frame->axis, field, wrench->torque);
 
     for (int l = 0; b && l < 3; l++)

@@ -23,9 +23,8 @@ void ellipsoid_step_state(const ellipsoid_step *step, double t,
     memcpy(after, &step->after, sizeof(after));
     for (int n = 0; n < UNKNOWNS; n++)
     {
-        const double *d[3] = {&step->dense[0][n], &step->dense[1][n],
-                              &step->dense[2][n]};
-        const double bend = *d[0] + s * (*d[1] + r * *d[2]);
+        const double bend =
+            step->dense[0][n] + s * (step->dense[1][n] + r * step->dense[2][n]);
 
         y[n] = r * before[n] + s * (after[n] + r * bend);
     }

@@ -229,19 +229,14 @@ INLINED ellipsoid_status set_forces(evaluation *e,
                   m->options.external_torque[1], m->options.external_torque[2]);
     if (e->flow && m->options.pressure_gradient == ELLIPSOID_PRESSURE_DUDT)
     {
-        double push[3];
+        double convected[3];
 
-        ellipsoid_product(e->flow->gradient, e->flow->velocity, push);
-        ellipsoid_set(push, m->fluid_mass * push[0], m->fluid_mass * push[1],
-                      m->fluid_mass * push[2]);
-        ellipsoid_add(e->force, push);
+        ellipsoid_product(e->flow->gradient, e->flow->velocity, convected);
+        ellipsoid_add_times(e->force, m->fluid_mass, convected);
         if (surroundings->unsteady)
         {
-            const double *rate = e->flow->local_acceleration;
-
-            ellipsoid_set(push, m->fluid_mass * rate[0],
-                          m->fluid_mass * rate[1], m->fluid_mass * rate[2]);
-            ellipsoid_add(e->force, push);
+            ellipsoid_add_times(e->force, m->fluid_mass,
+                                e->flow->local_acceleration);
         }
     }
     if (blocks || noise || m->electric || surroundings->force
@@ -400,8 +395,7 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
         accelerations(&e, inertial, derivative);
         return finish(state, derivative);
     }
-    ellipsoid_set(derivative->u, 0, 0, 0);
-    ellipsoid_set(derivative->omega, 0, 0, 0);
+    ellipsoid_set_no_rates(derivative);
     return finish(state, derivative);
 }
 
@@ -410,8 +404,7 @@ static ellipsoid_status evaluate_fixed(const ellipsoid_cell *cell,
                                        ellipsoid_evaluation *at,
                                        int with_blocks)
 {
-    ellipsoid_set(at->state.u, 0, 0, 0);
-    ellipsoid_set(at->state.omega, 0, 0, 0);
+    ellipsoid_set_no_rates(&at->state);
     memset(&at->derivative, 0, sizeof(at->derivative));
     if (with_blocks)
     {
@@ -438,7 +431,6 @@ ellipsoid_cell ellipsoid_cell_of(const ellipsoid_member *member,
                                  const ellipsoid_noise *noise)
 {
     const ellipsoid_model *m = member->model;
-    const double *a = m->options.semi_axes;
     const int drag = m->options.drag && member->surroundings->flow != NULL;
 
     return (ellipsoid_cell){
@@ -446,7 +438,7 @@ ellipsoid_cell ellipsoid_cell_of(const ellipsoid_member *member,
         .surroundings = *member->surroundings,
         .cache = member->cache,
         .statistics = member->statistics,
-        .length = ellipsoid_largest(a),
+        .length = ellipsoid_largest(m->options.semi_axes),
         .rate = drag ? 1 / m->relaxation_time : 0,
         .rotation_rate = drag ? 1 / m->rotation_relaxation_time : 0,
         .noise = m->options.brownian && drag ? noise : NULL,

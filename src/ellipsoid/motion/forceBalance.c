@@ -88,11 +88,8 @@ static void move(const ellipsoid_group *g, double part,
     {
         const double *change = g->stages[cell].k[CHANGE];
 
-        for (int i = 0; i < 3; i++)
-        {
-            points[cell].state.u[i] += part * change[AT_U + i];
-            points[cell].state.omega[i] += part * change[AT_OMEGA + i];
-        }
+        ellipsoid_add_times(points[cell].state.u, part, change + AT_U);
+        ellipsoid_add_times(points[cell].state.omega, part, change + AT_OMEGA);
     }
 }
 
@@ -219,8 +216,7 @@ static void be_at_rest(const ellipsoid_group *g, ellipsoid_evaluation *points)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
-        ellipsoid_set(points[cell].state.u, 0, 0, 0);
-        ellipsoid_set(points[cell].state.omega, 0, 0, 0);
+        ellipsoid_set_no_rates(&points[cell].state);
     }
 }
 
@@ -385,10 +381,7 @@ ellipsoid_status ellipsoid_friction_balance(ellipsoid_group *g,
     }
     for (int cell = 0; cell < g->count; cell++)
     {
-        ellipsoid_state *slope = &points[cell].derivative;
-
-        ellipsoid_set(slope->u, 0, 0, 0);
-        ellipsoid_set(slope->omega, 0, 0, 0);
+        ellipsoid_set_no_rates(&points[cell].derivative);
     }
     return status;
 }

@@ -75,8 +75,7 @@ static ellipsoid_status evaluate_at_rest(ellipsoid_group *g, double t)
         ellipsoid_evaluation *rest = &g->next[cell];
 
         rest->state = g->start[cell].state;
-        ellipsoid_set(rest->state.u, 0, 0, 0);
-        ellipsoid_set(rest->state.omega, 0, 0, 0);
+        ellipsoid_set_no_rates(&rest->state);
         memset(&g->noise[cell], 0, sizeof g->noise[cell]);
         p->surroundings.time = t;
         if (is_near_walls(p))
@@ -93,19 +92,6 @@ static ellipsoid_status evaluate_at_rest(ellipsoid_group *g, double t)
         status = ellipsoid_group_evaluate_once(g, g->next, 0, 0);
     }
     return ellipsoid_status_at_start(status);
-}
-
-/* [N, lab] what presses a cell to the walls that it touches. */
-static void set_load(const ellipsoid_cell *p, const ellipsoid_evaluation *rest,
-                     double load[3])
-{
-    for (int i = 0; i < 3; i++)
-    {
-        load[i] = rest->contact.bead_contacts > 0
-                    ? p->model->mass * rest->derivative.u[i]
-                          - rest->contact.force[i]
-                    : 0;
-    }
 }
 
 /* The noise of all cells from t on, and until when. Near walls the interval ends
@@ -132,9 +118,16 @@ static ellipsoid_status set_noise(ellipsoid_group *g, double t, double end,
         }
         if (status == ELLIPSOID_OK && is_near_walls(p))
         {
-            double load[3];
+            const ellipsoid_evaluation *rest = &g->next[cell];
+            double load[3]; /* [N, lab] presses it to walls that it touches */
 
-            set_load(p, &g->next[cell], load);
+            for (int i = 0; i < 3; i++)
+            {
+                load[i] = rest->contact.bead_contacts > 0
+                            ? p->model->mass * rest->derivative.u[i]
+                                  - rest->contact.force[i]
+                            : 0;
+            }
             status = ellipsoid_wall_noise_begin(p->model, &p->surroundings,
                                                 &g->start[cell].state, p->cache,
                                                 t, load, noise);
@@ -166,7 +159,6 @@ static ellipsoid_status advance(ellipsoid_group *g,
                                 const ellipsoid_member members[], double *t,
                                 double end, ellipsoid_observer observer)
 {
-    ellipsoid_noise *noise = g->noise;
     const ellipsoid_contact nothing = {.gap = HUGE_VAL, .cell_gap = HUGE_VAL};
     ellipsoid_status status;
     long attempts = 0;
@@ -187,11 +179,10 @@ static ellipsoid_status advance(ellipsoid_group *g,
         return ELLIPSOID_OK;
     }
     g->failed = -1;
-    g->stiff = g->dissipative = g->unsteady = g->piecewise = 0;
     g->observed = observer != NULL;
     for (int cell = 0; cell < g->count; cell++)
     {
-        g->cell[cell] = ellipsoid_cell_of(&members[cell], &noise[cell]);
+        g->cell[cell] = ellipsoid_cell_of(&members[cell], &g->noise[cell]);
         set_kind(g, members[cell].model, members[cell].surroundings);
         g->start[cell].contact = g->next[cell].contact = nothing;
     }

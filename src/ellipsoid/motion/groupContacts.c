@@ -32,8 +32,7 @@ static ellipsoid_status add_wrench(const ellipsoid_cell *p,
         }
         return ELLIPSOID_OK;
     }
-    ellipsoid_set(change.u, 0, 0, 0);
-    ellipsoid_set(change.omega, 0, 0, 0);
+    ellipsoid_set_no_rates(&change);
     ellipsoid_rotation_inline(opposite, frame.axis);
     ellipsoid_product(frame.axis, c->cell_force, push);
     ellipsoid_copy(c->cell_torque, push + 3);
@@ -71,7 +70,6 @@ static void add_to_point(ellipsoid_group *g, ellipsoid_evaluation *points,
 {
     const ellipsoid_model *model = g->cell[row].model;
     ellipsoid_contact *contact = &points[row].contact;
-    ellipsoid_pairs *pairs = g->pairs;
 
     if (m->gap < ellipsoid_pair_horizon(model, g->cell[column].model))
     {
@@ -91,7 +89,7 @@ static void add_to_point(ellipsoid_group *g, ellipsoid_evaluation *points,
     }
     if (m->derivatives && !g->cell[row].fixed)
     {
-        ellipsoid_coupling *c = &pairs->coupling[pairs->count++];
+        ellipsoid_coupling *c = &g->pairs->coupling[g->pairs->count++];
         const double of_torque[3] = {1 / model->inertia[0],
                                      1 / model->inertia[1],
                                      1 / model->inertia[2]};
@@ -151,7 +149,7 @@ ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *g,
                                               ellipsoid_evaluation *points,
                                               int balanced, int with_blocks)
 {
-    ellipsoid_status status = ellipsoid_near_pairs_collect(g, points);
+    ellipsoid_status status;
 
     g->pairs->count = with_blocks ? 0 : g->pairs->count;
     for (int cell = 0; cell < g->count; cell++)
@@ -166,6 +164,7 @@ ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *g,
         c->cell_count = 0;
         g->pairs->body[cell].model = NULL;
     }
+    status = ellipsoid_near_pairs_collect(g, points);
     for (int n = 0; status == ELLIPSOID_OK && n < g->pairs->near_count; n++)
     {
         status = add_pair(g, points, &g->pairs->near[n], with_blocks);

@@ -43,10 +43,7 @@ ellipsoid_status ellipsoid_group_rhs(ellipsoid_group *g,
     }
     for (int cell = 0; cell < g->count; cell++)
     {
-        ellipsoid_state *slope = &points[cell].derivative;
-
-        ellipsoid_set(slope->u, 0, 0, 0);
-        ellipsoid_set(slope->omega, 0, 0, 0);
+        ellipsoid_set_no_rates(&points[cell].derivative);
     }
     return status;
 }

@@ -171,7 +171,7 @@ void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *system,
                                   const double r[UNKNOWNS], double k[UNKNOWNS]);
 
 /* The same by parts, for a group: rows against the unknowns of `column`; what
-   the cell needs for k_x and k_q; these from r and (k_u, k_omega). */
+   the cell needs for k_x and k_q; k from r and (k_u, k_omega). */
 void ellipsoid_stage_matrix_reduce(const ellipsoid_jacobian_blocks *blocks,
                                    const ellipsoid_state *column, double per_g,
                                    ellipsoid_reduced *reduced);
@@ -251,6 +251,13 @@ typedef struct ellipsoid_group
 size_t ellipsoid_group_lay_out(int count, void *memory, ellipsoid_group *group,
                                ellipsoid_pairs *pairs);
 
+/* No velocities, or no change of them. */
+static inline void ellipsoid_set_no_rates(ellipsoid_state *state)
+{
+    ellipsoid_set(state->u, 0, 0, 0);
+    ellipsoid_set(state->omega, 0, 0, 0);
+}
+
 /* Do external forces depend on the velocities? */
 static inline int
 ellipsoid_force_is_dissipative(const ellipsoid_surroundings *surroundings)
@@ -286,7 +293,7 @@ static inline ellipsoid_status ellipsoid_cell_evaluate(const ellipsoid_cell *p,
     return ellipsoid_evaluate(p, at, balanced, with_blocks);
 }
 
-/* For several cells, contacts between them included (group.c). */
+/* For several cells, contacts between them included (groupRhs.c). */
 ellipsoid_status ellipsoid_group_rhs(ellipsoid_group *group,
                                      ellipsoid_evaluation *points, int balanced,
                                      int with_blocks);
@@ -317,11 +324,9 @@ ellipsoid_group_evaluate_once(ellipsoid_group *g, ellipsoid_evaluation *points,
     return ellipsoid_cell_evaluate(g->cell, points, balanced, with_blocks);
 }
 
-/*
-    Evaluates the equations at the time t in the states of all points. balanced
-    says whether u and omega are set first. with_blocks: and the Jacobian, with
-    couplings.
-*/
+/* Evaluates the equations at the time t in the states of all points. balanced
+   says whether u and omega are set first. with_blocks: and the Jacobian, with
+   couplings. */
 static inline ellipsoid_status
 ellipsoid_group_evaluate(ellipsoid_group *g, double t,
                          ellipsoid_evaluation *points, int balanced,
@@ -358,7 +363,7 @@ ellipsoid_near_pairs_collect(ellipsoid_group *group,
                              const ellipsoid_evaluation *points);
 
 /* Adds the forces between the cells to points that have been evaluated
-   without (pairContact.c). */
+   without (groupContacts.c). */
 ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *group,
                                               ellipsoid_evaluation *points,
                                               int balanced, int with_blocks);
@@ -424,19 +429,15 @@ static inline double ellipsoid_stage_time(const ellipsoid_plan *plan,
     return part < 1 ? plan->start + part * plan->h : plan->end;
 }
 
-/*
-    One Rosenbrock step from a start that has its blocks; y has a q not yet of
-    length one. Returns STEP_UNDERFLOW or NON_FINITE where a shorter step may
-    succeed.
-*/
+/* One Rosenbrock step from a start that has its blocks; y has a q not yet of
+   length one. Returns STEP_UNDERFLOW or NON_FINITE where a shorter step may
+   succeed. */
 ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *group,
                                            const ellipsoid_plan *plan);
 
-/*
-    One explicit step of inertialess motion (rungeKutta.c). Its last stage is `next`, the end of the step. *touched is
-    set, and the step not finished, where a stage touches something: the
-    equations are stiff there.
-*/
+/* One explicit step of inertialess motion (rungeKutta.c). Its last stage is
+   `next`, the end of the step. *touched is set, and the step not finished, where
+   a stage touches something: the equations are stiff there. */
 ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
                                          const ellipsoid_plan *plan,
                                          int *touched);

@@ -80,10 +80,6 @@ static ellipsoid_status collect(ellipsoid_group *g,
     ellipsoid_pairs *pairs = g->pairs;
 
     pairs->near_count = 0;
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        pairs->body[cell].model = NULL;
-    }
     for (int a = 0; a < g->count; a++)
     {
         for (int b = a + 1; b < g->count; b++)

@@ -37,12 +37,9 @@ static void displace(const ellipsoid_model *m, const double u[3],
     ellipsoid_rotation_inline(opposite, axis);
     for (int i = 0; i < 3; i++)
     {
-        const double way = m->mass * m->mobility[i] * ellipsoid_dot(axis[i], u);
-
-        for (int l = 0; l < 3; l++)
-        {
-            state->x[l] += way * axis[i][l];
-        }
+        ellipsoid_add_times(
+            state->x, m->mass * m->mobility[i] * ellipsoid_dot(axis[i], u),
+            axis[i]);
         angle[i] = m->inertia[i] * m->rotation_mobility[i] * omega[i];
     }
     ellipsoid_spin(angle, q, turn);

@@ -15,13 +15,12 @@ ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
                                ellipsoid_facet_cache *cache,
                                ellipsoid_state *derivative)
 {
-    const int balanced = model->options.motion == ELLIPSOID_MOTION_INERTIALESS;
     const ellipsoid_cell cell = {
         .model = model, .surroundings = *surroundings, .cache = cache};
     ellipsoid_evaluation at = {.state = *state};
     ellipsoid_status status;
 
-    if (balanced)
+    if (model->options.motion == ELLIPSOID_MOTION_INERTIALESS)
     {
         return surroundings->flow ? ellipsoid_force_balance(
                    model, surroundings, &at.state, cache, derivative)

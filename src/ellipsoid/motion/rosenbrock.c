@@ -227,21 +227,16 @@ ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *g,
 }
 
 /* Hermite's cubic for x and q; u and omega are linear. */
-static void hermite(const ellipsoid_step *step, const double before[UNKNOWNS],
-                    const double after[UNKNOWNS], double dense[3][UNKNOWNS])
+static void hermite(double h, const ellipsoid_evaluation *from,
+                    const ellipsoid_evaluation *to, double dense[3][UNKNOWNS])
 {
-    const double h = step->end - step->start;
-    double from[UNKNOWNS], to[UNKNOWNS];
-
-    memcpy(from, &step->before, sizeof(from));
-    memcpy(to, &step->after, sizeof(to));
     for (int n = 0; n < UNKNOWNS; n++)
     {
-        const double change = to[n] - from[n];
+        const double change = to->y[n] - from->y[n];
         const int is_rate = ellipsoid_is_rate(n);
 
-        dense[0][n] = is_rate ? 0 : h * before[n] - change;
-        dense[1][n] = is_rate ? 0 : change - h * after[n] - dense[0][n];
+        dense[0][n] = is_rate ? 0 : h * from->slope[n] - change;
+        dense[1][n] = is_rate ? 0 : change - h * to->slope[n] - dense[0][n];
     }
 }
 
@@ -251,8 +246,8 @@ void ellipsoid_rosenbrock_dense(const ellipsoid_group *g, int cell,
     memset(dense[2], 0, sizeof(dense[2]));
     if (ellipsoid_rosenbrock_set_of(g) == &ellipsoid_rosenbrock_third)
     {
-        hermite(&g->step[cell], g->start[cell].slope, g->next[cell].slope,
-                dense);
+        hermite(g->step[cell].end - g->step[cell].start, &g->start[cell],
+                &g->next[cell], dense);
         return;
     }
     for (int i = 0; i < 2; i++)

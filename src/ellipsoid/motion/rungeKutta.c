@@ -203,14 +203,12 @@ void ellipsoid_explicit_dense(const ellipsoid_group *g, int cell,
                               double dense[3][UNKNOWNS])
 {
     const method *m = method_of(g);
-    const ellipsoid_step *step = &g->step[cell];
+    const double *before = g->start[cell].y, *after = g->next[cell].y;
     const int last = m->stages - 1;
-    const double h = step->end - step->start;
+    const double h = g->step[cell].end - g->step[cell].start;
     double(*k)[UNKNOWNS] = g->stages[cell].k;
-    double before[UNKNOWNS], after[UNKNOWNS], change[UNKNOWNS];
+    double change[UNKNOWNS];
 
-    memcpy(before, &step->before, sizeof(before));
-    memcpy(after, &step->after, sizeof(after));
     ellipsoid_weighted_sum(k, m->a[last], last, AT_X, change);
     ellipsoid_weighted_sum(k, m->dense, m->stages, AT_X, dense[2]);
     for (int n = AT_X; n < UNKNOWNS; n++)

@@ -266,10 +266,7 @@ ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double t, double end,
         ellipsoid_state *at = &g->next[cell].state;
 
         *at = g->start[cell].state;
-        for (int i = 0; i < 3; i++)
-        {
-            at->x[i] += ahead * slope->x[i];
-        }
+        ellipsoid_add_times(at->x, ahead, slope->x);
         for (int n = 0; n < 4; n++)
         {
             at->q[n] += ahead * slope->q[n];
