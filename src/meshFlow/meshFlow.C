@@ -217,22 +217,19 @@ Foam::meshFlow::meshFlow
     centres_.setSize(cellTets_.size() - 1);
     forAll(centres_, celli)
     {
-        centres_[celli] = values_.vertices[celli].x;
+        centres_[celli] = values_->vertices[celli].x;
     }
 
     const boundBox box(centres_, false);
     // One mesh cell alone has a box without extent
-    const vector margin
-    (
-        (centres_.size() > 1 ? 0.01*box.mag() : 1e-6)*vector::one
-    );
+    const scalar margin = centres_.size() > 1 ? 0.01*box.mag() : 1e-6;
 
     centreTree_.reset
     (
         new indexedOctree<treeDataPoint>
         (
             treeDataPoint(centres_),
-            treeBoundBox(box.min() - margin, box.max() + margin),
+            treeBoundBox(widened(box, margin)),
             10,
             10,
             3
@@ -254,7 +251,7 @@ void Foam::meshFlow::renew
     const scalar rho
 )
 {
-    values_.close();
+    values_->close();
 
     if (Pstream::master())
     {
@@ -263,7 +260,7 @@ void Foam::meshFlow::renew
         setFlow(undecomposed, rho);
     }
 
-    values_.share();
+    values_->share();
 }
 
 
@@ -275,14 +272,14 @@ void Foam::meshFlow::advance
     const scalar end
 )
 {
-    if (laterValues_.vertices.empty())
+    if (laterValues_->vertices.empty())
     {
-        laterValues_.copy(values_);
+        laterValues_->copy(*values_);
     }
 
     // What was the flow at the start of the last step is that at the end of this
     renew(undecomposed, rho);
-    laterValues_.swap(values_);
+    std::swap(values_, laterValues_);
 
     start_ = start;
     end_ = end;
@@ -297,7 +294,7 @@ void Foam::meshFlow::sample
     flowSample& sample
 ) const
 {
-    sampleOf(values_, c, derivatives, sample);
+    sampleOf(*values_, c, derivatives, sample);
 
     if (!accelerates())
     {
@@ -305,7 +302,7 @@ void Foam::meshFlow::sample
     }
 
     flowSample later;
-    sampleOf(laterValues_, c, derivatives, later);
+    sampleOf(*laterValues_, c, derivatives, later);
 
     const scalar part = passed(t);
     const scalar dt = end_ - start_;
@@ -344,7 +341,7 @@ Foam::vector Foam::meshFlow::velocity
     tensor* derivatives
 ) const
 {
-    vector value(velocityOf(values_, c, derivatives));
+    vector value(velocityOf(*values_, c, derivatives));
 
     if (!accelerates())
     {
@@ -354,7 +351,7 @@ Foam::vector Foam::meshFlow::velocity
     tensor laterDerivatives;
     const vector later
     (
-        velocityOf(laterValues_, c, derivatives ? &laterDerivatives : nullptr)
+        velocityOf(*laterValues_, c, derivatives ? &laterDerivatives : nullptr)
     );
 
     if (derivatives)

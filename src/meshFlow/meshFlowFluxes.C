@@ -287,28 +287,29 @@ namespace Foam
         }
     }
 
-    //- For each face that a mesh cell owns, the face and the first and the end
-    //  of the tetrahedra at its triangles
+    //- For each face, by the mesh cells that own them, the face and the first
+    //  and the end of the tetrahedra of its owner at its triangles
     template<class Action>
     static void forOwnedFaces
     (
         const undecomposedFlow& undecomposed,
-        const labelUList& cellTets,
-        const label celli,
         const Action& action
     )
     {
         const polyMesh& mesh = undecomposed.mesh();
-        label teti = cellTets[celli];
+        label teti = 0;
 
-        for (const label facei : mesh.cells()[celli])
+        forAll(mesh.cells(), celli)
         {
-            const label first = teti;
-            teti += undecomposed.decomposition().nTriangles(facei);
-
-            if (mesh.faceOwner()[facei] == celli)
+            for (const label facei : mesh.cells()[celli])
             {
-                action(facei, first, teti);
+                const label first = teti;
+                teti += undecomposed.decomposition().nTriangles(facei);
+
+                if (mesh.faceOwner()[facei] == celli)
+                {
+                    action(facei, first, teti);
+                }
             }
         }
     }
@@ -329,10 +330,10 @@ void Foam::meshFlow::matchFluxes
 
     // Least squares for what the velocity of each vertex lacks normal to the
     // faces about it
-    symmTensorField normals(values_.vertices.size(), Zero);
-    vectorField missing(values_.vertices.size(), Zero);
+    symmTensorField normals(values_->vertices.size(), Zero);
+    vectorField missing(values_->vertices.size(), Zero);
     DynamicList<label> corners(16);
-    const label firstMean = values_.vertices.size() - meanOf_.size();
+    const label firstMean = values_->vertices.size() - meanOf_.size();
 
     const auto compare =
         [&](const label facei, const label first, const label end)
@@ -352,9 +353,9 @@ void Foam::meshFlow::matchFluxes
             for (label teti = first; teti < end; ++teti)
             {
                 const label* v = tets_[teti].vertices;
-                const flowVertex& a = values_.vertices[v[1]];
-                const flowVertex& b = values_.vertices[v[2]];
-                const flowVertex& c = values_.vertices[v[3]];
+                const flowVertex& a = values_->vertices[v[1]];
+                const flowVertex& b = values_->vertices[v[2]];
+                const flowVertex& c = values_->vertices[v[3]];
                 const vector S(0.5*((b.x - a.x) ^ (c.x - a.x)));
 
                 flux -= meanVelocity(a, b, c) & S;
@@ -381,10 +382,7 @@ void Foam::meshFlow::matchFluxes
                 missing[i] += lacks;
             }
         };
-    for (label celli = 0; celli < mesh.nCells(); ++celli)
-    {
-        forOwnedFaces(undecomposed, cellTets_, celli, compare);
-    }
+    forOwnedFaces(undecomposed, compare);
     images.add(normals, mesh.nCells());
     images.add(missing, mesh.nCells());
 
@@ -393,8 +391,8 @@ void Foam::meshFlow::matchFluxes
         normals,
         missing,
         fixed,
-        freeAtMirrors(mesh, tets_, values_.vertices),
-        values_.vertices
+        freeAtMirrors(mesh, tets_, values_->vertices),
+        values_->vertices
     );
     setMeans();
 }
@@ -410,28 +408,25 @@ void Foam::meshFlow::makeExcess
     const auto edges = wallEdges(mesh, tets_, images);
     const bitSet fixed
     (
-        fixedVertices(mesh, tets_, images, values_.vertices.size())
+        fixedVertices(mesh, tets_, images, values_->vertices.size())
     );
     matchFluxes(undecomposed, images, fixed);
 
     forAll(tets_, teti)
     {
-        values_.straight[teti] = straightEdges(tets_[teti], edges, fixed);
+        values_->straight[teti] = straightEdges(tets_[teti], edges, fixed);
     }
     const auto share =
         [&](const label facei, const label first, const label end)
         {
             fluxes_->share
             (
-                fluxThrough(undecomposed.phi(), facei), first, end, values_
+                fluxThrough(undecomposed.phi(), facei), first, end, *values_
             );
         };
-    for (label celli = 0; celli < mesh.nCells(); ++celli)
-    {
-        forOwnedFaces(undecomposed, cellTets_, celli, share);
-    }
+    forOwnedFaces(undecomposed, share);
 
-    static_cast<UList<direction>&>(values_.balanced) = direction(0);
+    static_cast<UList<direction>&>(values_->balanced) = direction(0);
 }
 
 

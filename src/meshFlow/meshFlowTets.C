@@ -199,12 +199,12 @@ void Foam::meshFlow::findUnsound()
         [&](const label teti)
         {
             const label* v = tets_[teti].vertices;
-            const point& x = values_.vertices[v[0]].x;
+            const point& x = values_->vertices[v[0]].x;
             return
-                (values_.vertices[v[1]].x - x)
+                (values_->vertices[v[1]].x - x)
               & (
-                    (values_.vertices[v[2]].x - x)
-                  ^ (values_.vertices[v[3]].x - x)
+                    (values_->vertices[v[2]].x - x)
+                  ^ (values_->vertices[v[3]].x - x)
                 );
         };
     label nInverted = 0;
@@ -242,7 +242,7 @@ void Foam::meshFlow::findUnsound()
             << nInverted << " of " << tets_.size() << " tetrahedra of"
             << " the mesh are inverted, in " << nCells << " mesh cells, the"
             << " first of them mesh cell " << first << " at "
-            << values_.vertices[first].x << " m: what flows through them is"
+            << values_->vertices[first].x << " m: what flows through them is"
             << " not exact, and cells may get lost there" << nl
             << "    checkMesh -allGeometry says more" << nl << endl;
     }
@@ -279,10 +279,10 @@ void Foam::meshFlow::make
 
     cellTets_.reset(master ? undecomposed.mesh().nCells() + 1 : 0);
     tets_.reset(nTets);
-    values_.vertices.reset(nVertices);
+    values_->vertices.reset(nVertices);
     if (scheme_ == stDivergenceFree)
     {
-        values_.makeConservative(nTets, cellTets_.size() - 1);
+        values_->makeConservative(nTets, cellTets_.size() - 1);
     }
     if (hasField)
     {
@@ -296,7 +296,7 @@ void Foam::meshFlow::make
         const tetDecomposition& decomposition = undecomposed.decomposition();
 
         makeTets(mesh, decomposition, *baffles, cellTets_, tets_);
-        makeVertices(mesh, decomposition, *baffles, values_.vertices);
+        makeVertices(mesh, decomposition, *baffles, values_->vertices);
         meanOf_ = meanCorners(mesh, decomposition, *baffles);
         findUnsound();
 
@@ -309,6 +309,6 @@ void Foam::meshFlow::make
     broadcast(unsound_);
     cellTets_.share();
     tets_.share();
-    values_.share();
+    values_->share();
     field_.share();
 }

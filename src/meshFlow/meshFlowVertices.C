@@ -196,11 +196,10 @@ namespace Foam
 
         SubList<Type>(values, nCells) = field.primitiveField();
         toApexes(field, places.apexes, values);
-        SubList<Type>(values, nPoints, nCells) =
+        SubList<Type> atPoints(values, nPoints, nCells);
+        atPoints =
             volPointInterpolation::New(field.mesh()).interpolate(field)()
            .primitiveField();
-
-        SubList<Type> atPoints(values, nPoints, nCells);
         mirror(field, places.images, atPoints);
 
         forAll(sides, sidei)
@@ -236,21 +235,6 @@ namespace Foam
         }
     }
 
-    //- Set the gradient of the pressure there
-    static void interpolatePressure
-    (
-        const volScalarField& p,
-        const scalar rho,
-        const vertexPlaces& places,
-        UList<flowVertex>& vertices
-    )
-    {
-        const vectorField gradp(atVertices((rho*fvc::grad(p))(), places));
-        forAll(gradp, i)
-        {
-            vertices[i].pressureGradient = gradp[i];
-        }
-    }
 }
 
 
@@ -262,7 +246,7 @@ void Foam::meshFlow::setFlow
     const scalar rho
 )
 {
-    UList<flowVertex>& vertices = values_.vertices;
+    UList<flowVertex>& vertices = values_->vertices;
     const baffleSides baffles(undecomposed.mesh());
     const pointField& apexes = undecomposed.decomposition().apexes();
     const vertexPlaces places{apexes, images_, baffles};
@@ -275,7 +259,14 @@ void Foam::meshFlow::setFlow
 
     if (pressure_)
     {
-        interpolatePressure(undecomposed.p(), rho, places, vertices);
+        const vectorField gradp
+        (
+            atVertices((rho*fvc::grad(undecomposed.p()))(), places)
+        );
+        forAll(gradp, i)
+        {
+            vertices[i].pressureGradient = gradp[i];
+        }
     }
 
     if (scheme_ == stCellPoint)
@@ -303,7 +294,7 @@ void Foam::meshFlow::setFlow
 
 void Foam::meshFlow::setMeans()
 {
-    UList<flowVertex>& vertices = values_.vertices;
+    UList<flowVertex>& vertices = values_->vertices;
     label i = vertices.size() - meanOf_.size();
 
     for (const labelList& corners : meanOf_)

@@ -36,13 +36,13 @@ void Foam::meshFlow::setCoordinates
         c.tet = teti;
         c.flowOf = nullptr;
         c.vertices = tets_[teti].vertices;
-        c.origin = values_.vertices[c.vertices[0]].x;
+        c.origin = values_->vertices[c.vertices[0]].x;
 
         const vector edges[3] =
         {
-            values_.vertices[c.vertices[1]].x - c.origin,
-            values_.vertices[c.vertices[2]].x - c.origin,
-            values_.vertices[c.vertices[3]].x - c.origin
+            values_->vertices[c.vertices[1]].x - c.origin,
+            values_->vertices[c.vertices[2]].x - c.origin,
+            values_->vertices[c.vertices[3]].x - c.origin
         };
 
         tetFlow::setCoordinateGradients(edges, c.gradient);
@@ -128,7 +128,7 @@ Foam::label Foam::meshFlow::searched
                 vector d(-4*x);
                 for (const label vertexi : tets_[teti].vertices)
                 {
-                    d += values_.vertices[vertexi].x;
+                    d += values_->vertices[vertexi].x;
                 }
                 next.insert({magSqr(d), teti});
             }

@@ -273,14 +273,11 @@ Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
         }
         check(mesh_);
     }
-    else
+    else if (hasFlow())
     {
         // The flow of the start, which the first time step replaces; with
         // -postProcess it is read later
-        if (hasFlow())
-        {
-            begin();
-        }
+        begin();
     }
 }
 

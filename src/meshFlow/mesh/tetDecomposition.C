@@ -119,20 +119,15 @@ Foam::label Foam::tetDecomposition::sidesOf
     }
 
     // Cells pass no others than those moved along
-    const polyPatch& pp = mesh_.boundaryMesh()[patchi];
-    if
-    (
-        !isA<cyclicPolyPatch>(pp)
-     || !refCast<const cyclicPolyPatch>(pp).parallel()
-    )
+    const auto* half = isA<cyclicPolyPatch>(mesh_.boundaryMesh()[patchi]);
+    if (!half || !half->parallel())
     {
         return 1;
     }
-    const cyclicPolyPatch& beyond =
-        refCast<const cyclicPolyPatch>(pp).neighbPatch();
-    const label i = facei - pp.start();
+    const cyclicPolyPatch& beyond = half->neighbPatch();
+    const label i = facei - half->start();
     const label other = beyond.faceCells()[i];
-    const vector shift(pp.faceCentres()[i] - beyond.faceCentres()[i]);
+    const vector shift(half->faceCentres()[i] - beyond.faceCentres()[i]);
     sides[1] = side{other, apexes_[other] + shift, depths_[other], -1};
     return 2;
 }
@@ -267,12 +262,10 @@ Foam::label Foam::tetDecomposition::bestBase(const label facei) const
 bool Foam::tetDecomposition::cut(const label facei)
 {
     const label patchi = mesh_.boundaryMesh().whichPatch(facei);
-    const polyPatch* pp =
-        patchi < 0 ? nullptr : &mesh_.boundaryMesh()[patchi];
-    const cyclicPolyPatch* half =
-        pp && isA<cyclicPolyPatch>(*pp)
-      ? &refCast<const cyclicPolyPatch>(*pp)
-      : nullptr;
+    const auto* half =
+        patchi < 0
+      ? nullptr
+      : isA<cyclicPolyPatch>(mesh_.boundaryMesh()[patchi]);
 
     // Both halves of a cyclic patch alike: faces begin with the same point and
     // go round in opposite senses
@@ -367,12 +360,8 @@ Foam::tetDecomposition::tetDecomposition(const polyMesh& mesh)
 {
     forAll(depths_, celli)
     {
-        scalar area = 0;
-        for (const label facei : mesh.cells()[celli])
-        {
-            area += mag(mesh.faceAreas()[facei]);
-        }
-        depths_[celli] = 3*mesh.cellVolumes()[celli]/area;
+        const vectorField areas(mesh.faceAreas(), mesh.cells()[celli]);
+        depths_[celli] = 3*mesh.cellVolumes()[celli]/sumMag(areas);
     }
     forAll(bases_, facei)
     {
@@ -407,15 +396,7 @@ Foam::tetDecomposition::tetDecomposition(const polyMesh& mesh)
     }
     cutAt(back);
 
-    DynamicList<label> meanFaces;
-    forAll(bases_, facei)
-    {
-        if (bases_[facei] < 0)
-        {
-            meanFaces.append(facei);
-        }
-    }
-    meanFaces_ = meanFaces;
+    meanFaces_ = findIndices(bases_, label(-1));
 }
 
 

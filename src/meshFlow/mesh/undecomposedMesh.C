@@ -173,13 +173,8 @@ void Foam::undecomposedFlow::makeAddressing()
     cellAddressing_ = identity(part_.nCells(), 1 + cells.localStart());
 
     // Faces between cells belong to the rank of the lower cell, ordered by both
-    labelList across(part_.nFaces() - part_.nInternalFaces());
-    forAll(across, i)
-    {
-        const label facei = part_.nInternalFaces() + i;
-        across[i] = cellAddressing_[part_.faceOwner()[facei]];
-    }
-    syncTools::swapBoundaryFaceList(part_, across);
+    labelList across;
+    syncTools::swapBoundaryCellList(part_, cellAddressing_, across);
 
     std::vector<std::array<label, 3>> inner;
     forAll(part_.faces(), facei)
