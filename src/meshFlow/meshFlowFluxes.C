@@ -28,6 +28,7 @@ namespace Foam
     (
         const polyMesh& mesh,
         const UList<flowTet>& tets,
+        const UList<flowVertex>& vertices,
         const pointImages& images
     )
     {
@@ -38,16 +39,21 @@ namespace Foam
                 edges.insert(edge(a, b));
 
                 const label nCells = mesh.nCells();
-                const pointField& x = mesh.points();
-                const labelUList with(images.with(b - nCells));
-                for (const label p : images.with(a - nCells))
+                const auto x = [&](const label vertexi) -> const point&
                 {
-                    const point end(x[p] + x[b - nCells] - x[a - nCells]);
-                    for (const label q : with)
+                    return vertices[vertexi].x;
+                };
+                const labelUList with(images.with(b - nCells));
+                for (label p : images.with(a - nCells))
+                {
+                    p += nCells;
+                    const point end(x(p) + x(b) - x(a));
+                    for (label q : with)
                     {
-                        if (mag(x[q] - end) < 1e-6*mag(x[q] - x[p]))
+                        q += nCells;
+                        if (mag(x(q) - end) < 1e-6*mag(x(q) - x(p)))
                         {
-                            edges.insert(edge(nCells + p, nCells + q));
+                            edges.insert(edge(p, q));
                         }
                     }
                 }
@@ -405,7 +411,7 @@ void Foam::meshFlow::makeExcess
 )
 {
     const polyMesh& mesh = undecomposed.mesh();
-    const auto edges = wallEdges(mesh, tets_, images);
+    const auto edges = wallEdges(mesh, tets_, values_->vertices, images);
     const bitSet fixed
     (
         fixedVertices(mesh, tets_, images, values_->vertices.size())

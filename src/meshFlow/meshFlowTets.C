@@ -9,6 +9,7 @@ Description
 #include "meshFlow.H"
 #include "baffleSides.H"
 #include "DynamicList.H"
+#include "pointImages.H"
 #include "tetDecomposition.H"
 #include "undecomposedFlow.H"
 #include "volFields.H"
@@ -266,7 +267,8 @@ void Foam::meshFlow::make
     {
         const fvMesh& mesh = undecomposed.mesh();
         const tetDecomposition& decomposition = undecomposed.decomposition();
-        baffles.reset(new baffleSides(mesh));
+        pointImages images(mesh, images_);
+        baffles.reset(new baffleSides(mesh, images));
         nVertices =
             mesh.nCells() + mesh.nPoints() + baffles->sides().size()
           + decomposition.meanFaces().size();

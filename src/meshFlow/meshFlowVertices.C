@@ -247,10 +247,10 @@ void Foam::meshFlow::setFlow
 )
 {
     UList<flowVertex>& vertices = values_->vertices;
-    const baffleSides baffles(undecomposed.mesh());
+    pointImages images(undecomposed.mesh(), images_);
+    const baffleSides baffles(undecomposed.mesh(), images);
     const pointField& apexes = undecomposed.decomposition().apexes();
     const vertexPlaces places{apexes, images_, baffles};
-    const pointImages images(undecomposed.mesh(), images_);
     checkFinite(undecomposed.U(), undecomposed.mesh().C(), "mesh cell");
     if (undecomposed.hasPressure())
     {

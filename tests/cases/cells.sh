@@ -125,6 +125,23 @@ make_sieve()    # CASE
     blockMesh > log.blockMesh && solve_flow
 }
 
+# The mesh of blockMesh with a baffle of two walls, plateOne and plateTwo
+make_baffle()   # 'MIN MAX' of the middles of its faces
+{
+    {
+        dictionary_head topoSetDict
+        echo 'actions ('
+        echo "{ name plate; type faceSet; action new; source boxToFace; box $1; }"
+        echo '{ name plate; type faceZoneSet; action new; source setToFaceZone; faceSet plate; } );'
+    } > system/topoSetDict
+    {
+        dictionary_head createBafflesDict
+        echo 'internalFacesOnly true; baffles { plate { type faceZone; zoneName plate; patches {'
+        echo 'master { name plateOne; type wall; } slave { name plateTwo; type wall; } } } }'
+    } > system/createBafflesDict
+    blockMesh > log.blockMesh && topoSet > log.topoSet && createBaffles -overwrite > log.createBaffles
+}
+
 # Makes CASE, the channel with one sieve, on a mesh that is coarse, and goes there
 coarse_sieve()  # CASE
 {

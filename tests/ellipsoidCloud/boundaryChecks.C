@@ -327,15 +327,11 @@ namespace Foam
             }
         }
 
-        const baffleSides baffles(mesh);
+        pointImages images(mesh, domainImages(mesh, labelHashSet()));
+        const baffleSides baffles(mesh, images);
         const List<quadratic> fits
         (
-            cellFits
-            (
-                U, baffles,
-                pointImages(mesh, domainImages(mesh, labelHashSet())),
-                wallsAtVertices(U, baffles)
-            )
+            cellFits(U, baffles, images, wallsAtVertices(U, baffles))
         );
         const auto fitted = [&](const point& at)
         {

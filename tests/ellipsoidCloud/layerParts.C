@@ -300,6 +300,10 @@ int main(int argc, char *argv[])
     {
         checkOpen(mesh);
     }
+    else if (mesh.boundaryMesh().findPatchID("plateOne") >= 0)
+    {
+        checkBaffle(mesh);
+    }
     else if (mesh.boundaryMesh().findPatchID("begin") >= 0)
     {
         checkRing(mesh);

@@ -2,6 +2,8 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "baffleSides.H"
+#include "cyclicPolyPatch.H"
+#include "pointImages.H"
 #include "wallPolyPatch.H"
 
 #include <algorithm>
@@ -41,62 +43,98 @@ Foam::labelHashSet Foam::baffleSides::bafflePoints() const
 }
 
 
-void Foam::baffleSides::split(const label pointi, const UList<label>& faces)
+Foam::Map<Foam::label> Foam::baffleSides::groups
+(
+    const UList<label>& points
+) const
 {
-    // The group of each cell: the lowest cell that it is connected with by
-    // faces that have the point
+    const polyBoundaryMesh& patches = mesh_.boundaryMesh();
     Map<label> group;
-
-    for (const label facei : faces)
+    DynamicList<labelPair> pairs;
+    for (const label pointi : points)
     {
-        group.insert(mesh_.faceOwner()[facei], mesh_.faceOwner()[facei]);
+        for (const label facei : mesh_.pointFaces()[pointi])
+        {
+            const label own = mesh_.faceOwner()[facei];
+            const label patchi = patches.whichPatch(facei);
+            group.insert(own, own);
+            if (patchi < 0)
+            {
+                pairs.append(labelPair(own, mesh_.faceNeighbour()[facei]));
+            }
+            else if (points.size() > 1 && isA<cyclicPolyPatch>(patches[patchi]))
+            {
+                const label i = facei - patches[patchi].start();
+                const polyPatch& other =
+                    refCast<const cyclicPolyPatch>(patches[patchi])
+                   .neighbPatch();
+                pairs.append(labelPair(own, other.faceCells()[i]));
+            }
+        }
     }
     for (bool changed = true; changed;)
     {
         changed = false;
 
-        for (const label facei : faces)
+        for (const labelPair& pair : pairs)
         {
-            if (mesh_.isInternalFace(facei))
-            {
-                const label celli = mesh_.faceNeighbour()[facei];
-                label& b = group(celli, celli);
-                label& a = group[mesh_.faceOwner()[facei]];
+            label& b = group(pair.second(), pair.second());
+            label& a = group[pair.first()];
 
-                changed = changed || a != b;
-                a = b = min(a, b);
-            }
+            changed = changed || a != b;
+            a = b = min(a, b);
         }
     }
 
-    const labelList cells(group.sortedToc());
+    return group;
+}
 
-    const auto isFirst =
-        [&](const label celli){ return group[celli] == cells.first(); };
 
-    if (std::all_of(cells.begin(), cells.end(), isFirst))
+void Foam::baffleSides::split
+(
+    const UList<label>& points,
+    pointImages& images
+)
+{
+    const Map<label> group(groups(points));
+    Map<DynamicList<label>> sidesOf;
+    for (const label celli : group.sortedToc())
+    {
+        sidesOf(group[celli]);
+    }
+    if (sidesOf.size() < 2)
     {
         // The rim
         return;
     }
 
-    Map<label> sideOfGroup;
-
-    for (const label celli : cells)
+    for (const label pointi : points)
     {
-        if (sideOfGroup.insert(group[celli], sides_.size()))
+        Map<label> sideOfGroup;
+        for (const label celli : mesh_.pointCells()[pointi])
         {
-            sides_.append(side{pointi, labelList()});
+            const label g = group[celli];
+            if (sideOfGroup.insert(g, sides_.size()))
+            {
+                sidesOf[g].append(mesh_.nPoints() + sides_.size());
+                sides_.append(side{pointi, labelList()});
+            }
+            sideOf_(pointi).insert(celli, sideOfGroup[g]);
         }
-        sideOf_(pointi).insert(celli, sideOfGroup[group[celli]]);
-    }
-
-    for (const label facei : faces)
-    {
-        if (!mesh_.isInternalFace(facei))
+        for (const label facei : mesh_.pointFaces()[pointi])
         {
-            const label celli = mesh_.faceOwner()[facei];
-            sides_[sideOf_[pointi][celli]].faces.append(facei);
+            if (!mesh_.isInternalFace(facei))
+            {
+                const label celli = mesh_.faceOwner()[facei];
+                sides_[sideOf_[pointi][celli]].faces.append(facei);
+            }
+        }
+    }
+    for (const label g : sidesOf.sortedToc())
+    {
+        if (points.size() > 1)
+        {
+            images.join(sidesOf[g]);
         }
     }
 }
@@ -104,26 +142,22 @@ void Foam::baffleSides::split(const label pointi, const UList<label>& faces)
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::baffleSides::baffleSides(const polyMesh& mesh)
+Foam::baffleSides::baffleSides(const polyMesh& mesh, pointImages& images)
 :
     mesh_(mesh)
 {
-    const labelHashSet points(bafflePoints());
-    Map<DynamicList<label>> faces;
-
-    for (label facei = 0; points.size() && facei < mesh.nFaces(); ++facei)
+    labelHashSet done;
+    for (const label pointi : bafflePoints().sortedToc())
     {
-        for (const label pointi : mesh.faces()[facei])
+        labelList points(images.with(pointi));
+        if (points.empty())
         {
-            if (points.found(pointi))
-            {
-                faces(pointi).append(facei);
-            }
+            points = labelList(1, pointi);
         }
-    }
-
-    for (const label pointi : faces.sortedToc())
-    {
-        split(pointi, faces[pointi]);
+        if (done.insert(pointi))
+        {
+            split(points, images);
+            done.insert(points);
+        }
     }
 }

@@ -99,22 +99,32 @@ Foam::pointImages::pointImages
         {
             DynamicList<label> points;
             points.append(pointi);
-            listOf_.insert(pointi, same_.size());
-
             for (label i = 0; i < points.size(); ++i)
             {
                 for (const label other : across[points[i]])
                 {
-                    if (listOf_.insert(other, same_.size()))
+                    if (!points.found(other))
                     {
                         points.append(other);
                     }
                 }
             }
             sort(points);
-            same_.append(labelList(points));
+            join(points);
         }
     }
 
     findImages(mesh, images, across.sortedToc());
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::pointImages::join(const UList<label>& vertices)
+{
+    for (const label vertexi : vertices)
+    {
+        listOf_.insert(vertexi, same_.size());
+    }
+    same_.append(labelList(vertices));
 }

@@ -321,6 +321,13 @@ struct survey
                 parts.push_back(i);
             }
         }
+        if (parts.empty())
+        {
+            FatalErrorInFunction
+                << "no point of the lattice before passes a throat: more points"
+                << " (-number), or other throats in tracersDict"
+                << exit(FatalError);
+        }
         std::vector<char> next(rows*columns, 0);
         std::vector<scalar> passed(throats.size(), 0);
         scalar inflow = 0, still = 0, nSamples = 0;
