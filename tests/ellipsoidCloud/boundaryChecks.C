@@ -103,8 +103,42 @@ namespace Foam
         (
             "what comes in is what comes in more than goes out",
             mag(through.inflow/2e-13 - 1) < 1e-9
+         && through.crossing == through.inflow
          && mag(through.speed/1e-3 - 1) < 1e-9,
             os.str()
+        );
+
+        // Through two sides of 200 um2 at once, and through none
+        const auto speedOf = [&](const vector& velocity)
+        {
+            return inletFlux::speedOf(layer(mesh, velocity).undecomposed);
+        };
+        const scalar both = speedOf(vector(1e-3, 2e-3, 0));
+        const scalar none = speedOf(vector(0, 0, 3e-3));
+        os.rewind();
+        os << both << ' ' << none;
+        holds
+        (
+            "its mean speed is that through all inlets, or within a closed device",
+            mag(both/1.5e-3 - 1) < 1e-9 && mag(none/3e-3 - 1) < 1e-9,
+            os.str()
+        );
+
+        // Into and out of one side as much, or nothing through the left one
+        const auto closes = [&](const vector& velocity, const tensor& gradient)
+        {
+            const layer other(mesh, velocity, gradient);
+            const inletFlux flux
+            (
+                other.undecomposed.U(), other.undecomposed.phi()
+            );
+            return refuses([&] { flux.checkOpen(mesh); });
+        };
+        holds
+        (
+            "an open side is one that something flows through, either way",
+            !closes(vector(1e-3, 0, 0), gradient)
+         && closes(vector(0, 1e-3, 0), gradient)
         );
 
         // Each face is two triangles
