@@ -3,11 +3,12 @@
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
 """Drawings for drawing.test, written by ezdxf and gdspy, and what their plans must be.
 
-usage: drawings.py NAME FILE      writes the drawing
+usage: drawings.py FILE...        writes the drawings, of DXF each by the function of its name
        drawings.py plan           area of the plan and length of every patch, of the files of makeGeometry
 """
 
 import math
+import os
 import re
 import sys
 
@@ -175,4 +176,6 @@ def plan():
 if sys.argv[1] == "plan":
     plan()
 else:
-    globals()[sys.argv[1]](sys.argv[2])
+    for made in sys.argv[1:]:
+        name, suffix = os.path.splitext(os.path.basename(made))
+        (layout if suffix == ".gds" else globals()[name])(made)

@@ -10,6 +10,7 @@ pictures, or '-'. FOLDER gets NAME.status, NAME.said with the standard error, an
 NAME.png. The properties are those of the case in the present folder that are read once for all.
 """
 
+import gc
 import os
 import shlex
 import shutil
@@ -30,6 +31,8 @@ def run(words, said):
 
 for prop in properties:
     getattr(makePictures.case_of("."), prop)
+# Or each process would clear all of that when it ends
+gc.freeze()
 for line in sys.stdin.read().splitlines():
     name, picture, *words = shlex.split(line)
     stem = os.path.join(folder, name)
