@@ -72,17 +72,16 @@ set_input()     # FILE SETTING
     esac
 }
 
-# One row, in the present copy of the case
+# One row, in the present copy of the case, whose digests were $good_digests
 try_input()     # FILE SETTING STATUS FRAGMENTS [OPTION...]
 {
     local file=$1 setting=$2 status=$3 fragments=$4 failed=0
     local before found message text
     shift 4
 
-    before=$(digests)
     set_input "$file" "$setting" || { cat log.set; return 1; }
-    if [ "$(digests)" = "$before" ]; then echo "nothing was set"; return 1; fi
     before=$(digests)
+    if [ "$before" = "$good_digests" ]; then echo "nothing was set"; return 1; fi
 
     run_limit=600 run_cells 1 "$@"
     found=$?
@@ -113,9 +112,10 @@ shown()         # FOLDER: verdict of a row
 # A table of the standard input
 inputs()        # GOOD_CASE FILE STATUS [OPTION...]
 {
-    local good=$1 file=$2 status=$3 name setting fragments folder
+    local good=$1 file=$2 status=$3 name setting fragments folder good_digests
     local folders=() names=()
     shift 3
+    good_digests=$(cd "$good" && digests) || return
 
     while IFS='|' read -r name setting fragments; do
         read -r name <<< "$name"

@@ -3,6 +3,7 @@
 
 /*
     test_brownian.c - Brownian motion of a free cell: equilibrium and diffusion.
+    Processor time: 1, full 9
 */
 #include "brownianTest.h"
 

@@ -2,8 +2,8 @@
    Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
 /*
-    test_brownianNearWall.c - Brownian motion where the resistance knows of a
-    wall: drift, diffusion and equilibrium.
+    Where the resistance knows of a wall: drift, diffusion and equilibrium.
+    Processor time: 3, full 34
 */
 #include "brownianProfile.h"
 #include "nearWallTest.h"

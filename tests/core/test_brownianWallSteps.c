@@ -4,6 +4,7 @@
 /*
     test_brownianWallSteps.c - Brownian motion over a wall that the body touches:
     how it depends on intervals and steps.
+    Processor time: 1, full 14
 */
 #include "brownianWallTest.h"
 #include "referenceSphere.h"

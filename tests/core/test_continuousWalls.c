@@ -4,6 +4,7 @@
 /*
     test_continuousWalls.c - the drag near walls has no jumps: over seams and
     edges, beside pits and posts.
+    Processor time: 6, full 16
 */
 #include "wallResistanceTest.h"
 

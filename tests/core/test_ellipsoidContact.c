@@ -4,6 +4,7 @@
 /*
     test_ellipsoidContact.c - the walls' force on the ellipsoid itself: against
     that on a bead where it is a sphere, and against geometry.
+    Processor time: 4
 */
 #include "exactContactTest.h"
 #include "contact/contact.h"

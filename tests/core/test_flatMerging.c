@@ -3,6 +3,7 @@
 
 /*
     Surfaces with fewer triangles where they are flat: they cover what they did.
+    Processor time: 1, full 12
 */
 #include "wallsTest.h"
 

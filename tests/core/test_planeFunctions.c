@@ -4,6 +4,7 @@
 /*
     test_planeFunctions.c - what one plane does to a body, from the table:
     against published values and boundary elements.
+    Processor time: 3, full 30
 */
 #include "nearWallTest.h"
 #include "body/planeTable.h"

@@ -6,6 +6,7 @@
     over seams, edges, corners and steps, and flat seams add none.
 
     Lengths are in bead radii and stiffness is 1.
+    Processor time: 3
 */
 #include "beadContactTest.h"
 

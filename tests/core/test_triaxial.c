@@ -5,6 +5,7 @@
     test_triaxial.c - triaxial ellipsoids: in simple shear against an
     independent integration, and free. The shear is u = (x2, 0, 0) [1/s], the
     viscosity 1: time is counted in units of the inverse shear rate.
+    Processor time: 3
 */
 #include "coreTest.h"
 
