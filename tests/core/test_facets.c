@@ -382,7 +382,6 @@ static void test_however_cut(void **unused)
                 const int diagonal = kind % 3;
                 const int fluid = kind < 3 ? 1 : -1;
                 const int small = way == 0;
-                const long points = small ? 40 : test_count(40, 400, 400);
                 int touched = 0;
                 double q[4] = {0, 0, 0, 1}, rotation[3][3];
                 cuts list[3];
@@ -400,7 +399,7 @@ static void test_however_cut(void **unused)
                 }
                 ellipsoid_rotation(q, rotation);
                 wall = wall_of(faces, fluid, list, diagonal, rotation);
-                for (long n = 0; n < points; n++)
+                for (int n = 0; n < (small ? 40 : 400); n++)
                 {
                     double x[3], expected[3];
 
@@ -411,7 +410,7 @@ static void test_however_cut(void **unused)
                     assert_force(&wall, x, expected, EXACT);
                     touched += ellipsoid_dot(expected, expected) > 0;
                 }
-                assert_true(touched > points / 4);
+                assert_true(touched > (small ? 10 : 100));
                 wall_mesh_free(&wall);
             }
         }
