@@ -8,8 +8,9 @@
 #include "groupTest.h"
 #include "contact/contact.h"
 
-/* The paper's cell, and one of half its size with smaller beads. */
-static void make_models(ellipsoid_model model[2])
+/* The paper's cell, one of half its size with smaller beads, and a short one
+   with beads as large. */
+static void make_models(ellipsoid_model model[3])
 {
     ellipsoid_options o = test_free_cell();
 
@@ -18,6 +19,9 @@ static void make_models(ellipsoid_model model[2])
     ellipsoid_set(o.semi_axes, 0.25e-6, 1e-6, 0.25e-6);
     o.bead_radius = 0.12e-6;
     model[1] = test_model(&o);
+    ellipsoid_set(o.semi_axes, 0.3e-6, 0.4e-6, 0.3e-6);
+    o.bead_radius = 0.25e-6;
+    model[2] = test_model(&o);
 }
 
 /* Beside one another, or one before the other's end along its long axis. */
@@ -83,7 +87,7 @@ static void check_list(ellipsoid_body *a, ellipsoid_body *b, double far,
 /* q of a stage is not of length one. */
 static void test_lists_are_whole(void **unused)
 {
-    ellipsoid_model model[2];
+    ellipsoid_model model[3];
     uint64_t seed = 41;
     int listed = 0;
 
@@ -157,7 +161,7 @@ static void move_on(int turning, double part, const double line[3],
 static void test_lists_hold(void **unused)
 {
     const ellipsoid_options o = test_free_cell();
-    ellipsoid_model model[2];
+    ellipsoid_model model[3];
     uint64_t seed = 43;
     crowd kept, fresh;
     int near = 0;
@@ -168,8 +172,9 @@ static void test_lists_hold(void **unused)
     crowd_init(&fresh, 2, &o, NULL);
     for (int n = 0; n < 3000; n++)
     {
-        const int turning = n % 2, first = n / 2 % 2;
-        const ellipsoid_model order[2] = {model[first], model[!first]};
+        const int turning = n % 2, first = n / 2 % 2, other = 1 + n / 4 % 2;
+        const ellipsoid_model order[2] = {model[first ? other : 0],
+                                          model[first ? 0 : other]};
         ellipsoid_group g, anew;
         ellipsoid_pairs pairs, pairs_anew;
         ellipsoid_state s[2];
