@@ -53,6 +53,40 @@ static void test_order_does_not_matter(void **unused)
     assert_true(attempts[0] > 20);
 }
 
+/* The step after a first one, of two cells with these errors before. */
+static double step_after(const double before[2])
+{
+    const ellipsoid_options o = test_free_cell();
+    const test_quadratic flow = test_shear(100);
+    const double h = 2e-4;
+    double t = 0, step;
+    crowd c;
+
+    crowd_init(&c, 2, &o, &flow);
+    c.state[1].x[2] = 50e-6;
+    for (int cell = 0; cell < 2; cell++)
+    {
+        c.controller[cell] = (ellipsoid_controller){h, before[cell]};
+    }
+    crowd_advance(&c, &t, h, NULL);
+    assert_true(c.statistics[0].accepted == 1);
+    step = c.controller[0].step;
+    crowd_free(&c);
+    return step / h;
+}
+
+/* PI control is told of the larger of the errors before. */
+static void test_larger_error_before(void **unused)
+{
+    const double small = 1e-4, large = 0.9;
+    const double both = step_after((double[2]){large, large});
+
+    (void)unused;
+    assert_true(step_after((double[2]){small, small}) < 0.9 * both);
+    assert_true(step_after((double[2]){small, large}) == both);
+    assert_true(step_after((double[2]){large, small}) == both);
+}
+
 static ellipsoid_step first_step;
 
 static int note_first(void *context, const ellipsoid_step *step)
@@ -160,7 +194,7 @@ static void test_errors_near_walls(void **unused)
 {
     const ellipsoid_options o = near_walls();
     const ellipsoid_model model = test_model(&o);
-    const double h = 1e-3, per_h = 3 * o.tolerance / h;
+    const double h = 2e-4, per_h = 3 * o.tolerance / h;
     test_quadratic rest = {.answer = 0};
     wall_mesh mesh;
 
@@ -189,6 +223,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_order_does_not_matter),
+        cmocka_unit_test(test_larger_error_before),
         cmocka_unit_test(test_after_rejection),
         cmocka_unit_test(test_size_of_errors),
         cmocka_unit_test(test_errors_near_walls),
