@@ -43,7 +43,8 @@ static ellipsoid_options rough_cell(ellipsoid_motion motion)
     At poses that touch, by up to 0.1 um: forces 1e-10 N and more, of which
     rounding leaves 1e-16, cancel to 1e-12 of their sum; what is left is the
     gyroscopic torque, for which no balance asks. What is given as u and
-    omega does not matter.
+    omega does not matter. Pressed on fast, whole steps of Newton's method go
+    too far.
 */
 static void test_nothing_is_left(void **unused)
 {
@@ -56,7 +57,6 @@ static void test_nothing_is_left(void **unused)
     contact_floor(&r, 100 * um);
     r.flow = test_shear(0);
     r.flow.g[0][2] = 1000;
-    r.flow.u[2] = -1e-3;
     contact_start(&r, &o, 0);
     for (int n = 0; n < 3000; n++)
     {
@@ -64,6 +64,7 @@ static void test_nothing_is_left(void **unused)
         ellipsoid_contact contact;
         double size;
 
+        r.flow.u[2] = n % 2 ? -1e-3 : -0.1;
         test_orientation(&seed, r.state.q);
         ellipsoid_set(r.state.x, 0, 0, (0.4 + 1.5 * test_uniform(&seed)) * um);
         contact = contact_now(&r);
