@@ -2,7 +2,7 @@
    Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
 /*
-    Where the resistance knows of a wall: drift, diffusion and equilibrium.
+    test_brownianNearWall.c - near a wall: drift, diffusion and equilibrium.
     Processor time: 3, full 34
 */
 #include "brownianProfile.h"

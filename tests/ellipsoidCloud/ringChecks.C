@@ -242,6 +242,10 @@ void Foam::checkRing(fvMesh& mesh)
         };
     autoPtr<meshFlow> flow(present());
     const vectorField U(fields->U.primitiveField());
+    const scalarField divergence
+    (
+        fvc::surfaceIntegrate(fields->whole.phi())().primitiveField()
+    );
     forAll(U, celli)
     {
         const label x = celli % nx, y = celli/nx % ny, z = celli/nx/ny;
@@ -249,7 +253,7 @@ void Foam::checkRing(fvMesh& mesh)
     }
     const autoPtr<meshFlow> moved(present());
 
-    bool alike = true, continuous = true, atRest = true;
+    bool alike = true, continuous = true, atRest = true, even = true;
     bool images = true, beyond = true;
     flowSample a, b;
     Random random(3);
@@ -267,6 +271,8 @@ void Foam::checkRing(fvMesh& mesh)
          && reaches(*moved, on, on, b)
          && same(a.velocity, b.velocity, 1e-9)
          && mag(a.gradient - b.gradient) < 1e-9*mag(a.gradient);
+        even = even
+         && mag(tr(a.derivatives) - divergence[mesh.findCell(at)]) < 1e-6;
 
         // In a mirror and once round, and the other way
         const isometry mirror(isometry::mirror(Zero, vector(0, 0, 1)));
@@ -288,6 +294,7 @@ void Foam::checkRing(fvMesh& mesh)
          && derivatives == tensor::zero;
     }
     holds("where a ring of mesh cells begins makes no difference", alike);
+    holds("where faces are plane the divergence is exactly that of the fluxes", even);
     holds("beyond a plane of symmetry and a cyclic patch it is both", images);
     holds("the velocity is continuous over cyclic patches", continuous);
     holds("the fluid has the velocity of the wall", atRest);
