@@ -130,9 +130,9 @@ void Foam::baffleSides::split
             }
         }
     }
-    for (const label g : sidesOf.sortedToc())
+    if (points.size() > 1)
     {
-        if (points.size() > 1)
+        for (const label g : sidesOf.sortedToc())
         {
             images.join(sidesOf[g]);
         }
