@@ -219,6 +219,32 @@ static void test_errors_near_walls(void **unused)
     }
 }
 
+/* Where friction acts on a body with inertia, so small an error that its contact
+   comes to rest lengthens the next step by itself; else with the one before. */
+static void test_coming_to_rest(void **unused)
+{
+    ellipsoid_options o = test_paper_options();
+
+    (void)unused;
+    for (int n = 0; n < 16; n++)
+    {
+        const int rests = n == 0, inertial = !(n & 1), touching = !(n & 2);
+        const double error = n & 4 ? 0.11 : 0.09, before = 1e-3;
+        ellipsoid_model model;
+        judged j = {.cell = {.model = &model, .inertial = inertial}};
+        const ellipsoid_group g = group_of(&j);
+
+        o.friction = n & 8 ? 0 : 0.3;
+        model = test_model(&o);
+        j.start.contact.bead_contacts = touching;
+        j.stages.order = 4;
+        assert_relative(ellipsoid_step_factor(&g, error, before),
+                        0.9 * pow(error, rests ? -1 / 4.0 : -0.7 / 4)
+                            * (rests ? 1 : pow(before, 0.4 / 4)),
+                        1e-12);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -227,6 +253,7 @@ int main(void)
         cmocka_unit_test(test_after_rejection),
         cmocka_unit_test(test_size_of_errors),
         cmocka_unit_test(test_errors_near_walls),
+        cmocka_unit_test(test_coming_to_rest),
     };
 
     return cmocka_run_group_tests_name("groupControl", tests, NULL, NULL);

@@ -2,8 +2,9 @@
    Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
 /*
-    test_letGo.c - which steps count as held back by a contact that they let go:
-    the work of its push in the step against that of the velocity after it.
+    test_letGo.c - which steps let go of a contact as the cell would not: held
+    back by it, or thrown off; the work of its push in the step against that of
+    the velocity after it.
 */
 #include "coreTest.h"
 
@@ -39,10 +40,10 @@ static released_step let_go(double tolerance)
     return s;
 }
 
-static int is_held_back(released_step *s)
+static int is_wrong(released_step *s)
 {
     s->cell.model = &s->model;
-    return was_held_back(&s->cell, &s->start, &s->next, interval);
+    return is_release_wrong(&s->cell, &s->start, &s->next, interval);
 }
 
 /* The next pose: moved so distance in the lab, and turned about an axis of the
@@ -87,19 +88,19 @@ static void test_force(void **unused)
             s.next.state.u[i] = way[i] / interval;
         }
         move(&s, (double[3]){0}, axis, 0);
-        assert_true(is_held_back(&s));
+        assert_true(is_wrong(&s));
         for (int part = 2; part < 6; part++)
         {
             const double k = 1.0 / part;
 
             move(&s, (double[3]){k * way[0], k * way[1], k * way[2]}, axis, 0);
-            assert_int_equal(is_held_back(&s), part > 4);
+            assert_int_equal(is_wrong(&s), part > 4);
         }
         /* against the push the way counts for none, not for less */
         move(&s, (double[3]){-way[0], -way[1], -way[2]}, axis, 0);
-        assert_true(is_held_back(&s));
+        assert_true(is_wrong(&s));
         ellipsoid_set(s.next.state.u, 0, 0, 0);
-        assert_false(is_held_back(&s));
+        assert_false(is_wrong(&s));
     }
 }
 
@@ -123,10 +124,10 @@ static void test_torque(void **unused)
         for (int part = 2; part < 6; part++)
         {
             move(&s, (double[3]){0}, axis, angle / part);
-            assert_int_equal(is_held_back(&s), part > 4);
+            assert_int_equal(is_wrong(&s), part > 4);
         }
         move(&s, (double[3]){0}, axis, -angle);
-        assert_true(is_held_back(&s));
+        assert_true(is_wrong(&s));
     }
 }
 
@@ -142,11 +143,11 @@ static void test_sum(void **unused)
     ellipsoid_set(s.start.contact.torque, 1e-9 * distance / angle, 0, 0);
     ellipsoid_set(s.next.state.u, 0, 0, distance / interval);
     move(&s, (double[3]){0}, axis, 0.3 * angle);
-    assert_false(is_held_back(&s));
+    assert_false(is_wrong(&s));
     move(&s, (double[3]){0}, axis, 0.2 * angle);
-    assert_true(is_held_back(&s));
+    assert_true(is_wrong(&s));
     move(&s, (double[3]){0, 0, -0.1 * distance}, axis, 0.3 * angle);
-    assert_true(is_held_back(&s));
+    assert_true(is_wrong(&s));
 }
 
 /* Less than ten times the tolerance of the cell's length is none. */
@@ -168,9 +169,9 @@ static void test_slight(void **unused)
         ellipsoid_set(push, 1e-12, 0, 0);
         move(&s, (double[3]){0}, axis, 0);
         ellipsoid_set(rate, 0.99 * most / interval, 0, 0);
-        assert_false(is_held_back(&s));
+        assert_false(is_wrong(&s));
         ellipsoid_set(rate, 1.01 * most / interval, 0, 0);
-        assert_true(is_held_back(&s));
+        assert_true(is_wrong(&s));
     }
 }
 
@@ -201,9 +202,9 @@ static void test_inertia(void **unused)
                 ellipsoid_set(s.next.derivative.omega,
                               part * angle / interval / lag, 0, 0);
                 s.cell.inertial = 1;
-                assert_int_equal(is_held_back(&s), part > 4);
+                assert_int_equal(is_wrong(&s), part > 4);
                 s.cell.inertial = 0;
-                assert_false(is_held_back(&s));
+                assert_false(is_wrong(&s));
             }
         }
     }
@@ -223,20 +224,47 @@ static void test_kept(void **unused)
     was->deepest = was->cell_deepest = 1e-9;
     *is = *was;
     is->deepest = is->cell_deepest = 0.51e-9;
-    assert_false(is_held_back(&s));
+    assert_false(is_wrong(&s));
     is->deepest = 0.49e-9;
-    assert_true(is_held_back(&s));
+    assert_true(is_wrong(&s));
     is->deepest = 1e-9;
     is->cell_deepest = 0.49e-9;
-    assert_true(is_held_back(&s));
+    assert_true(is_wrong(&s));
     is->cell_deepest = 1e-9;
     is->bead_contacts = 1;
-    assert_true(is_held_back(&s));
+    assert_true(is_wrong(&s));
     is->bead_contacts = 3;
     is->cell_count = 1;
-    assert_true(is_held_back(&s));
+    assert_true(is_wrong(&s));
     is->cell_count = 3;
-    assert_false(is_held_back(&s));
+    assert_false(is_wrong(&s));
+}
+
+/* What moves back at the end of a step that took it off has been thrown off, by
+   however little; if it touches nothing else. */
+static void test_thrown(void **unused)
+{
+    const double axis[3] = {1, 0, 0};
+    released_step s = let_go(1e-3);
+    int *const touched[2] = {&s.next.contact.surface_count,
+                             &s.next.contact.cell_count};
+
+    (void)unused;
+    ellipsoid_set(s.start.contact.force, 0, 0, 1e-12);
+    ellipsoid_set(s.next.state.u, 0, 0, -1e-3 * distance / interval);
+    move(&s, (double[3]){0, 0, distance}, axis, 0);
+    assert_true(is_wrong(&s));
+    for (int n = 0; n < 2; n++)
+    {
+        *touched[n] = 1;
+        assert_false(is_wrong(&s));
+        *touched[n] = 0;
+    }
+    s.next.state.u[2] *= -1;
+    assert_false(is_wrong(&s));
+    s.next.state.u[2] *= -1;
+    move(&s, (double[3]){0, 0, -distance}, axis, 0);
+    assert_false(is_wrong(&s));
 }
 
 int main(void)
@@ -245,6 +273,7 @@ int main(void)
         cmocka_unit_test(test_force),   cmocka_unit_test(test_torque),
         cmocka_unit_test(test_sum),     cmocka_unit_test(test_slight),
         cmocka_unit_test(test_inertia), cmocka_unit_test(test_kept),
+        cmocka_unit_test(test_thrown),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

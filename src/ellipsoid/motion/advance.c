@@ -17,16 +17,18 @@ static const double far_too_large = 1e6;
 static const double smallest_step = 1e-18;
 
 /*
-    Has a step that lets go of a wall or a cell been held back by it? The method
-    takes the contact for a spring that also pulls, so that a long step ends
-    beside the wall though the cell is free to go, which the error estimate does
-    not show. Then the velocity that the cell takes up would have led much
-    farther along the contact's push than the step did. Both are counted as the
-    work of that push, force and torque.
+    Does a step let go of a wall or a cell as the cell itself would not? The
+    method takes the contact for a spring that also pulls, so that a long step
+    ends beside the wall though the cell is free to go, which the error estimate
+    does not show. Then the velocity that the cell takes up would have led much
+    farther along the contact's push than the step did. Or a step from where a
+    bead has just landed throws the cell off, by less than the tolerance, and it
+    would come back, to be thrown off again: it moves against the push. Motions
+    are counted as the work of that push, force and torque.
 */
-static int was_held_back(const ellipsoid_cell *p,
-                         const ellipsoid_evaluation *start,
-                         const ellipsoid_evaluation *next, double h)
+static int is_release_wrong(const ellipsoid_cell *p,
+                            const ellipsoid_evaluation *start,
+                            const ellipsoid_evaluation *next, double h)
 {
     const ellipsoid_contact *was = &start->contact, *is = &next->contact;
     const double *from = start->state.q, *to = next->state.q;
@@ -62,16 +64,20 @@ static int was_held_back(const ellipsoid_cell *p,
               + torque[i] * turn;
         coming += h * (force[i] * u + torque[i] * omega);
     }
+    if (is->surface_count == 0 && is->cell_count == 0 && made > 0 && coming < 0)
+    {
+        return 1;
+    }
     return coming > 4 * fmax(made, 0) + slight;
 }
 
-static int is_one_held_back(ellipsoid_group *g, double h)
+static int is_one_release_wrong(ellipsoid_group *g, double h)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
         if (ellipsoid_has_contact(g, cell)
-            && was_held_back(&g->cell[cell], &g->start[cell], &g->next[cell],
-                             h))
+            && is_release_wrong(&g->cell[cell], &g->start[cell], &g->next[cell],
+                                h))
         {
             return 1;
         }
@@ -133,7 +139,7 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
         status = ellipsoid_judge_expansions(g, planned->h, error);
     }
     if (status == ELLIPSOID_OK && *error <= 1
-        && is_one_held_back(g, planned->h))
+        && is_one_release_wrong(g, planned->h))
     {
         *error = far_too_large;
     }
@@ -226,8 +232,8 @@ static void accept_step(ellipsoid_group *g, const ellipsoid_plan *planned,
                         int explicitly, double error, double largest,
                         ellipsoid_controller *controller)
 {
-    const double factor = ellipsoid_step_factor(g->stages[0].order, error,
-                                                controller->previous_error);
+    const double factor =
+        ellipsoid_step_factor(g, error, controller->previous_error);
 
     controller->step = planned->h * fmin(factor, largest);
     if (planned->shortened)
@@ -286,9 +292,8 @@ static ellipsoid_status take_step(ellipsoid_group *g, double *t, double end,
             return status;
         }
         proposal = planned.h
-                 * (status == ELLIPSOID_OK
-                        ? ellipsoid_step_factor(g->stages[0].order, error, 0)
-                        : 0.25);
+                 * (status == ELLIPSOID_OK ? ellipsoid_step_factor(g, error, 0)
+                                           : 0.25);
         largest_factor = 1;
         if (proposal < shortest)
         {

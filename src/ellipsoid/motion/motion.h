@@ -93,8 +93,7 @@ typedef struct ellipsoid_cell
 ellipsoid_cell ellipsoid_cell_of(const ellipsoid_member *member,
                                  const ellipsoid_noise *noise);
 
-/* The equations in one state; at the start of a step kept while steps are
-   rejected. */
+/* The equations in one state; those of a start stay while steps are rejected. */
 typedef struct ellipsoid_evaluation
 {
     union
@@ -476,7 +475,8 @@ ellipsoid_status ellipsoid_judge_expansions(const ellipsoid_group *group,
                                             double h, double *error);
 
 /* The factor by which the next step differs from one that made that error. */
-double ellipsoid_step_factor(int order, double error, double previous_error);
+double ellipsoid_step_factor(const ellipsoid_group *group, double error,
+                             double previous_error);
 
 /* Is it a failure that a shorter step may cure? */
 static inline int ellipsoid_may_recover(ellipsoid_status s)

@@ -40,6 +40,14 @@ static double lasting_error(const ellipsoid_model *m,
     return all > 0 ? sqrt(twice_kinetic(m, stages->error) / all) : 0;
 }
 
+/* Does friction act on a body with inertia? */
+static int is_rubbing(const ellipsoid_cell *p,
+                      const ellipsoid_evaluation *start)
+{
+    return p->inertial && p->model->options.friction > 0
+        && ellipsoid_in_contact(&start->contact);
+}
+
 /*
     Where friction may hold a body, errors of its velocities are to be below the
     slip speed, or each step would find it slipping another way.
@@ -48,12 +56,10 @@ static double slip_error(const ellipsoid_cell *p,
                          const ellipsoid_evaluation *start,
                          const double error[])
 {
-    const ellipsoid_options *o = &p->model->options;
-
-    return o->friction > 0 && ellipsoid_in_contact(&start->contact)
+    return is_rubbing(p, start)
              ? (ellipsoid_length(error + AT_U)
                 + p->length * ellipsoid_length(error + AT_OMEGA))
-                   / o->slip_speed
+                   / p->model->options.slip_speed
              : 0;
 }
 
@@ -197,18 +203,27 @@ ellipsoid_plan ellipsoid_plan_step(double proposal, double landing, double t,
     return (ellipsoid_plan){h, t, t + h, 0, lands, kept};
 }
 
+/* So small an error is one of a contact that comes to rest: what changes falls
+   by orders of magnitude, and the error before would only hold back the step. */
+static const double at_rest = 0.1;
+
 /*
     PI control (Hairer & Wanner II, section IV.2): the factor by which the next
     step differs, where errors grow with the step to the power of the order.
 */
-double ellipsoid_step_factor(int order, double error, double previous_error)
+double ellipsoid_step_factor(const ellipsoid_group *g, double error,
+                             double previous_error)
 {
     const double e = log(fmax(error, 1e-8));
-    const double exponent = previous_error > 0 && error <= 1
-                              ? 0.4 * log(previous_error) - 0.7 * e
-                              : -e;
+    int alone = !(previous_error > 0 && error <= 1);
+    double exponent;
 
-    return fmin(fmax(0.9 * exp(exponent / order), 0.2), 5);
+    for (int cell = 0; error < at_rest && !alone && cell < g->count; cell++)
+    {
+        alone = is_rubbing(&g->cell[cell], &g->start[cell]);
+    }
+    exponent = alone ? -e : 0.4 * log(previous_error) - 0.7 * e;
+    return fmin(fmax(0.9 * exp(exponent / g->stages[0].order), 0.2), 5);
 }
 
 /* What one cell says to it: `there` is a short way `ahead` along its slopes. */
