@@ -196,8 +196,6 @@ Foam::meshFlow::meshFlow
 
     if (Pstream::master())
     {
-        findAcross(undecomposed);
-
         for (const polyPatch& pp : undecomposed.mesh().boundaryMesh())
         {
             patchLocation_.append
@@ -272,12 +270,12 @@ void Foam::meshFlow::advance
     const scalar end
 )
 {
-    if (laterValues_->vertices.empty())
+    // The start of the last step becomes the end of this; before the first step
+    // there is only a start
+    if (!accelerates())
     {
-        laterValues_->copy(*values_);
+        std::swap(values_, laterValues_);
     }
-
-    // What was the flow at the start of the last step is that at the end of this
     renew(undecomposed, rho);
     std::swap(values_, laterValues_);
 

@@ -7,6 +7,7 @@ Description
     the faces of the mesh, none in sum out of any tetrahedron.
 
 \*---------------------------------------------------------------------------*/
+
 #include "cellFluxes.H"
 #include "meshFlow.H"
 #include "pointImages.H"
@@ -23,7 +24,42 @@ Description
 
 namespace Foam
 {
-    //- Edges of triangles on walls, by vertices, and those that are one with them
+    static bool isWall(const polyPatch& pp)
+    {
+        return isA<wallPolyPatch>(pp);
+    }
+
+    //- Is the velocity at a patch given, as where the mesh has no third
+    //  dimension? At a mirror it is free along it.
+    static bool isConstrained(const polyPatch& pp)
+    {
+        return
+            !pp.coupled() && polyPatch::constraintType(pp.type())
+         && !domainImages::isMirror(pp);
+    }
+
+    //- For each tetrahedron at a patch of a kind
+    template<class Action>
+    static void forTetsAt
+    (
+        const polyMesh& mesh,
+        const UList<flowTet>& tets,
+        bool isOfKind(const polyPatch&),
+        const Action& action
+    )
+    {
+        for (const flowTet& tet : tets)
+        {
+            const label patchi = -1 - tet.neighbours[0];
+            if (patchi >= 0 && isOfKind(mesh.boundaryMesh()[patchi]))
+            {
+                action(tet);
+            }
+        }
+    }
+
+    //- Edges of triangles on walls, by vertices, and those that are one with
+    //  them
     static HashSet<edge, Hash<edge>> wallEdges
     (
         const polyMesh& mesh,
@@ -59,18 +95,15 @@ namespace Foam
                 }
             };
 
-        for (const flowTet& tet : tets)
-        {
-            const label patchi = -1 - tet.neighbours[0];
-
-            if (patchi >= 0 && isA<wallPolyPatch>(mesh.boundaryMesh()[patchi]))
+        const auto insertEdges =
+            [&](const flowTet& tet)
             {
                 for (label i = 1; i < 4; ++i)
                 {
                     insert(tet.vertices[i], tet.vertices[i % 3 + 1]);
                 }
-            }
-        }
+            };
+        forTetsAt(mesh, tets, isWall, insertEdges);
 
         return edges;
     }
@@ -112,16 +145,6 @@ namespace Foam
         return straight;
     }
 
-    //- Is the velocity at a patch given, as where the mesh has no third
-    //  dimension? At a mirror it is free along it.
-    static bool isConstrained(const polyMesh& mesh, const label patchi)
-    {
-        const polyPatch& pp = mesh.boundaryMesh()[patchi];
-        return
-            !pp.coupled() && polyPatch::constraintType(pp.type())
-         && !domainImages::isMirror(pp);
-    }
-
     //- Vertices whose velocity a wall gives, or a patch of a constraint type
     //  that is no plane of symmetry
     static bitSet fixedVertices
@@ -133,18 +156,8 @@ namespace Foam
     )
     {
         bitSet fixed(nVertices);
-        for (const flowTet& tet : tets)
-        {
-            const label patchi = -1 - tet.neighbours[0];
-
-            if
-            (
-                patchi >= 0
-             && (
-                    isA<wallPolyPatch>(mesh.boundaryMesh()[patchi])
-                 || isConstrained(mesh, patchi)
-                )
-            )
+        const auto fix =
+            [&](const flowTet& tet)
             {
                 for (label i = 1; i < 4; ++i)
                 {
@@ -155,25 +168,21 @@ namespace Foam
                         fixed.set(mesh.nCells() + other);
                     }
                 }
-            }
-        }
+            };
+        forTetsAt(mesh, tets, isWall, fix);
+        forTetsAt(mesh, tets, isConstrained, fix);
 
         return fixed;
     }
 
     //- Is a patch the second half of a cyclic one, whose faces and points are
     //  one with those of the first?
-    static bool isSecondHalf
-    (
-        const polyMesh& mesh,
-        const domainImages& images,
-        const label patchi
-    )
+    static bool isSecondHalf(const domainImages& images, const polyPatch& pp)
     {
-        const domainImages::seam* seam = patchi < 0 ? nullptr : images.at(patchi);
+        const domainImages::seam* seam = images.at(pp.index());
         return
             seam && !seam->mirrors()
-         && !refCast<const cyclicPolyPatch>(mesh.boundaryMesh()[patchi]).owner();
+         && !refCast<const cyclicPolyPatch>(pp).owner();
     }
 
     //- The flux through a face of the mesh; none through one of an empty patch
@@ -222,39 +231,30 @@ namespace Foam
     )
     {
         Map<symmTensor> free;
-
-        for (const flowTet& tet : tets)
-        {
-            const label patchi = -1 - tet.neighbours[0];
-            if
-            (
-                patchi < 0
-             || !domainImages::isMirror(mesh.boundaryMesh()[patchi])
-            )
+        const auto project =
+            [&](const flowTet& tet)
             {
-                continue;
-            }
+                const point& x = vertices[tet.vertices[1]].x;
+                const vector S
+                (
+                    (vertices[tet.vertices[2]].x - x)
+                  ^ (vertices[tet.vertices[3]].x - x)
+                );
 
-            const point& x = vertices[tet.vertices[1]].x;
-            const vector S
-            (
-                (vertices[tet.vertices[2]].x - x)
-              ^ (vertices[tet.vertices[3]].x - x)
-            );
-
-            for (label i = 1; i < 4; ++i)
-            {
-                free.insert(tet.vertices[i], symmTensor(symmTensor::I));
-                symmTensor& P = free[tet.vertices[i]];
-
-                // Of another plane than those before
-                const vector n(P & (S/mag(S)));
-                if (mag(n) > 1e-3)
+                for (label i = 1; i < 4; ++i)
                 {
-                    P -= sqr(n/mag(n));
+                    free.insert(tet.vertices[i], symmTensor(symmTensor::I));
+                    symmTensor& P = free[tet.vertices[i]];
+
+                    // Of another plane than those before
+                    const vector n(P & (S/mag(S)));
+                    if (mag(n) > 1e-3)
+                    {
+                        P -= sqr(n/mag(n));
+                    }
                 }
-            }
-        }
+            };
+        forTetsAt(mesh, tets, domainImages::isMirror, project);
 
         return free;
     }
@@ -334,24 +334,33 @@ void Foam::meshFlow::matchFluxes
     const polyMesh& mesh = undecomposed.mesh();
     const surfaceScalarField& phi = undecomposed.phi();
 
+    UList<flowVertex>& vertices = values_->vertices;
+    const label firstMean = vertices.size() - meanOf_.size();
+
     // Least squares for what the velocity of each vertex lacks normal to the
     // faces about it
-    symmTensorField normals(values_->vertices.size(), Zero);
-    vectorField missing(values_->vertices.size(), Zero);
+    symmTensorField normals(vertices.size(), Zero);
+    vectorField missing(vertices.size(), Zero);
     DynamicList<label> corners(16);
-    const label firstMean = values_->vertices.size() - meanOf_.size();
 
     const auto compare =
         [&](const label facei, const label first, const label end)
         {
             const label patchi = mesh.boundaryMesh().whichPatch(facei);
-            const bool second = isSecondHalf(mesh, images_, patchi);
+            const polyPatch* pp =
+                patchi < 0 ? nullptr : &mesh.boundaryMesh()[patchi];
+            if (pp && isConstrained(*pp))
+            {
+                return;
+            }
+
+            const bool second = pp && isSecondHalf(images_, *pp);
             scalar flux = fluxThrough(phi, facei);
             vector area(Zero);
 
             corners.clear();
             corners.append(mesh.faceOwner()[facei]);
-            if (patchi < 0)
+            if (!pp)
             {
                 corners.append(mesh.faceNeighbour()[facei]);
             }
@@ -359,9 +368,9 @@ void Foam::meshFlow::matchFluxes
             for (label teti = first; teti < end; ++teti)
             {
                 const label* v = tets_[teti].vertices;
-                const flowVertex& a = values_->vertices[v[1]];
-                const flowVertex& b = values_->vertices[v[2]];
-                const flowVertex& c = values_->vertices[v[3]];
+                const flowVertex& a = vertices[v[1]];
+                const flowVertex& b = vertices[v[2]];
+                const flowVertex& c = vertices[v[3]];
                 const vector S(0.5*((b.x - a.x) ^ (c.x - a.x)));
 
                 flux -= meanVelocity(a, b, c) & S;
@@ -372,11 +381,6 @@ void Foam::meshFlow::matchFluxes
                 {
                     corners.append(v[k]);
                 }
-            }
-
-            if (patchi >= 0 && isConstrained(mesh, patchi))
-            {
-                return;
             }
 
             const vector n(area/mag(area));
@@ -394,11 +398,7 @@ void Foam::meshFlow::matchFluxes
 
     moveVertices
     (
-        normals,
-        missing,
-        fixed,
-        freeAtMirrors(mesh, tets_, values_->vertices),
-        values_->vertices
+        normals, missing, fixed, freeAtMirrors(mesh, tets_, vertices), vertices
     );
     setMeans();
 }
@@ -432,7 +432,7 @@ void Foam::meshFlow::makeExcess
         };
     forOwnedFaces(undecomposed, share);
 
-    static_cast<UList<direction>&>(values_->balanced) = direction(0);
+    values_->balanced = direction(0);
 }
 
 

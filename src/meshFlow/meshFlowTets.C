@@ -6,8 +6,10 @@ Description
     The tetrahedra of the flow and their vertices, made on the master.
 
 \*---------------------------------------------------------------------------*/
+
 #include "meshFlow.H"
 #include "baffleSides.H"
+#include "cyclicPolyPatch.H"
 #include "DynamicList.H"
 #include "pointImages.H"
 #include "tetDecomposition.H"
@@ -95,18 +97,16 @@ namespace Foam
         }
     }
 
-    //- The tetrahedra of a mesh, and the first of each cell
-    static void makeTets
+    //- The first tetrahedron of each mesh cell, and of each face on both sides.
+    //  Triangles of a face, in their order, are tetrahedra first + 0, 1, ...
+    //  of its owner, and second + 0, 1, ... of its neighbour.
+    static List<labelPair> firstTets
     (
         const polyMesh& mesh,
         const tetDecomposition& decomposition,
-        const baffleSides& baffles,
-        UList<label>& cellTets,
-        UList<flowTet>& tets
+        UList<label>& cellTets
     )
     {
-        // Triangles of a face, in their order, are tetrahedra first + 0, 1, ...
-        // of its owner, and second + 0, 1, ... of its neighbour
         List<labelPair> faceTets(mesh.nFaces(), labelPair(-1, -1));
         label nTets = 0;
 
@@ -122,14 +122,39 @@ namespace Foam
         }
         cellTets[mesh.nCells()] = nTets;
 
-        forAll(mesh.cells(), celli)
+        return faceTets;
+    }
+
+    //- Of tetrahedra at cyclic patches the one on the other side
+    static Map<label> tetsAcross
+    (
+        const polyMesh& mesh,
+        const tetDecomposition& decomposition,
+        const domainImages& images,
+        const UList<labelPair>& faceTets
+    )
+    {
+        Map<label> across;
+        for (const domainImages::seam& seam : images.seams())
         {
-            splitCell
-            (
-                mesh, decomposition, baffles, faceTets, celli, cellTets[celli],
-                tets
-            );
+            const polyPatch& half = mesh.boundaryMesh()[seam.patch];
+
+            // Both faces are cut alike, and go round in opposite senses
+            for (label i = 0; !seam.mirrors() && i < half.size(); ++i)
+            {
+                const polyPatch& other =
+                    refCast<const cyclicPolyPatch>(half).neighbPatch();
+                const label n = decomposition.nTriangles(half.start() + i);
+                const label here = faceTets[half.start() + i].first();
+                const label there = faceTets[other.start() + i].first();
+
+                for (label k = 0; k < n; ++k)
+                {
+                    across.set(here + k, there + n - 1 - k);
+                }
+            }
         }
+        return across;
     }
 
     //- The vertices, with fluid at rest; those of means of corners stay as they
@@ -281,10 +306,14 @@ void Foam::meshFlow::make
 
     cellTets_.reset(master ? undecomposed.mesh().nCells() + 1 : 0);
     tets_.reset(nTets);
-    values_->vertices.reset(nVertices);
-    if (scheme_ == stDivergenceFree)
+    const label nEnds = unsteady_ ? 2 : 1;
+    for (label end = 0; end < nEnds; ++end)
     {
-        values_->makeConservative(nTets, cellTets_.size() - 1);
+        ends_[end].vertices.reset(nVertices);
+        if (scheme_ == stDivergenceFree)
+        {
+            ends_[end].makeConservative(nTets, cellTets_.size() - 1);
+        }
     }
     if (hasField)
     {
@@ -297,8 +326,23 @@ void Foam::meshFlow::make
         const fvMesh& mesh = undecomposed.mesh();
         const tetDecomposition& decomposition = undecomposed.decomposition();
 
-        makeTets(mesh, decomposition, *baffles, cellTets_, tets_);
-        makeVertices(mesh, decomposition, *baffles, values_->vertices);
+        const List<labelPair> faceTets
+        (
+            firstTets(mesh, decomposition, cellTets_)
+        );
+        forAll(mesh.cells(), celli)
+        {
+            splitCell
+            (
+                mesh, decomposition, *baffles, faceTets, celli,
+                cellTets_[celli], tets_
+            );
+        }
+        tetAcross_ = tetsAcross(mesh, decomposition, images_, faceTets);
+        for (label end = 0; end < nEnds; ++end)
+        {
+            makeVertices(mesh, decomposition, *baffles, ends_[end].vertices);
+        }
         meanOf_ = meanCorners(mesh, decomposition, *baffles);
         findUnsound();
 
@@ -311,6 +355,9 @@ void Foam::meshFlow::make
     broadcast(unsound_);
     cellTets_.share();
     tets_.share();
-    values_->share();
+    for (const flowValues& values : ends_)
+    {
+        values.share();
+    }
     field_.share();
 }

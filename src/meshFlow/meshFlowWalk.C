@@ -2,12 +2,8 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "meshFlow.H"
-#include "cyclicPolyPatch.H"
 #include "indexedOctree.H"
-#include "tetDecomposition.H"
 #include "treeDataPoint.H"
-#include "undecomposedFlow.H"
-#include "volFields.H"
 
 #include <set>
 
@@ -250,52 +246,6 @@ Foam::meshFlow::locationType Foam::meshFlow::walk
     }
 
     return location;
-}
-
-
-void Foam::meshFlow::findAcross(const undecomposedFlow& undecomposed)
-{
-    const polyMesh& mesh = undecomposed.mesh();
-    const tetDecomposition& decomposition = undecomposed.decomposition();
-
-    // The first tetrahedron of a mesh cell at one of its faces
-    const auto firstAt =
-        [&](const label celli, const label facei)
-        {
-            const labelUList& faces = mesh.cells()[celli];
-            label teti = cellTets_[celli];
-            for (label i = 0; faces[i] != facei; ++i)
-            {
-                teti += decomposition.nTriangles(faces[i]);
-            }
-            return teti;
-        };
-
-    for (const domainImages::seam& seam : images_.seams())
-    {
-        if (seam.mirrors())
-        {
-            continue;
-        }
-
-        const cyclicPolyPatch& half =
-            refCast<const cyclicPolyPatch>(mesh.boundaryMesh()[seam.patch]);
-        const cyclicPolyPatch& other = half.neighbPatch();
-
-        // Both faces are cut alike, and go round in opposite senses
-        forAll(half, i)
-        {
-            const label n = decomposition.nTriangles(half.start() + i);
-            const label here = firstAt(half.faceCells()[i], half.start() + i);
-            const label there =
-                firstAt(other.faceCells()[i], other.start() + i);
-
-            for (label k = 0; k < n; ++k)
-            {
-                tetAcross_.set(here + k, there + n - 1 - k);
-            }
-        }
-    }
 }
 
 

@@ -3,7 +3,6 @@
 
 #include "undecomposedFlow.H"
 #include "checkCells.H"
-#include "foamVersions.H"
 #include "fromRanks.H"
 #include "processorPolyPatch.H"
 #include "surfaceFields.H"
@@ -43,22 +42,6 @@ namespace Foam
 }
 
 
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
-
-Foam::undecomposedFlow::serialScope::serialScope()
-:
-    parRun_(Pstream::parRun())
-{
-    setParRun(false);
-}
-
-
-Foam::undecomposedFlow::serialScope::~serialScope()
-{
-    setParRun(parRun_);
-}
-
-
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 template<class Type, template<class> class PatchField, class GeoMesh>
@@ -75,24 +58,22 @@ Foam::undecomposedFlow::gather
     Field<Type> partValues(valuesAtFaces(field, part_.nFaces()));
     forAll(partValues, facei)
     {
-        if (atFaces && faceAddressing_[facei] < 0)
+        if (atFaces && turned_.test(facei))
         {
             partValues[facei] *= -1;
         }
     }
 
-    const Field<Type> faceValues
-    (
-        putTogether(faceAddressing_, partValues, mesh().nFaces())
-    );
-    const Field<Type> cellValues
-    (
-        atFaces
-      ? Field<Type>()
-      : putTogether(cellAddressing_, field.primitiveField(), nCells_)
-    );
+    const bool master = Pstream::master();
+    Field<Type> faceValues(master ? mesh().nFaces() : 0, Zero);
+    Field<Type> cellValues(master && !atFaces ? nCells_ : 0, Zero);
+    putTogether(faceAddressing_, partValues, faceValues);
+    if (!atFaces)
+    {
+        putTogether(cellAddressing_, field.primitiveField(), cellValues);
+    }
 
-    if (!Pstream::master())
+    if (!master)
     {
         return autoPtr<fieldType>();
     }
@@ -132,8 +113,8 @@ Foam::undecomposedFlow::undecomposedFlow(const fvMesh& mesh)
 
     if (!Pstream::parRun())
     {
-        cellAddressing_ = identity(mesh.nCells(), 1);
-        faceAddressing_ = identity(mesh.nFaces(), 1);
+        cellAddressing_ = identity(mesh.nCells());
+        faceAddressing_ = identity(mesh.nFaces());
         return;
     }
 
@@ -209,7 +190,7 @@ Foam::labelList Foam::undecomposedFlow::localCells() const
     labelList cells(nCells_, -1);
     forAll(cellAddressing_, celli)
     {
-        cells[cellAddressing_[celli] - 1] = celli;
+        cells[cellAddressing_[celli]] = celli;
     }
     return cells;
 }

@@ -6,8 +6,8 @@ Description
     The undecomposed mesh, put together from the parts of the ranks.
 
 \*---------------------------------------------------------------------------*/
+
 #include "undecomposedFlow.H"
-#include "bitSet.H"
 #include "fromRanks.H"
 #include "fvMesh.H"
 #include "globalIndex.H"
@@ -26,7 +26,7 @@ Description
 
 namespace Foam
 {
-    //- Check that no cyclic patch is divided, faces of which could not be paired
+    //- Check that no cyclic patch is divided: its faces could not be paired
     //  without the addressing of decomposePar; collective
     static void checkUndivided(const polyMesh& part)
     {
@@ -68,8 +68,8 @@ namespace Foam
         return sizes;
     }
 
-    //- Check that parts of a mesh make a whole: owners and neighbours, or -1, of
-    //  faces of which so many are inner ones, on so many cells
+    //- Check that parts of a mesh make a whole: owners and neighbours, or -1,
+    //  of faces of which so many are inner ones, on so many mesh cells
     static void checkSides
     (
         const labelUList& owner,
@@ -145,12 +145,12 @@ bool Foam::undecomposedFlow::readAddressing()
     }
 
     // Those of faces are from 1, for the sake of their sign
-    for (labelList* addressing : {&pointAddressing_, &cellAddressing_})
+    turned_.resize(part_.nFaces());
+    forAll(faceAddressing_, facei)
     {
-        for (label& address : *addressing)
-        {
-            ++address;
-        }
+        label& address = faceAddressing_[facei];
+        turned_.set(facei, address < 0);
+        address = mag(address) - 1;
     }
 
     return true;
@@ -164,13 +164,9 @@ void Foam::undecomposedFlow::makeAddressing()
 
     labelList uniquePoints;
     part_.globalData().mergePoints(pointAddressing_, uniquePoints);
-    for (label& address : pointAddressing_)
-    {
-        ++address;
-    }
 
     const globalIndex cells(part_.nCells());
-    cellAddressing_ = identity(part_.nCells(), 1 + cells.localStart());
+    cellAddressing_ = identity(part_.nCells(), cells.localStart());
 
     // Faces between cells belong to the rank of the lower cell, ordered by both
     labelList across;
@@ -201,14 +197,14 @@ void Foam::undecomposedFlow::makeAddressing()
     std::sort(inner.begin(), inner.end());
 
     faceAddressing_.setSize(part_.nFaces());
-    faceAddressing_ = 0;
+    faceAddressing_ = -1;
     const globalIndex innerFaces(inner.size());
     for (std::size_t i = 0; i < inner.size(); ++i)
     {
-        faceAddressing_[inner[i][2]] = 1 + innerFaces.toGlobal(i);
+        faceAddressing_[inner[i][2]] = innerFaces.toGlobal(i);
     }
 
-    label nBefore = 1 + innerFaces.size();
+    label nBefore = innerFaces.size();
     for (label patchi = 0; patchi < patches.nNonProcessor(); ++patchi)
     {
         const polyPatch& pp = patches[patchi];
@@ -225,10 +221,15 @@ void Foam::undecomposedFlow::makeAddressing()
         across[i] = faceAddressing_[part_.nInternalFaces() + i];
     }
     syncTools::swapBoundaryFaceList(part_, across);
+    turned_.resize(part_.nFaces());
     forAll(across, i)
     {
-        label& address = faceAddressing_[part_.nInternalFaces() + i];
-        address = address ? address : -across[i];
+        const label facei = part_.nInternalFaces() + i;
+        if (faceAddressing_[facei] < 0)
+        {
+            faceAddressing_[facei] = across[i];
+            turned_.set(facei);
+        }
     }
 }
 
@@ -236,68 +237,57 @@ void Foam::undecomposedFlow::makeAddressing()
 void Foam::undecomposedFlow::makeMesh()
 {
     // What this rank has, by the numbers of the undecomposed mesh: of each face
-    // owner and neighbour from 1, or 0
-    faceList faces(part_.faces());
-    List<labelPair> sides(faces.size(), labelPair(0, 0));
-    forAll(faces, facei)
+    // owner and neighbour, or -1
+    faceList partFaces(part_.faces());
+    List<labelPair> partSides(partFaces.size(), labelPair(-1, -1));
+    forAll(partFaces, facei)
     {
-        const bool turned = faceAddressing_[facei] < 0;
+        const bool turned = turned_.test(facei);
 
-        for (label& pointi : faces[facei])
-        {
-            pointi = pointAddressing_[pointi] - 1;
-        }
+        inplaceRenumber(pointAddressing_, partFaces[facei]);
         if (turned)
         {
-            faces[facei].flip();
+            partFaces[facei].flip();
         }
 
-        sides[facei][turned] = cellAddressing_[part_.faceOwner()[facei]];
+        labelPair& side = partSides[facei];
+        side[turned] = cellAddressing_[part_.faceOwner()[facei]];
         if (part_.isInternalFace(facei))
         {
-            sides[facei][!turned] =
-                cellAddressing_[part_.faceNeighbour()[facei]];
+            side[!turned] = cellAddressing_[part_.faceNeighbour()[facei]];
         }
     }
 
     const labelList patchSizes(wholePatchSizes(part_));
-    const label nPoints = gMax(pointAddressing_);
-    const label nFaces = max(gMax(faceAddressing_), -gMin(faceAddressing_));
-    nCells_ = gMax(cellAddressing_);
+    const label nPoints = 1 + gMax(pointAddressing_);
+    const label nFaces = 1 + gMax(faceAddressing_);
+    nCells_ = 1 + gMax(cellAddressing_);
 
-    pointField points(putTogether(pointAddressing_, part_.points(), nPoints));
-    faceList wholeFaces(Pstream::master() ? nFaces : 0);
-    labelList owner(wholeFaces.size(), -1);
-    labelList neighbour(wholeFaces.size(), -1);
+    const bool master = Pstream::master();
+    pointField points(master ? nPoints : 0, Zero);
+    faceList faces(master ? nFaces : 0);
+    labelList owner(faces.size(), -1);
+    labelList neighbour(faces.size(), -1);
 
-    forAllRanks
-    (
-        faceAddressing_,
-        faces,
-        [&](const label address, const face& f)
-        {
-            wholeFaces[mag(address) - 1] = f;
-        }
-    );
-    forAllRanks
-    (
-        faceAddressing_,
-        sides,
-        [&](const label address, const labelPair& side)
-        {
-            const label facei = mag(address) - 1;
-            owner[facei] = max(owner[facei], side.first() - 1);
-            neighbour[facei] = max(neighbour[facei], side.second() - 1);
-        }
-    );
+    putTogether(pointAddressing_, part_.points(), points);
+    putTogether(faceAddressing_, partFaces, faces);
 
-    if (Pstream::master())
+    // A face between ranks has its owner from one, its neighbour from the other
+    const labelList to(ofAllRanks(faceAddressing_));
+    const List<labelPair> sides(ofAllRanks(partSides));
+    forAll(to, i)
+    {
+        owner[to[i]] = max(owner[to[i]], sides[i].first());
+        neighbour[to[i]] = max(neighbour[to[i]], sides[i].second());
+    }
+
+    if (master)
     {
         const serialScope serial;
         makeCase
         (
             std::move(points),
-            std::move(wholeFaces),
+            std::move(faces),
             std::move(owner),
             std::move(neighbour),
             patchSizes

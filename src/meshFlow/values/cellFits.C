@@ -6,6 +6,7 @@ Description
     The quadratic polynomials of the mesh cells (vertexFit.H).
 
 \*---------------------------------------------------------------------------*/
+
 #include "vertexFit.H"
 #include "curvatureFit.H"
 #include "wallsAtVertices.H"
@@ -156,65 +157,50 @@ namespace Foam
             return symm(along & M_[mesh_.faceOwner()[facei]] & along);
         }
 
-        //- Mesh cells and walls at a point
-        void addAt(const label pointi)
+        //- Mesh cells and walls at a point, as its image is seen
+        void addAt(const pointImage& from)
         {
-            const label vertexi = baffles_.vertex(pointi, celli_);
-
-            for (const label other : pointCells_[pointi])
-            {
-                if
+            const bool isMesh = from.image.isIdentity();
+            const tensor T(from.image.turn());
+            const label vertexi =
+                isMesh ? baffles_.vertex(from.point, celli_) : from.point;
+            const auto addOnce =
+                [&]
                 (
-                    baffles_.vertex(pointi, other) == vertexi
-                 && cells_.take(other)
+                    takenOnce& taken,
+                    const label i,
+                    const point& x,
+                    const symmTensor& m,
+                    const vector& u
                 )
                 {
-                    add(centres_[other], M_[other], U_[other]);
+                    if (!isMesh && taken.take(i, from.image(x)))
+                    {
+                        add(from.image(x), transform(T, m), T & u);
+                    }
+                    else if (isMesh && taken.take(i))
+                    {
+                        add(x, m, u);
+                    }
+                };
+
+            for (const label other : pointCells_[from.point])
+            {
+                if (baffles_.vertex(from.point, other) == vertexi)
+                {
+                    addOnce(cells_, other, centres_[other], M_[other], U_[other]);
                 }
             }
             for (const label facei : walls_.faces(vertexi))
             {
-                if (faces_.take(facei))
-                {
-                    add
-                    (
-                        mesh_.faceCentres()[facei],
-                        momentsOf(facei),
-                        walls_.velocity(facei)
-                    );
-                }
-            }
-        }
-
-        //- And their image
-        void addImage(const pointImage& from)
-        {
-            const tensor T(from.image.turn());
-
-            for (const label other : pointCells_[from.point])
-            {
-                const point x(from.image(centres_[other]));
-                if
+                addOnce
                 (
-                    baffles_.vertex(from.point, other) == from.point
-                 && cells_.take(other, x)
-                )
-                {
-                    add(x, transform(T, M_[other]), T & U_[other]);
-                }
-            }
-            for (const label facei : walls_.faces(from.point))
-            {
-                const point x(from.image(mesh_.faceCentres()[facei]));
-                if (faces_.take(facei, x))
-                {
-                    add
-                    (
-                        x,
-                        transform(T, momentsOf(facei)),
-                        T & walls_.velocity(facei)
-                    );
-                }
+                    faces_,
+                    facei,
+                    mesh_.faceCentres()[facei],
+                    momentsOf(facei),
+                    walls_.velocity(facei)
+                );
             }
         }
 
@@ -255,10 +241,10 @@ namespace Foam
 
             for (const label pointi : cellPoints_[celli])
             {
-                addAt(pointi);
+                addAt(pointImage{pointi, isometry()});
                 for (const pointImage& from : images_.at(pointi))
                 {
-                    addImage(from);
+                    addAt(from);
                 }
             }
 
