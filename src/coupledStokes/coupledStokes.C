@@ -108,8 +108,8 @@ void Foam::coupledStokes::setReference()
 
 Foam::scalar Foam::coupledStokes::linearTolerance(const scalar before) const
 {
-    // Nothing is known before the first correction. What it leaves of the forces
-    // is its convecting flux's fault
+    // Nothing is known before the first correction. What the forces miss after
+    // it is due to its convecting flux
     if (!criterion_->sound() || criterion_->excess() <= SMALL)
     {
         return 3e-5;
@@ -182,9 +182,8 @@ Foam::string Foam::coupledStokes::refusal
             " the pressure";
     }
 
-    // Tried against simpleFoam (tests/cases/conditions.test). Others may have to
-    // be told of every step of SIMPLE, or follow the flow from iteration to
-    // iteration
+    // Tried against simpleFoam (tests/cases/conditions.test). Others may need
+    // every step of SIMPLE, or follow the flow from iteration to iteration
     const string ofU
     (
         unknownCondition
@@ -244,7 +243,7 @@ bool Foam::coupledStokes::isSteady()
 
 void Foam::coupledStokes::setTolerance(const scalar fluxTolerance)
 {
-    criterion_->begin(fluxTolerance);
+    criterion_->setTolerance(fluxTolerance);
 }
 
 

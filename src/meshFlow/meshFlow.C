@@ -2,14 +2,16 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "meshFlow.H"
+#include "baffleSides.H"
 #include "cellFluxes.H"
 #include "foamVersions.H"
 #include "indexedOctree.H"
+#include "pointImages.H"
+#include "treeBoundBox.H"
 #include "treeDataPoint.H"
 #include "undecomposedFlow.H"
 #include "volFields.H"
 #include "wallPolyPatch.H"
-#include "treeBoundBox.H"
 
 #include <algorithm>
 
@@ -107,32 +109,32 @@ void Foam::meshFlow::sampleOf
 }
 
 
-void Foam::meshFlow::divergenceFreeAt
+const Foam::tetFlow& Foam::meshFlow::flowIn
 (
     const flowValues& values,
-    tetCoordinates& c,
-    vector& value,
-    tensor* derivatives
+    tetCoordinates& c
 ) const
 {
-    const tetFlow& flow = flowIn(values, c);
-
-    if (*std::min_element(c.weight, c.weight + 4) >= -1e-9)
+    if (c.flowOf != values.vertices.cdata())
     {
-        flow.evaluate(c.gradient, c.weight, value, derivatives);
-        return;
+        const auto vertex =
+            [&](const int a) -> const flowVertex&
+            {
+                return values.vertex(c.vertices[a]);
+            };
+
+        balance(values, c.vertices[0]);
+        c.flowOf = values.vertices.cdata();
+        c.flow.set
+        (
+            c.gradient,
+            vertex,
+            values.excess[c.tet].flux,
+            values.straight[c.tet]
+        );
     }
 
-    // Beyond an open patch, what is not linear stays as it is there
-    scalar inside[4];
-    std::copy_n(c.weight, 4, inside);
-    toFace(inside);
-
-    flow.evaluate(c.gradient, inside, value, derivatives);
-    for (int a = 0; a < 4; ++a)
-    {
-        value += (c.weight[a] - inside[a])*values.vertex(c.vertices[a]).u;
-    }
+    return c.flow;
 }
 
 
@@ -143,24 +145,37 @@ Foam::vector Foam::meshFlow::velocityOf
     tensor* derivatives
 ) const
 {
+    const auto u =
+        [&](const label i) -> const vector&
+        {
+            return values.vertex(i).u;
+        };
     vector value(Zero);
 
-    if (scheme_ == stDivergenceFree)
+    if (scheme_ == stCellPoint)
     {
-        divergenceFreeAt(values, c, value, derivatives);
-    }
-    else
-    {
-        const auto u =
-            [&](const label i) -> const vector&
-            {
-                return values.vertices[i].u;
-            };
-
         value = c.value<vector>(u);
         if (derivatives)
         {
             *derivatives = c.derivatives(u);
+        }
+    }
+    else
+    {
+        const tetFlow& flow = flowIn(values, c);
+        scalar inside[4];
+        std::copy_n(c.weight, 4, inside);
+
+        // Beyond an open patch, what is not linear stays as it is there
+        const bool beyond = *std::min_element(inside, inside + 4) < -1e-9;
+        if (beyond)
+        {
+            toFace(inside);
+        }
+        flow.evaluate(c.gradient, inside, value, derivatives);
+        for (int a = 0; beyond && a < 4; ++a)
+        {
+            value += (c.weight[a] - inside[a])*u(c.vertices[a]);
         }
     }
 
@@ -254,7 +269,6 @@ void Foam::meshFlow::renew
     if (Pstream::master())
     {
         const undecomposedFlow::serialScope serial;
-
         setFlow(undecomposed, rho);
     }
 

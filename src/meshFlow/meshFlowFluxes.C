@@ -327,7 +327,6 @@ namespace Foam
 void Foam::meshFlow::matchFluxes
 (
     const undecomposedFlow& undecomposed,
-    const pointImages& images,
     const bitSet& fixed
 )
 {
@@ -393,8 +392,8 @@ void Foam::meshFlow::matchFluxes
             }
         };
     forOwnedFaces(undecomposed, compare);
-    images.add(normals, mesh.nCells());
-    images.add(missing, mesh.nCells());
+    pointImages_->add(normals, mesh.nCells());
+    pointImages_->add(missing, mesh.nCells());
 
     moveVertices
     (
@@ -404,19 +403,16 @@ void Foam::meshFlow::matchFluxes
 }
 
 
-void Foam::meshFlow::makeExcess
-(
-    const undecomposedFlow& undecomposed,
-    const pointImages& images
-)
+void Foam::meshFlow::makeExcess(const undecomposedFlow& undecomposed)
 {
     const polyMesh& mesh = undecomposed.mesh();
-    const auto edges = wallEdges(mesh, tets_, values_->vertices, images);
+    const UList<flowVertex>& vertices = values_->vertices;
+    const auto edges = wallEdges(mesh, tets_, vertices, *pointImages_);
     const bitSet fixed
     (
-        fixedVertices(mesh, tets_, images, values_->vertices.size())
+        fixedVertices(mesh, tets_, *pointImages_, vertices.size())
     );
-    matchFluxes(undecomposed, images, fixed);
+    matchFluxes(undecomposed, fixed);
 
     forAll(tets_, teti)
     {

@@ -285,17 +285,16 @@ void Foam::meshFlow::make
     bool hasField = E.valid();
     broadcast(hasField);
 
-    autoPtr<baffleSides> baffles;
     label nVertices = 0;
     label nTets = 0;
     if (master)
     {
         const fvMesh& mesh = undecomposed.mesh();
         const tetDecomposition& decomposition = undecomposed.decomposition();
-        pointImages images(mesh, images_);
-        baffles.reset(new baffleSides(mesh, images));
+        pointImages_.reset(new pointImages(mesh, images_));
+        baffles_.reset(new baffleSides(mesh, *pointImages_));
         nVertices =
-            mesh.nCells() + mesh.nPoints() + baffles->sides().size()
+            mesh.nCells() + mesh.nPoints() + baffles_->sides().size()
           + decomposition.meanFaces().size();
         forAll(mesh.faces(), facei)
         {
@@ -334,21 +333,21 @@ void Foam::meshFlow::make
         {
             splitCell
             (
-                mesh, decomposition, *baffles, faceTets, celli,
+                mesh, decomposition, *baffles_, faceTets, celli,
                 cellTets_[celli], tets_
             );
         }
         tetAcross_ = tetsAcross(mesh, decomposition, images_, faceTets);
         for (label end = 0; end < nEnds; ++end)
         {
-            makeVertices(mesh, decomposition, *baffles, ends_[end].vertices);
+            makeVertices(mesh, decomposition, *baffles_, ends_[end].vertices);
         }
-        meanOf_ = meanCorners(mesh, decomposition, *baffles);
+        meanOf_ = meanCorners(mesh, decomposition, *baffles_);
         findUnsound();
 
         if (hasField)
         {
-            setField(undecomposed, *E, *baffles);
+            setField(undecomposed, *E);
         }
     }
 

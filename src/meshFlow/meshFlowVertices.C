@@ -3,10 +3,11 @@
 
 /*---------------------------------------------------------------------------*\
 Description
-    Values at the vertices of the flow, on the master from the
-    undecomposed fields.
+    Values at the vertices of the flow, on the master from the undecomposed
+    fields.
 
 \*---------------------------------------------------------------------------*/
+
 #include "meshFlow.H"
 #include "checkFinite.H"
 #include "tetDecomposition.H"
@@ -57,7 +58,8 @@ namespace Foam
     }
 
     //- A field at a point of a plane of symmetry by what is about it, as in the
-    //  mesh of the whole: faces of the boundary, or mesh cells if there are none
+    //  mesh of the whole: faces of the boundary, or mesh cells if there are
+    //  none
     template<class Type>
     static Type beforeMirror
     (
@@ -234,7 +236,6 @@ namespace Foam
             vertices[i].gradient = gradU[i].T();
         }
     }
-
 }
 
 
@@ -247,10 +248,9 @@ void Foam::meshFlow::setFlow
 )
 {
     UList<flowVertex>& vertices = values_->vertices;
-    pointImages images(undecomposed.mesh(), images_);
-    const baffleSides baffles(undecomposed.mesh(), images);
     const pointField& apexes = undecomposed.decomposition().apexes();
-    const vertexPlaces places{apexes, images_, baffles};
+    const vertexPlaces places{apexes, images_, *baffles_};
+
     checkFinite(undecomposed.U(), undecomposed.mesh().C(), "mesh cell");
     if (undecomposed.hasPressure())
     {
@@ -275,7 +275,10 @@ void Foam::meshFlow::setFlow
     }
     else
     {
-        const vertexFit fit(undecomposed.U(), apexes, baffles, images);
+        const vertexFit fit
+        (
+            undecomposed.U(), apexes, *baffles_, *pointImages_
+        );
 
         forAll(fit.u, i)
         {
@@ -287,7 +290,7 @@ void Foam::meshFlow::setFlow
     setMeans();
     if (scheme_ == stDivergenceFree)
     {
-        makeExcess(undecomposed, images);
+        makeExcess(undecomposed);
     }
 }
 
@@ -315,21 +318,17 @@ void Foam::meshFlow::setMeans()
 void Foam::meshFlow::setField
 (
     const undecomposedFlow& undecomposed,
-    const volVectorField& E,
-    const baffleSides& baffles
+    const volVectorField& E
 )
 {
     checkFinite(E, E.mesh().C(), "mesh cell");
-    const vectorField atOthers
-    (
-        atVertices(E, {undecomposed.decomposition().apexes(), images_, baffles})
-    );
+    const pointField& apexes = undecomposed.decomposition().apexes();
+    const vectorField atOthers(atVertices(E, {apexes, images_, *baffles_}));
 
     label i = atOthers.size();
     SubList<vector>(field_, i) = atOthers;
     for (const labelList& corners : meanOf_)
     {
-        field_[i++] =
-            sum(vectorField(atOthers, corners))/corners.size();
+        field_[i++] = sum(vectorField(atOthers, corners))/corners.size();
     }
 }

@@ -7,18 +7,45 @@
 
 #include <set>
 
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
-inline void Foam::meshFlow::setWeights(const point& x, tetCoordinates& c)
+namespace Foam
 {
-    c.weight[0] = 1;
-    for (int a = 1; a < 4; ++a)
+    //- The face by which a walk leaves a tetrahedron, or -1
+    static label exitOf
+    (
+        const flowTet& tet,
+        const tetCoordinates& c,
+        const label previous
+    )
     {
-        c.weight[a] = c.gradient[a] & (x - c.origin);
-        c.weight[0] -= c.weight[a];
+        // Leave by the face most exceeded that leads on; a patch only where
+        // no face does, since the way round a corner may graze it. Nor go
+        // straight back where tetrahedra overlap.
+        int exit = -1;
+        int patchExit = -1;
+
+        for (int i = 0; i < 4; ++i)
+        {
+            int& best = tet.neighbours[i] < 0 ? patchExit : exit;
+
+            if
+            (
+                c.isBeyond(i)
+             && (tet.neighbours[i] != previous || previous < 0)
+             && (best < 0 || c.weight[i] < c.weight[best])
+            )
+            {
+                best = i;
+            }
+        }
+
+        return exit >= 0 ? exit : patchExit;
     }
 }
 
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::meshFlow::setCoordinates
 (
@@ -44,64 +71,7 @@ void Foam::meshFlow::setCoordinates
         tetFlow::setCoordinateGradients(edges, c.gradient);
     }
 
-    setWeights(x, c);
-}
-
-
-// A coordinate this far below 0 is rounding, not another tetrahedron
-static const Foam::scalar coordinateRounding = 1e-10;
-
-
-inline bool Foam::meshFlow::isStillIn
-(
-    const label teti,
-    const point& x,
-    tetCoordinates& c
-)
-{
-    if (c.tet != teti)
-    {
-        return false;
-    }
-    setWeights(x, c);
-
-    return
-        c.weight[0] >= -coordinateRounding
-     && c.weight[1] >= -coordinateRounding
-     && c.weight[2] >= -coordinateRounding
-     && c.weight[3] >= -coordinateRounding;
-}
-
-
-Foam::label Foam::meshFlow::exitOf
-(
-    const flowTet& tet,
-    const tetCoordinates& c,
-    const label previous
-)
-{
-    // Leave by the face most exceeded that leads on; a patch only where
-    // no face does, since the way round a corner may graze it. Nor go
-    // straight back where tetrahedra overlap.
-    int exit = -1;
-    int patchExit = -1;
-
-    for (int i = 0; i < 4; ++i)
-    {
-        int& best = tet.neighbours[i] < 0 ? patchExit : exit;
-
-        if
-        (
-            c.weight[i] < -coordinateRounding
-         && (tet.neighbours[i] != previous || previous < 0)
-         && (best < 0 || c.weight[i] < c.weight[best])
-        )
-        {
-            best = i;
-        }
-    }
-
-    return exit >= 0 ? exit : patchExit;
+    c.moveTo(x);
 }
 
 
@@ -249,35 +219,6 @@ Foam::meshFlow::locationType Foam::meshFlow::walk
 }
 
 
-const Foam::tetFlow& Foam::meshFlow::flowIn
-(
-    const flowValues& values,
-    tetCoordinates& c
-) const
-{
-    if (c.flowOf != values.vertices.cdata())
-    {
-        const auto vertex =
-            [&](const int a) -> const flowVertex&
-            {
-                return values.vertex(c.vertices[a]);
-            };
-
-        balance(values, c.vertices[0]);
-        c.flowOf = values.vertices.cdata();
-        c.flow.set
-        (
-            c.gradient,
-            vertex,
-            values.excess[c.tet].flux,
-            values.straight[c.tet]
-        );
-    }
-
-    return c.flow;
-}
-
-
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 bool Foam::meshFlow::find(const point& x, probe& at) const
@@ -321,11 +262,20 @@ bool Foam::meshFlow::reach
     tetCoordinates& c
 ) const
 {
-    if (isStillIn(at.tet, x, c))
+    // Most positions are in the tetrahedron of the last one
+    if (c.tet == at.tet)
     {
-        at.patch = -1;
-        c.turned = false;
-        return true;
+        c.moveTo(x);
+        if
+        (
+           !c.isBeyond(0) && !c.isBeyond(1)
+        && !c.isBeyond(2) && !c.isBeyond(3)
+        )
+        {
+            at.patch = -1;
+            c.turned = false;
+            return true;
+        }
     }
 
     const locationType location = walk(x, at, c);

@@ -8,6 +8,7 @@
 #include "fvcSurfaceIntegrate.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
+#include "meshTools.H"
 #include "stokesGMRES.H"
 #include "surfaceInterpolate.H"
 
@@ -31,10 +32,8 @@ Foam::tmp<Foam::surfaceScalarField> Foam::coupledCorrection::linearise
     stokes_.set(UEqn, rAU, U_, p_, phi_);
 
     const volVectorField gradP(fvc::grad(p_));
-    const vectorField net
-    (
-        (UEqn & U_)().primitiveField() + gradP.primitiveField()
-    );
+    vectorField net((UEqn & U_)().primitiveField() + gradP.primitiveField());
+    meshTools::constrainDirection(mesh, mesh.solutionD(), net);
 
     // As SIMPLE's HbyA where it has converged, and with its boundary values
     volVectorField velocity("HbyA", U_ + rAU*gradP);
@@ -65,17 +64,10 @@ Foam::tmp<Foam::surfaceScalarField> Foam::coupledCorrection::linearise
 
     forAll(V, celli)
     {
-        vector force(-V[celli]*net[celli]);
-        for (direction cmpt = 0; cmpt < vector::nComponents; ++cmpt)
-        {
-            if (mesh.solutionD()[cmpt] == -1)
-            {
-                force[cmpt] = 0;
-            }
-        }
         r[celli] = fourOf
         (
-            force/units.force, -V[celli]*continuity[celli]/units.flux
+            -V[celli]*net[celli]/units.force,
+            -V[celli]*continuity[celli]/units.flux
         );
     }
 
@@ -209,7 +201,10 @@ Foam::label Foam::coupledCorrection::correct
 
     const List<fourFloats>& found = gmres.correction();
     stokes_.addFlux(stokes_.flux(found, gmres.pressureForce()), phi_);
-    const scalarField net(fvc::surfaceIntegrate(phi_)().primitiveField()*U_.mesh().V());
+    const scalarField net
+    (
+        fvc::surfaceIntegrate(phi_)().primitiveField()*U_.mesh().V()
+    );
     stokes_.addFlux
     (
         preconditioner_->conserving

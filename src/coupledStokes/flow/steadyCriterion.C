@@ -4,6 +4,7 @@
 #include "steadyCriterion.H"
 #include "fvcSurfaceIntegrate.H"
 #include "fvMesh.H"
+#include "meshTools.H"
 #include "surfaceFields.H"
 #include "volFields.H"
 #include "wallPolyPatch.H"
@@ -160,7 +161,7 @@ Foam::steadyCriterion::steadyCriterion
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::steadyCriterion::begin(const scalar tolerance)
+void Foam::steadyCriterion::setTolerance(const scalar tolerance)
 {
     for (measure& m : measures_)
     {
@@ -186,13 +187,7 @@ Foam::steadyCriterion::forceRatios Foam::steadyCriterion::forces
 {
     const fvMesh& mesh = U_.mesh();
     vectorField net(momentum + gradP);
-    for (direction cmpt = 0; cmpt < vector::nComponents; ++cmpt)
-    {
-        if (mesh.solutionD()[cmpt] == -1)
-        {
-            net.replace(cmpt, scalar(0));
-        }
-    }
+    meshTools::constrainDirection(mesh, mesh.solutionD(), net);
 
     scalar shear = 0;
     for (const fvPatchVectorField& Up : U_.boundaryField())

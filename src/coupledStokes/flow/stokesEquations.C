@@ -3,6 +3,7 @@
 
 #include "stokesEquations.H"
 #include "DynamicList.H"
+#include "emptyFvPatch.H"
 #include "fvMatrices.H"
 #include "fvMesh.H"
 #include "snGradScheme.H"
@@ -25,6 +26,19 @@ Foam::Field<Type> Foam::stokesEquations::ofFaces
             all.append(patchValues);
         }
     }
+
+    return all;
+}
+
+
+Foam::List<float> Foam::stokesEquations::withHalo
+(
+    const scalarField& values
+) const
+{
+    List<float> all(single(values));
+    all.setSize(halo_.size());
+    halo_.exchange(all);
 
     return all;
 }
@@ -75,8 +89,7 @@ void Foam::stokesEquations::setSkewFaces(const word& pName)
     );
 
     // Mesh cells whose velocity gradients are used
-    boolList graded;
-    graded.setSize(halo_.size(), false);
+    boolList graded(halo_.size(), false);
 
     DynamicList<label> skew;
     forAll(owner_, facei)
@@ -187,9 +200,8 @@ void Foam::stokesEquations::setBoundary
         const label patchi = patch.index();
         const fvPatchVectorField& Up = U.boundaryField()[patchi];
         const fvPatchScalarField& pp = p.boundaryField()[patchi];
-        const word& type = patch.type();
 
-        if (patch.coupled() || type == "empty")
+        if (patch.coupled() || isA<emptyFvPatch>(patch))
         {
             continue;
         }
@@ -213,7 +225,7 @@ void Foam::stokesEquations::setBoundary
         boundaryOpen_.setSize
         (
             boundaryCell_.size(),
-            Up.assignable() && !polyPatch::constraintType(type)
+            Up.assignable() && !polyPatch::constraintType(patch.type())
         );
     }
     patchStart_.append(boundaryCell_.size());
@@ -246,8 +258,7 @@ void Foam::stokesEquations::setBoundaryVelocity(const volVectorField& U)
         }
     }
 
-    boolList graded;
-    graded.setSize(halo_.size(), false);
+    boolList graded(halo_.size(), false);
     UIndirectList<bool>(graded, gradCells_) = true;
     DynamicList<label> faces;
     forAll(boundaryCell_, facei)
@@ -314,9 +325,7 @@ void Foam::stokesEquations::setVolumes()
     const scalarField V(mesh_.V()/pow3(units_.length));
     V_ = single(V);
 
-    byV_ = single(scalarField(1/V));
-    byV_.setSize(halo_.size());
-    halo_.exchange(byV_);
+    byV_ = withHalo(scalarField(1/V));
 }
 
 
@@ -388,12 +397,7 @@ void Foam::stokesEquations::set
     setTurned(UEqn, phi, U);
     setMomentum(UEqn);
 
-    rByV_ = single
-    (
-        scalarField(rAU.primitiveField()/units_.mobility)
-    );
-    rByV_.setSize(halo_.size());
-    halo_.exchange(rByV_);
+    rByV_ = withHalo(scalarField(rAU.primitiveField()/units_.mobility));
     forAll(rByV_, celli)
     {
         rByV_[celli] *= byV_[celli];

@@ -23,7 +23,11 @@ static inline float least(const fourFloats& x)
 
 
 // The rows that each column of an interpolation has, as that of the columns
-static aggregateWeights transposed(const aggregateWeights& weights, const label n)
+static aggregateWeights transposed
+(
+    const aggregateWeights& weights,
+    const label n
+)
 {
     aggregateWeights result;
     result.start.setSize(n + 1, Zero);
@@ -245,7 +249,10 @@ Foam::sparseRows<Type>::sparseRows
 
     // What a row has in the halo, and how the aggregates' rows go on from that
     scalarField beyond(n, Zero);
-    labelListList rows(invertOneToMany(nAggregates, SubList<label>(aggregates, n)));
+    const labelListList rows
+    (
+        invertOneToMany(nAggregates, SubList<label>(aggregates, n))
+    );
 
     for (label i = 0; i < n; ++i)
     {

@@ -286,7 +286,10 @@ Foam::faceValues Foam::stokesOperator::flux
 {
     interpolate(x, pressureForce);
 
-    faceValues through{List<float>(owner_.size()), List<float>(boundaryCell_.size())};
+    faceValues through
+    {
+        List<float>(owner_.size()), List<float>(boundaryCell_.size())
+    };
     forAll(through.inner, facei)
     {
         through.inner[facei] = flux(facei);

@@ -121,8 +121,8 @@ void Foam::stokesPreconditioner::precondition
     List<fourFloats>& pressureForce
 ) const
 {
-    // By the volume of a mesh cell its part of the inverse: of the values tried the
-    // one that takes the fewest iterations
+    // By the volume of a mesh cell its part of the inverse: of the values tried
+    // the one that takes the fewest iterations
     const float viscous = 0.7;
 
     UList<float>& continuity = pressure_->source();

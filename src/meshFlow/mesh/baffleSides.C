@@ -97,12 +97,12 @@ void Foam::baffleSides::split
 )
 {
     const Map<label> group(groups(points));
-    Map<DynamicList<label>> sidesOf;
+    Map<DynamicList<label>> verticesOf;
     for (const label celli : group.sortedToc())
     {
-        sidesOf(group[celli]);
+        verticesOf(group[celli]);
     }
-    if (sidesOf.size() < 2)
+    if (verticesOf.size() < 2)
     {
         // The rim
         return;
@@ -110,31 +110,32 @@ void Foam::baffleSides::split
 
     for (const label pointi : points)
     {
-        Map<label> sideOfGroup;
+        Map<label> vertexOfGroup;
         for (const label celli : mesh_.pointCells()[pointi])
         {
             const label g = group[celli];
-            if (sideOfGroup.insert(g, sides_.size()))
+            const label next = mesh_.nPoints() + sides_.size();
+            if (vertexOfGroup.insert(g, next))
             {
-                sidesOf[g].append(mesh_.nPoints() + sides_.size());
+                verticesOf[g].append(next);
                 sides_.append(side{pointi, labelList()});
             }
-            sideOf_(pointi).insert(celli, sideOfGroup[g]);
+            vertexOf_(pointi).insert(celli, vertexOfGroup[g]);
         }
         for (const label facei : mesh_.pointFaces()[pointi])
         {
             if (!mesh_.isInternalFace(facei))
             {
-                const label celli = mesh_.faceOwner()[facei];
-                sides_[sideOf_[pointi][celli]].faces.append(facei);
+                const label vertexi = vertex(pointi, mesh_.faceOwner()[facei]);
+                sides_[vertexi - mesh_.nPoints()].faces.append(facei);
             }
         }
     }
     if (points.size() > 1)
     {
-        for (const label g : sidesOf.sortedToc())
+        for (const label g : verticesOf.sortedToc())
         {
-            images.join(sidesOf[g]);
+            images.join(verticesOf[g]);
         }
     }
 }

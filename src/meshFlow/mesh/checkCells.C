@@ -25,9 +25,11 @@ void Foam::checkCells(const polyMesh& mesh)
         );
 
         // OpenFOAM divides by these
-        const bool good =
-            mag(across) > 0
-         && (mesh.isInternalFace(facei) ? mag(S & d) + mag(S & (across - d)) : mag(S)) > 0;
+        const scalar apart =
+            mesh.isInternalFace(facei)
+          ? mag(S & d) + mag(S & (across - d))
+          : mag(S);
+        const bool good = mag(across) > 0 && apart > 0;
         first = good ? first : min(first, owner);
     }
     forAll(centres, celli)

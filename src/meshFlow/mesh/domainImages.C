@@ -129,13 +129,10 @@ Foam::domainImages::domainImages
     }
 
     DynamicList<seam> seams;
-    seamAt_.setSize(mesh.boundaryMesh().size(), -1);
-
     for (const polyPatch& pp : mesh.boundaryMesh())
     {
         if (isSeam(pp) && pp.size() && !unreached.found(pp.index()))
         {
-            seamAt_[pp.index()] = seams.size();
             seams.append(isMirror(pp) ? symmetry(pp) : translational(pp));
         }
     }
@@ -178,7 +175,6 @@ bool Foam::domainImages::any
 void Foam::domainImages::share()
 {
     broadcast(seams_);
-    broadcast(seamAt_);
 }
 
 

@@ -14,8 +14,14 @@ namespace Foam
     //- Distance of an apex from a triangle that will do
     static const scalar enough = 0.05;
 
-    //- The plane of a triangle: the normal out of a mesh cell, and the distance
-    //  from the origin along it
+    //- The face of the other half of a cyclic patch
+    static label faceAcross(const cyclicPolyPatch& half, const label facei)
+    {
+        return half.neighbPatch().start() + facei - half.start();
+    }
+
+    //- The plane of a triangle: the normal out of a mesh cell, and the
+    //  distance from the origin along it
     struct trianglePlane
     {
         vector n;
@@ -24,8 +30,8 @@ namespace Foam
 
     //- The point with the largest distance from the nearest of planes that lie
     //  about the origin, within a size, by the simplex method: of x and t with
-    //  n.x + t <= distance for all planes the largest t. Those of the basis meet
-    //  it with equality, and the one that violates it most enters.
+    //  n.x + t <= distance for all planes the largest t. Those of the basis
+    //  meet it with equality, and the one that violates it most enters.
     static vector deepestPoint
     (
         const UList<trianglePlane>& planes,
@@ -107,29 +113,37 @@ Foam::label Foam::tetDecomposition::sidesOf
     side sides[2]
 ) const
 {
-    const label owner = mesh_.faceOwner()[facei];
-    const label patchi = mesh_.boundaryMesh().whichPatch(facei);
-    sides[0] = side{owner, apexes_[owner], depths_[owner], 1};
+    sides[0] = sideOf(mesh_.faceOwner()[facei], 1);
 
-    if (patchi < 0)
+    if (mesh_.isInternalFace(facei))
     {
-        const label other = mesh_.faceNeighbour()[facei];
-        sides[1] = side{other, apexes_[other], depths_[other], -1};
+        sides[1] = sideOf(mesh_.faceNeighbour()[facei], -1);
         return 2;
     }
 
     // Cells pass no others than those moved along
-    const auto* half = isA<cyclicPolyPatch>(mesh_.boundaryMesh()[patchi]);
+    const cyclicPolyPatch* half = halfOf(facei);
     if (!half || !half->parallel())
     {
         return 1;
     }
-    const cyclicPolyPatch& beyond = half->neighbPatch();
-    const label i = facei - half->start();
-    const label other = beyond.faceCells()[i];
-    const vector shift(half->faceCentres()[i] - beyond.faceCentres()[i]);
-    sides[1] = side{other, apexes_[other] + shift, depths_[other], -1};
+    const label across = faceAcross(*half, facei);
+    sides[1] = sideOf(mesh_.faceOwner()[across], -1);
+    sides[1].apex += mesh_.faceCentres()[facei] - mesh_.faceCentres()[across];
     return 2;
+}
+
+
+const Foam::cyclicPolyPatch* Foam::tetDecomposition::halfOf
+(
+    const label facei
+) const
+{
+    const label patchi = mesh_.boundaryMesh().whichPatch(facei);
+    return
+        patchi < 0
+      ? nullptr
+      : isA<cyclicPolyPatch>(mesh_.boundaryMesh()[patchi]);
 }
 
 
@@ -185,8 +199,8 @@ Foam::scalar Foam::tetDecomposition::cellClearance(const label celli) const
     for (const label facei : mesh_.cells()[celli])
     {
         const scalar sign = mesh_.faceOwner()[facei] == celli ? 1 : -1;
-        const side of{celli, apexes_[celli], depths_[celli], sign};
-        least = min(least, clearance(facei, bases_[facei], of));
+        least =
+            min(least, clearance(facei, bases_[facei], sideOf(celli, sign)));
     }
     return least;
 }
@@ -261,17 +275,13 @@ Foam::label Foam::tetDecomposition::bestBase(const label facei) const
 
 bool Foam::tetDecomposition::cut(const label facei)
 {
-    const label patchi = mesh_.boundaryMesh().whichPatch(facei);
-    const auto* half =
-        patchi < 0
-      ? nullptr
-      : isA<cyclicPolyPatch>(mesh_.boundaryMesh()[patchi]);
+    const cyclicPolyPatch* half = halfOf(facei);
 
     // Both halves of a cyclic patch alike: faces begin with the same point and
     // go round in opposite senses
     if (half && !half->owner())
     {
-        return cut(half->neighbPatch().start() + facei - half->start());
+        return cut(faceAcross(*half, facei));
     }
 
     const label base = bestBase(facei);
@@ -280,8 +290,7 @@ bool Foam::tetDecomposition::cut(const label facei)
     if (half)
     {
         const label n = mesh_.faces()[facei].size();
-        bases_[half->neighbPatch().start() + facei - half->start()] =
-            base < 0 ? -1 : (n - base) % n;
+        bases_[faceAcross(*half, facei)] = base < 0 ? -1 : (n - base) % n;
     }
     return changed;
 }

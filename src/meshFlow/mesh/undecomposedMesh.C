@@ -273,8 +273,8 @@ void Foam::undecomposedFlow::makeMesh()
     putTogether(faceAddressing_, partFaces, faces);
 
     // A face between ranks has its owner from one, its neighbour from the other
-    const labelList to(ofAllRanks(faceAddressing_));
-    const List<labelPair> sides(ofAllRanks(partSides));
+    const labelList to(joined(faceAddressing_));
+    const List<labelPair> sides(joined(partSides));
     forAll(to, i)
     {
         owner[to[i]] = max(owner[to[i]], sides[i].first());
@@ -330,9 +330,9 @@ void Foam::undecomposedFlow::makeCase
     Sout.precision(digits);
     Pout.precision(digits);
 
-    // Schemes are to be read, by which a mesh in constant would be, too. So it is
-    // of a time that is not there; what is no number OpenFOAM takes for 0, and
-    // that for constant where there is no folder 0
+    // Schemes are to be read, and a mesh in constant would be with them. So it
+    // is of a time that is not there. A name that is no number would be taken
+    // for 0, and 0 for constant where there is no such folder.
     mesh_.reset
     (
         new fvMesh

@@ -188,7 +188,10 @@ namespace Foam
             {
                 if (baffles_.vertex(from.point, other) == vertexi)
                 {
-                    addOnce(cells_, other, centres_[other], M_[other], U_[other]);
+                    addOnce
+                    (
+                        cells_, other, centres_[other], M_[other], U_[other]
+                    );
                 }
             }
             for (const label facei : walls_.faces(vertexi))

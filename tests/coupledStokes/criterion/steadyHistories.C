@@ -311,7 +311,7 @@ static void checkTargets(const fvMesh& mesh)
         of.criterion->shortcomings()
     );
 
-    of.criterion->begin(1e-6);
+    of.criterion->setTolerance(1e-6);
     bool anew = of.criterion->excess() == SMALL;
     of.pResidual = 5e-5;
     of.forces.pressure = 1e-5;
