@@ -77,10 +77,10 @@ void Foam::meshFlow::sampleOf
     if (pressure_)
     {
         sample.pressureGradient = c.back(c.value<vector>(gradp));
-    }
-    if (pressure_ && derivatives)
-    {
-        sample.pressureDerivatives = c.back(c.derivatives(gradp));
+        if (derivatives)
+        {
+            sample.pressureDerivatives = c.back(c.derivatives(gradp));
+        }
     }
 
     sample.velocity =
@@ -324,6 +324,10 @@ void Foam::meshFlow::sample
     if (pressure_)
     {
         goOn(sample.pressureGradient, later.pressureGradient, part);
+        if (derivatives)
+        {
+            goOn(sample.pressureDerivatives, later.pressureDerivatives, part);
+        }
     }
     if (derivatives)
     {
@@ -338,10 +342,6 @@ void Foam::meshFlow::sample
                 part
             );
         }
-    }
-    if (pressure_ && derivatives)
-    {
-        goOn(sample.pressureDerivatives, later.pressureDerivatives, part);
     }
 }
 

@@ -104,11 +104,12 @@ namespace Foam
     (
         const polyMesh& mesh,
         const tetDecomposition& decomposition,
-        UList<label>& cellTets
+        labelList& cellTets
     )
     {
         List<labelPair> faceTets(mesh.nFaces(), labelPair(-1, -1));
         label nTets = 0;
+        cellTets.setSize(mesh.nCells() + 1);
 
         forAll(mesh.cells(), celli)
         {
@@ -157,39 +158,25 @@ namespace Foam
         return across;
     }
 
-    //- The vertices, with fluid at rest; those of means of corners stay as they
-    //  are
-    static void makeVertices
+    //- Where the vertices are, in their order
+    static DynamicList<point> vertexPoints
     (
-        const fvMesh& mesh,
+        const polyMesh& mesh,
         const tetDecomposition& decomposition,
-        const baffleSides& baffles,
-        UList<flowVertex>& vertices
+        const baffleSides& baffles
     )
     {
-        label i = 0;
-        const auto add =
-            [&](const point& x)
-            {
-                vertices[i++] = flowVertex{x, Zero, Zero, Zero};
-            };
-
-        for (const point& x : decomposition.apexes())
-        {
-            add(x);
-        }
-        for (const point& x : mesh.points())
-        {
-            add(x);
-        }
+        DynamicList<point> points(decomposition.apexes());
+        points.append(mesh.points());
         for (const baffleSides::side& side : baffles.sides())
         {
-            add(mesh.points()[side.point]);
+            points.append(mesh.points()[side.point]);
         }
         for (const label facei : decomposition.meanFaces())
         {
-            add(decomposition.mean(facei));
+            points.append(decomposition.mean(facei));
         }
+        return points;
     }
 
     //- The vertices at the corners of each face that is cut from their mean
@@ -285,66 +272,56 @@ void Foam::meshFlow::make
     bool hasField = E.valid();
     broadcast(hasField);
 
-    label nVertices = 0;
-    label nTets = 0;
+    DynamicList<point> points;
+    labelList cellTets;
+    List<labelPair> faceTets;
     if (master)
     {
-        const fvMesh& mesh = undecomposed.mesh();
-        const tetDecomposition& decomposition = undecomposed.decomposition();
+        const polyMesh& mesh = undecomposed.mesh();
         pointImages_.reset(new pointImages(mesh, images_));
         baffles_.reset(new baffleSides(mesh, *pointImages_));
-        nVertices =
-            mesh.nCells() + mesh.nPoints() + baffles_->sides().size()
-          + decomposition.meanFaces().size();
-        forAll(mesh.faces(), facei)
-        {
-            const label nSides = 1 + mesh.isInternalFace(facei);
-            nTets += nSides*decomposition.nTriangles(facei);
-        }
+        points = vertexPoints(mesh, undecomposed.decomposition(), *baffles_);
+        faceTets = firstTets(mesh, undecomposed.decomposition(), cellTets);
     }
 
-    cellTets_.reset(master ? undecomposed.mesh().nCells() + 1 : 0);
-    tets_.reset(nTets);
-    const label nEnds = unsteady_ ? 2 : 1;
-    for (label end = 0; end < nEnds; ++end)
+    cellTets_.reset(cellTets.size());
+    tets_.reset(master ? cellTets.last() : 0);
+    for (label end = 0; end < (unsteady_ ? 2 : 1); ++end)
     {
-        ends_[end].vertices.reset(nVertices);
+        flowValues& values = ends_[end];
+        values.vertices.reset(points.size());
+        forAll(points, i)
+        {
+            values.vertices[i] = flowVertex{points[i], Zero, Zero, Zero};
+        }
         if (scheme_ == stDivergenceFree)
         {
-            ends_[end].makeConservative(nTets, cellTets_.size() - 1);
+            values.makeConservative(tets_.size(), cellTets_.size() - 1);
         }
     }
     if (hasField)
     {
-        field_.reset(nVertices);
+        field_.reset(points.size());
     }
 
     if (master)
     {
         const undecomposedFlow::serialScope serial;
-        const fvMesh& mesh = undecomposed.mesh();
+        const polyMesh& mesh = undecomposed.mesh();
         const tetDecomposition& decomposition = undecomposed.decomposition();
 
-        const List<labelPair> faceTets
-        (
-            firstTets(mesh, decomposition, cellTets_)
-        );
+        cellTets_.deepCopy(cellTets);
         forAll(mesh.cells(), celli)
         {
             splitCell
             (
                 mesh, decomposition, *baffles_, faceTets, celli,
-                cellTets_[celli], tets_
+                cellTets[celli], tets_
             );
         }
         tetAcross_ = tetsAcross(mesh, decomposition, images_, faceTets);
-        for (label end = 0; end < nEnds; ++end)
-        {
-            makeVertices(mesh, decomposition, *baffles_, ends_[end].vertices);
-        }
         meanOf_ = meanCorners(mesh, decomposition, *baffles_);
         findUnsound();
-
         if (hasField)
         {
             setField(undecomposed, *E);

@@ -10,6 +10,8 @@
 #include "surfaceInterpolate.H"
 #include "transformFvPatchFields.H"
 
+#include <numeric>
+
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 template<class Type>
@@ -142,10 +144,7 @@ void Foam::stokesEquations::setGradients(const boolList& graded)
             }
         }
     }
-    forAll(gradCells_, i)
-    {
-        gradStart_[i + 1] += gradStart_[i];
-    }
+    std::partial_sum(gradStart_.begin(), gradStart_.end(), gradStart_.begin());
 
     gradOwn_.setSize(gradCells_.size(), fourFloats{});
     gradCell_.setSize(gradStart_.last());

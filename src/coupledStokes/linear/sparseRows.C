@@ -5,6 +5,8 @@
 #include "DynamicList.H"
 #include "ListOps.H"
 
+#include <numeric>
+
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -38,10 +40,10 @@ static aggregateWeights transposed
     {
         ++result.start[col + 1];
     }
-    for (label i = 0; i < n; ++i)
-    {
-        result.start[i + 1] += result.start[i];
-    }
+    std::partial_sum
+    (
+        result.start.begin(), result.start.end(), result.start.begin()
+    );
 
     labelList next(SubList<label>(result.start, n));
     for (label i = 0; i < weights.start.size() - 1; ++i)

@@ -94,7 +94,7 @@ void Foam::stokesOperator::addSkew
     for (const label facei : gradFaces_)
     {
         const label celli = boundaryCell_[facei];
-        const fourFloats velocity = product(boundaryU_[facei], x[celli]);
+        const fourFloats velocity = boundaryU_[facei] & x[celli];
 
         for (int d = 0; d < 3; ++d)
         {
@@ -268,7 +268,7 @@ void Foam::stokesOperator::apply
     forAll(turnedFaces_, i)
     {
         const label celli = boundaryCell_[turnedFaces_[i]];
-        y[celli] += product(turned_[i], x[celli]);
+        y[celli] += turned_[i] & x[celli];
     }
 
     if (skew_)

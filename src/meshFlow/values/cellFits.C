@@ -45,29 +45,29 @@ namespace Foam
             beyond_.clear();
         }
 
-        //- Take one, unless it has been
-        bool take(const label i)
+        //- Take one at x, or its image, unless it has been
+        bool take(const label i, const point& x, const isometry* image)
         {
-            const bool isNew = takenFor_[i] != celli_;
-            takenFor_[i] = celli_;
-            return isNew;
-        }
+            if (!image)
+            {
+                const bool isNew = takenFor_[i] != celli_;
+                takenFor_[i] = celli_;
+                return isNew;
+            }
 
-        //- Take the image at x of one
-        bool take(const label i, const point& x)
-        {
+            const point y((*image)(x));
             for (const Tuple2<label, point>& known : beyond_)
             {
                 if
                 (
                     known.first() == i
-                 && mag(known.second() - x) < 1e-6*length_
+                 && mag(known.second() - y) < 1e-6*length_
                 )
                 {
                     return false;
                 }
             }
-            beyond_.append(Tuple2<label, point>(i, x));
+            beyond_.append(Tuple2<label, point>(i, y));
             return true;
         }
     };
@@ -139,8 +139,21 @@ namespace Foam
         takenOnce cells_;
         takenOnce faces_;
 
-        void add(const point& x, const symmTensor& m, const vector& u)
+        //- Add a mean velocity u about x with second moments m, or its image
+        void add
+        (
+            const point& x,
+            const symmTensor& m,
+            const vector& u,
+            const isometry* image
+        )
         {
+            if (image)
+            {
+                const tensor T(image->turn());
+                add((*image)(x), transform(T, m), T & u, nullptr);
+                return;
+            }
             equations_.append
             (
                 (x - centres_[celli_])/length_,
@@ -157,53 +170,31 @@ namespace Foam
             return symm(along & M_[mesh_.faceOwner()[facei]] & along);
         }
 
-        //- Mesh cells and walls at a point, as its image is seen
-        void addAt(const pointImage& from)
+        //- Add mesh cells and walls at a point, or their image if there is one
+        void addAt(const label pointi, const isometry* image)
         {
-            const bool isMesh = from.image.isIdentity();
-            const tensor T(from.image.turn());
             const label vertexi =
-                isMesh ? baffles_.vertex(from.point, celli_) : from.point;
-            const auto addOnce =
-                [&]
+                image ? pointi : baffles_.vertex(pointi, celli_);
+
+            for (const label other : pointCells_[pointi])
+            {
+                const point& x = centres_[other];
+                if
                 (
-                    takenOnce& taken,
-                    const label i,
-                    const point& x,
-                    const symmTensor& m,
-                    const vector& u
+                    baffles_.vertex(pointi, other) == vertexi
+                 && cells_.take(other, x, image)
                 )
                 {
-                    if (!isMesh && taken.take(i, from.image(x)))
-                    {
-                        add(from.image(x), transform(T, m), T & u);
-                    }
-                    else if (isMesh && taken.take(i))
-                    {
-                        add(x, m, u);
-                    }
-                };
-
-            for (const label other : pointCells_[from.point])
-            {
-                if (baffles_.vertex(from.point, other) == vertexi)
-                {
-                    addOnce
-                    (
-                        cells_, other, centres_[other], M_[other], U_[other]
-                    );
+                    add(x, M_[other], U_[other], image);
                 }
             }
             for (const label facei : walls_.faces(vertexi))
             {
-                addOnce
-                (
-                    faces_,
-                    facei,
-                    mesh_.faceCentres()[facei],
-                    momentsOf(facei),
-                    walls_.velocity(facei)
-                );
+                const point& x = mesh_.faceCentres()[facei];
+                if (faces_.take(facei, x, image))
+                {
+                    add(x, momentsOf(facei), walls_.velocity(facei), image);
+                }
             }
         }
 
@@ -240,14 +231,14 @@ namespace Foam
             equations_.clear();
             cells_.start(celli, length_);
             faces_.start(celli, length_);
-            cells_.take(celli);
+            cells_.take(celli, centres_[celli], nullptr);
 
             for (const label pointi : cellPoints_[celli])
             {
-                addAt(pointImage{pointi, isometry()});
+                addAt(pointi, nullptr);
                 for (const pointImage& from : images_.at(pointi))
                 {
-                    addAt(from);
+                    addAt(from.point, &from.image);
                 }
             }
 
