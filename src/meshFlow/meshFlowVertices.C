@@ -9,21 +9,46 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "meshFlow.H"
+#include "bitSet.H"
 #include "checkFinite.H"
+#include "DynamicList.H"
+#include "fvcGrad.H"
 #include "tetDecomposition.H"
+#include "transform.H"
 #include "undecomposedFlow.H"
 #include "vertexFit.H"
-#include "bitSet.H"
 #include "volPointInterpolation.H"
-#include "fvcGrad.H"
 #include "wallsAtVertices.H"
-#include "DynamicList.H"
-#include "transform.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
+    //- Add what a field is at a face of the boundary by the inverse distance
+    //  from x, and this to the weights; nothing where the patch has no values
+    template<class Type>
+    static void addFace
+    (
+        const GeometricField<Type, fvPatchField, volMesh>& field,
+        const label facei,
+        const point& x,
+        Type& sum,
+        scalar& weights
+    )
+    {
+        const polyMesh& mesh = field.mesh();
+        const label patchi = mesh.boundaryMesh().whichPatch(facei);
+        const polyPatch& pp = mesh.boundaryMesh()[patchi];
+        const fvPatchField<Type>& pf = field.boundaryField()[patchi];
+
+        if (!pp.coupled() && pf.size())
+        {
+            const scalar weight = 1/mag(x - mesh.faceCentres()[facei]);
+            sum += weight*pf[facei - pp.start()];
+            weights += weight;
+        }
+    }
+
     //- A field at a side of a baffle: of the faces around the point, as at all
     //  points of the boundary
     template<class Type>
@@ -33,28 +58,15 @@ namespace Foam
         const baffleSides::side& side
     )
     {
-        const polyMesh& mesh = field.mesh();
-        const point& x = mesh.points()[side.point];
-
-        Type value(Zero);
-        scalar sum = 0;
-
+        Type sum(Zero);
+        scalar weights = 0;
         for (const label facei : side.faces)
         {
-            const label patchi = mesh.boundaryMesh().whichPatch(facei);
-            const polyPatch& pp = mesh.boundaryMesh()[patchi];
-            const fvPatchField<Type>& pf = field.boundaryField()[patchi];
-
-            if (!pp.coupled() && pf.size())
-            {
-                const scalar weight = 1/mag(x - mesh.faceCentres()[facei]);
-
-                value += weight*pf[facei - pp.start()];
-                sum += weight;
-            }
+            const point& x = field.mesh().points()[side.point];
+            addFace(field, facei, x, sum, weights);
         }
 
-        return value/sum;
+        return sum/weights;
     }
 
     //- A field at a point of a plane of symmetry by what is about it, as in the
@@ -71,31 +83,28 @@ namespace Foam
         const polyMesh& mesh = field.mesh();
         const point& x = mesh.points()[pointi];
 
-        Type atFaces(Zero);
-        Type atCells(Zero);
-        scalar faceWeights = 0;
-        scalar cellWeights = 0;
-
+        Type sum(Zero);
+        scalar weights = 0;
         for (const label facei : mesh.pointFaces()[pointi])
         {
             const label patchi = mesh.boundaryMesh().whichPatch(facei);
-
             if (patchi >= 0 && !images.at(patchi))
             {
-                const scalar w = 1/mag(x - mesh.faceCentres()[facei]);
-                const label start = mesh.boundaryMesh()[patchi].start();
-                atFaces += w*field.boundaryField()[patchi][facei - start];
-                faceWeights += w;
+                addFace(field, facei, x, sum, weights);
             }
         }
-        for (const label celli : mesh.pointCells()[pointi])
+        if (weights > 0)
         {
-            const scalar w = 1/mag(x - mesh.cellCentres()[celli]);
-            atCells += w*field[celli];
-            cellWeights += w;
+            return sum/weights;
         }
 
-        return faceWeights > 0 ? atFaces/faceWeights : atCells/cellWeights;
+        for (const label celli : mesh.pointCells()[pointi])
+        {
+            const scalar weight = 1/mag(x - mesh.cellCentres()[celli]);
+            sum += weight*field[celli];
+            weights += weight;
+        }
+        return sum/weights;
     }
 
     //- Make a field at the points of planes of symmetry what it is in the mesh
@@ -109,35 +118,28 @@ namespace Foam
     )
     {
         const polyBoundaryMesh& patches = field.mesh().boundaryMesh();
-        bitSet isCyclic(field.mesh().nPoints());
+        bitSet atMirror(field.mesh().nPoints());
+        bitSet atCyclic(field.mesh().nPoints());
         for (const domainImages::seam& seam : images.seams())
         {
-            if (!seam.mirrors())
-            {
-                isCyclic.set(patches[seam.patch].meshPoints());
-            }
+            bitSet& at = seam.mirrors() ? atMirror : atCyclic;
+            at.set(patches[seam.patch].meshPoints());
         }
 
-        for (const bool reflected : {false, true})
+        // At a cyclic patch the other side counts as well
+        atMirror.unset(atCyclic);
+        for (const label pointi : atMirror)
         {
-            for (const domainImages::seam& seam : images.seams())
-            {
-                const labelList& points = patches[seam.patch].meshPoints();
+            atPoints[pointi] = beforeMirror(field, images, pointi);
+        }
 
-                for (label i = 0; seam.mirrors() && i < points.size(); ++i)
-                {
-                    Type& value = atPoints[points[i]];
-                    if (reflected)
-                    {
-                        value =
-                            0.5*(value + transform(seam.inward.turn(), value));
-                    }
-                    // At a cyclic patch the other side counts as well
-                    else if (!isCyclic.test(points[i]))
-                    {
-                        value = beforeMirror(field, images, points[i]);
-                    }
-                }
+        for (const domainImages::seam& seam : images.seams())
+        {
+            const polyPatch& pp = patches[seam.patch];
+            for (label i = 0; seam.mirrors() && i < pp.nPoints(); ++i)
+            {
+                Type& value = atPoints[pp.meshPoints()[i]];
+                value = 0.5*(value + transform(seam.inward.turn(), value));
             }
         }
     }
