@@ -12,18 +12,12 @@
 
 namespace Foam
 {
-    //- What a field means that a solver has with the density
-    static const char* const ofOtherSolvers =
-        ", in which cells do not go.\n"
-        "    That of one liquid: solve it with simpleFoam or pimpleFoam";
-
     //- End the run if a field is not of the dimensions that the solver has it in
     template<class Field>
     static void needDimensions
     (
         const Field& field,
-        const dimensionSet& dimensions,
-        const string& hint
+        const dimensionSet& dimensions
     )
     {
         if (field.dimensions() != dimensions)
@@ -31,8 +25,11 @@ namespace Foam
             const masterGate once;
             FatalErrorInFunction
                 << "The dimensions " << field.dimensions() << " of "
-                << field.name() << " are not " << dimensions << hint.c_str() << nl
-                << "    " << field.objectPath() << exit(FatalError);
+                << field.name() << " are not " << dimensions << nl
+                << "    " << field.objectPath() << nl
+                << "    Cells go in the incompressible flow of one liquid: p is"
+                << " kinematic, Pa by kg/m3, and phi a flux of volume"
+                << exit(FatalError);
         }
     }
 }
@@ -42,23 +39,9 @@ namespace Foam
 
 void Foam::caseFiles::checkDimensions(const solverFields& flow)
 {
-    needDimensions(flow.U, dimVelocity, ": a velocity in m/s");
-    needDimensions
-    (
-        flow.p,
-        sqr(dimVelocity),
-        string(": the kinematic pressure, that is, Pa by kg/m3\n")
-      + "    A pressure in Pa is that of compressible flows and of several phases"
-      + ofOtherSolvers
-    );
-    needDimensions
-    (
-        flow.phi,
-        dimVelocity*dimArea,
-        string(": the flux of volume, that is, one of mass by kg/m3\n")
-      + "    A flux of mass is that of compressible flows"
-      + ofOtherSolvers
-    );
+    needDimensions(flow.U, dimVelocity);
+    needDimensions(flow.p, sqr(dimVelocity));
+    needDimensions(flow.phi, dimVelocity*dimArea);
 }
 
 
