@@ -35,64 +35,16 @@ namespace Foam
         ].str();
     }
 
-    //- Where the points of each cell end when those of one follow those of
-    //  another, with an entry of each cell in order
-    static labelList endsOf
-    (
-        const appendedFile& file,
-        std::map<label, label>& cells
-    )
+    //- Numbers of the rows of each cell in a file, by its id
+    static std::map<label, DynamicList<label>> rowsOf(const appendedFile& file)
     {
-        file.forRows([&](const std::string& text) { ++cells[idOf(text)]; });
-
-        DynamicList<label> ends(cells.size());
-        label nPoints = 0;
-        for (const auto& cell : cells)
+        std::map<label, DynamicList<label>> rows;
+        label row = 0;
+        file.forRows([&](const std::string& text)
         {
-            nPoints += cell.second;
-            ends.append(nPoints);
-        }
-        return labelList(std::move(ends));
-    }
-
-    //- Write the numbers of the rows in that order, an eighth at a time: all
-    //  would take more memory than the cells. Each part reads the file again
-    static void writeInLines
-    (
-        std::ostream& os,
-        const appendedFile& file,
-        const labelUList& ends,
-        std::map<label, label>& next
-    )
-    {
-        const label nPoints = ends.size() ? ends.last() : 0;
-        labelList part(nPoints/8 + 1);
-
-        for (label first = 0; first < nPoints; first += part.size())
-        {
-            auto end = ends.cbegin();
-            label begin = 0;
-            for (auto& cell : next)
-            {
-                cell.second = begin;
-                begin = *end++;
-            }
-
-            label row = 0;
-            file.forRows([&](const std::string& text)
-            {
-                const label i = next[idOf(text)]++ - first;
-                if (i >= 0 && i < part.size())
-                {
-                    part[i] = row;
-                }
-                ++row;
-            });
-            for (label i = 0; i < min(part.size(), nPoints - first); ++i)
-            {
-                os << part[i] << '\n';
-            }
-        }
+            rows[idOf(text)].append(row++);
+        });
+        return rows;
     }
 
     //- Append a row
@@ -339,12 +291,22 @@ void Foam::cellTracks::writeVTP
         });
     };
 
-    std::map<label, label> at;
-    const labelList ends(endsOf(file, at));
+    const std::map<label, DynamicList<label>> rows(rowsOf(file));
+    DynamicList<label> ends(rows.size());
+    for (const auto& cell : rows)
+    {
+        ends.append((ends.size() ? ends.last() : 0) + cell.second.size());
+    }
 
     const auto writePoints = [&](std::ostream& os)
     {
-        writeInLines(os, file, ends, at);
+        for (const auto& cell : rows)
+        {
+            for (const label row : cell.second)
+            {
+                os << row << '\n';
+            }
+        }
     };
 
     atomicWrite(set_.folder/"tracks.vtp", [&](std::ostream& os)
