@@ -123,12 +123,7 @@ void makeMap
     const surfaceScalarField phi(fieldOf("phi", instance, mesh), mesh);
 
     undecomposed.gather({U, p, phi});
-    reportInertia
-    (
-        U,
-        longestSemiAxis(properties.options()),
-        properties.options().kinematic_viscosity
-    );
+    reportInertia(U, properties, longestSemiAxis(properties.options()));
 
     const independentCells cells(properties, mesh, undecomposed);
 

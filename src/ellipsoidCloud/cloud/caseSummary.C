@@ -236,30 +236,36 @@ void Foam::reportSize
 }
 
 
-bool Foam::reportInertia
+void Foam::reportInertia
 (
     const volVectorField& U,
-    const scalar longest,
-    const scalar nu
+    const ellipsoidProperties& properties,
+    const scalar longest
 )
 {
+    static bool told = false;
+    if (told)
+    {
+        return;
+    }
+
     // By Gauss, as the case need not name a scheme for it
     const tmp<volTensorField> gradU
     (
         fv::gaussGrad<vector>::gradf(linearInterpolate(U)(), "gradU")
     );
     const scalar shear = sqrt(2.0)*gMax(mag(symm(gradU().primitiveField()))());
-    const scalar number = shear*sqr(longest)/nu;
+    const scalar number =
+        shear*sqr(longest)/properties.options().kinematic_viscosity;
 
-    if (number <= 0.1)
+    if (number > 0.1)
     {
-        return false;
+        told = true;
+        Warning
+            << "The particle Reynolds number comes to "
+            << word::printf("%.2g", number) << ", where the shear rate is "
+            << word::printf("%.2g", shear) << " 1/s: above 0.1 the inertia of"
+            << " the fluid, which the model of a cell does not have, turns and"
+            << " shifts it" << nl << endl;
     }
-    Warning
-        << "The particle Reynolds number comes to " << word::printf("%.2g", number)
-        << ", where the shear rate is " << word::printf("%.2g", shear)
-        << " 1/s: above 0.1 the inertia of the fluid, which the model of a"
-        << " cell does not have, turns and shifts it" << nl << endl;
-
-    return true;
 }

@@ -170,17 +170,6 @@ void Foam::ellipsoidCloud::checkImages(const domainImages& images) const
 }
 
 
-void Foam::ellipsoidCloud::reportInertia(const volVectorField& U)
-{
-    inertiaTold_ = inertiaTold_ || Foam::reportInertia
-    (
-        U,
-        population_.largest(longestSemiAxis),
-        properties_.options().kinematic_viscosity
-    );
-}
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
@@ -285,7 +274,7 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow)
     planEntries();
     checkTimes();
     reportCells(through.inflow);
-    reportInertia(flow.U);
+    reportInertia(flow.U, properties_, population_.largest(longestSemiAxis));
 
     localCells_ = undecomposed_->localCells();
 
@@ -359,7 +348,7 @@ void Foam::ellipsoidCloud::advance(const solverFields& flow)
     {
         return;
     }
-    reportInertia(flow.U);
+    reportInertia(flow.U, properties_, population_.largest(longestSemiAxis));
 
     undecomposed_->gather(flow);
     domain_->flow.advance(*undecomposed_, fluidDensity(), time_, end);
