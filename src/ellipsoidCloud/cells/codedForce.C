@@ -52,7 +52,7 @@ class codedForce
 :
     public externalForce
 {
-    // Private Data
+    // Private Data Types
 
         //- The function that is compiled; it needs no header of this library
         using function = void (*)
@@ -66,6 +66,9 @@ class codedForce
             vector& force,
             vector& torque
         );
+
+
+    // Private Data
 
         const bool unsteady_;
 
