@@ -19,29 +19,30 @@ Foam::inletFlux::inletFlux
 :
     patches(openPatches(U.mesh().boundaryMesh())),
     flux(patches.size()),
-    magFlux(patches.size()),
     area(patches.size())
 {
     const fvMesh& mesh = U.mesh();
+    const scalar volume = gSum(mesh.V().field());
+    const scalar meanSpeed = gSum(mag(U.primitiveField())*mesh.V())/volume;
+    crossing = meanSpeed*pow(volume, 2.0/3.0);
+
+    // Of a velocity along an open patch. A channel through which less flows
+    // would be 1e13 times as long as wide
+    const scalar rounding = 1e-9*crossing;
+    scalar inletArea = 0;
 
     forAll(patches, i)
     {
         const scalarField& phip = phi.boundaryField()[patches[i]];
 
         flux[i] = gSum(phip);
-        magFlux[i] = gSumMag(phip);
         area[i] = gSum(mesh.magSf().boundaryField()[patches[i]]);
-    }
 
-    const scalar volume = gSum(mesh.V().field());
-    meanSpeed = gSum(mag(U.primitiveField())*mesh.V())/volume;
-    crossing = meanSpeed*pow(volume, 2.0/3.0);
-    rounding = 1e-9*crossing;
-
-    scalar inletArea = 0;
-    forAll(patches, i)
-    {
-        if (flux[i] < 0 && !isRounding(flux[i]))
+        if (gSumMag(phip) < rounding && area[i] > 0 && blocked < 0)
+        {
+            blocked = patches[i];
+        }
+        if (flux[i] <= -rounding && flux[i] < 0)
         {
             inflow -= flux[i];
             inletArea += area[i];
@@ -94,18 +95,15 @@ void Foam::inletFlux::checkOpen(const polyMesh& mesh) const
 {
     const masterGate once;
 
-    forAll(patches, i)
+    if (blocked >= 0)
     {
-        if (area[i] > 0 && isRounding(magFlux[i]))
-        {
-            const polyPatch& pp = mesh.boundaryMesh()[patches[i]];
+        const polyPatch& pp = mesh.boundaryMesh()[blocked];
 
-            FatalErrorInFunction
-                << "nothing flows through patch " << pp.name() << " of type "
-                << pp.type() << nl
-                << "    Cells would leave there. If it is a wall, make it one:"
-                << " type wall in " << mesh.meshDir()/"boundary"
-                << exit(FatalError);
-        }
+        FatalErrorInFunction
+            << "nothing flows through patch " << pp.name() << " of type "
+            << pp.type() << nl
+            << "    Cells would leave there. If it is a wall, make it one:"
+            << " type wall in " << mesh.meshDir()/"boundary"
+            << exit(FatalError);
     }
 }
