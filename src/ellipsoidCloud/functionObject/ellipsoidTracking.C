@@ -63,28 +63,20 @@ namespace Foam
         }
     };
 
-    //- Errors end the run as long as it lives: OpenFOAM takes those of a function
-    //  object that is being made, or with -postProcess, for warnings
-    struct finalErrors
+    //- As long as it lives errors end the run, as OpenFOAM takes those of a
+    //  function object that is being made, or with -postProcess, for warnings;
+    //  and the screen has six digits, as writePrecision is of files
+    struct trackingScope
     {
         const bool before = throwErrors(FatalError, false);
         const bool beforeIO = throwErrors(FatalIOError, false);
+        const int digits = Sout.precision(6);
 
-        ~finalErrors()
+        ~trackingScope()
         {
             throwErrors(FatalError, before);
             throwErrors(FatalIOError, beforeIO);
-        }
-    };
-
-    //- Six digits on the screen as long as it lives: writePrecision is of files
-    struct screenDigits
-    {
-        const int before = Sout.precision(6);
-
-        ~screenDigits()
-        {
-            Sout.precision(before);
+            Sout.precision(digits);
         }
     };
 }
@@ -244,8 +236,7 @@ Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
     endTime_(runTime.endTime().value()),
     deltaT_(runTime.deltaTValue())
 {
-    const screenDigits six;
-    const finalErrors fatal;
+    const trackingScope scope;
 
     read(dict);
     caseFiles::checkMesh(runTime, true);
@@ -324,7 +315,7 @@ bool Foam::functionObjects::ellipsoidTracking::read(const dictionary& dict)
 
 bool Foam::functionObjects::ellipsoidTracking::execute()
 {
-    const finalErrors fatal;
+    const trackingScope scope;
 
     if (idle_ || steady_ || begin())
     {
@@ -338,7 +329,6 @@ bool Foam::functionObjects::ellipsoidTracking::execute()
             << " needs a mesh that stays as it is" << exit(FatalError);
     }
 
-    const screenDigits six;
     cells_->advance(flow());
 
     return true;
@@ -347,7 +337,7 @@ bool Foam::functionObjects::ellipsoidTracking::execute()
 
 bool Foam::functionObjects::ellipsoidTracking::write()
 {
-    const finalErrors fatal;
+    const trackingScope scope;
 
     if (!idle_ && !steady_)
     {
@@ -364,8 +354,7 @@ bool Foam::functionObjects::ellipsoidTracking::end()
     {
         return true;
     }
-    const screenDigits six;
-    const finalErrors fatal;
+    const trackingScope scope;
 
     if (steady_)
     {
