@@ -182,23 +182,31 @@ Foam::wallFacets::wallFacets
     beyond_(images.empty() ? 0 : length)
 {
     List<scalar> memory;
+    List<scalar> sizes(2, Zero);
 
     if (Pstream::master())
     {
         memory = made(undecomposed, length, images, mirrors);
         span_ = boundBox(undecomposed.mesh().points(), false);
 
+        int count;
         const auto* walls =
             reinterpret_cast<const ellipsoid_walls*>(memory.cdata());
-        int count;
         ellipsoid_walls_facets(walls, &count);
-        size_ = count;
-        memory.setSize(ellipsoid_walls_bytes(walls)/sizeof(scalar) + 1);
+        sizes[0] = ellipsoid_walls_bytes(walls);
+        sizes[1] = count;
     }
 
     broadcast(span_);
-    broadcast(size_);
-    memory_.fill(memory);
+    broadcast(sizes);
+    size_ = sizes[1];
+
+    memory_.reset(new sharedMemory(std::size_t(sizes[0])));
+    if (Pstream::master())
+    {
+        std::memcpy(memory_->data(), memory.cdata(), std::size_t(sizes[0]));
+    }
+    memory_->share();
 
     if (size_)
     {
