@@ -89,6 +89,7 @@ int main(void)
     ellipsoid_model model;
 
     options.density = 1500;
+    options.tolerance = 1e-4; /* overlaps are below a nanometre */
     options.motion = ELLIPSOID_MOTION_INERTIALESS;
     options.wall_resistance =
         ELLIPSOID_WALL_RESISTANCE_NONE; /* contact alone */
