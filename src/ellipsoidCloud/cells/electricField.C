@@ -5,7 +5,6 @@
 #include "checkedEntries.H"
 #include "fvcGrad.H"
 #include "masterGate.H"
-#include "StringStream.H"
 #include "undecomposedFlow.H"
 #include "volFields.H"
 
@@ -37,44 +36,24 @@ namespace Foam
         );
         IOobject io(name, instance, mesh, IOobject::MUST_READ);
 
-        const bool there =
-            returnReduce(io.typeHeaderOk<FieldType>(false), andOp<bool>());
-        const bool fits =
-            there && io.headerClassName() == FieldType::typeName;
-
+        const bool there = returnReduce
+        (
+            io.typeHeaderOk<FieldType>(true, true, false), andOp<bool>()
+        );
         autoPtr<FieldType> field;
-        if (fits)
+        if (there)
         {
             field.reset(new FieldType(io, mesh));
         }
-
-        OStringStream fault;
-        if (!there)
-        {
-            fault
-                << "there is no such field in " << mesh.time().timeName()
-                << " or before";
-        }
-        else if (!fits)
-        {
-            fault
-                << (io.instance()/name).c_str() << " is a "
-                << io.headerClassName() << ", not a " << FieldType::typeName;
-        }
-        else if (field->dimensions() != dimensions)
-        {
-            fault
-                << (io.instance()/name).c_str() << " has the dimensions "
-                << field->dimensions() << ", not " << dimensions;
-        }
-
         const masterGate once;
 
-        if (fault.str().size())
+        if (!there || field->dimensions() != dimensions)
         {
             FatalIOErrorInFunction(streamOf(dict, entry))
-                << keyword << '/' << entry << ' ' << name << ": "
-                << fault.str().c_str() << exit(FatalIOError);
+                << keyword << '/' << entry << ' ' << name << " is no "
+                << FieldType::typeName << " of the dimensions " << dimensions
+                << " in " << mesh.time().timeName() << " or before"
+                << exit(FatalIOError);
         }
 
         return field;
