@@ -232,12 +232,11 @@ Foam::cellSize Foam::cellPopulation::drawn(const label id) const
 }
 
 
-Foam::dictionary Foam::cellPopulation::notes() const
+Foam::string Foam::cellPopulation::text() const
 {
-    dictionary dict;
-    dict.add("semiAxes", shortText(pointOf(median_.options.semi_axes)));
-    dict.add("sizes", string(varies() ? "several" : "all alike"));
-    return dict;
+    return
+        "semiAxes " + shortText(pointOf(median_.options.semi_axes))
+      + (varies() ? ", sizes vary" : ", all alike");
 }
 
 

@@ -66,37 +66,6 @@ namespace Foam
         return times;
     }
 
-    //- Where two dictionaries differ, or nothing
-    static string difference(const dictionary& then, const dictionary& now)
-    {
-        OStringStream os;
-
-        if (then.toc() != now.toc())
-        {
-            os  << ": " << flatOutput(then.toc()) << " then, "
-                << flatOutput(now.toc()) << " now";
-            return os.str();
-        }
-
-        for (const entry& e : then)
-        {
-            const entry& other = *now.findEntry(e.keyword());
-
-            if (e != other && e.isDict())
-            {
-                return ' ' + e.keyword() + difference(e.dict(), other.dict());
-            }
-            if (e != other)
-            {
-                os  << ' ' << e.keyword() << ": " << e.stream().first()
-                    << " then, " << other.stream().first() << " now";
-                return os.str();
-            }
-        }
-
-        return string();
-    }
-
     //- The file in a time directory that holds the state, and the field that
     //  is written before it: decomposePar and reconstructPar go to a time only
     //  for its fields and cells, and there may be no cells
@@ -221,7 +190,7 @@ Foam::fileName Foam::checkpoint::unfinishedFlow(const fileName& path)
 }
 
 
-Foam::dictionary Foam::checkpoint::notesOf(const polyMesh& mesh)
+Foam::string Foam::checkpoint::meshText(const polyMesh& mesh)
 {
     SHA1 digest;
     addTo(digest, mesh.points());
@@ -233,42 +202,29 @@ Foam::dictionary Foam::checkpoint::notesOf(const polyMesh& mesh)
     }
 
     // The log and the cells name patches, or count them
-    dictionary patches;
+    OStringStream text;
+    text << mesh.nCells() << " mesh cells, points and faces " << digest.str();
     for (const polyPatch& pp : mesh.boundaryMesh())
     {
-        dictionary patch;
-        patch.add("type", pp.type());
-        patch.add("start", pp.start());
-        patch.add("faces", pp.size());
-        patches.add(pp.name(), patch);
+        text<< ", " << pp.name() << ' ' << pp.type() << ' ' << pp.start() << ' '
+            << pp.size();
     }
 
-    dictionary dict;
-    dict.add("cells", mesh.nCells());
-    dict.add("digest", string(digest.str()));
-    dict.add("patches", patches);
-    return dict;
+    return text.str();
 }
 
 
-void Foam::checkpoint::checkSame
-(
-    const word& name,
-    const dictionary& notesNow
-) const
+void Foam::checkpoint::checkSame(const word& name, const string& now) const
 {
-    if (!found())
-    {
-        return;
-    }
+    const string then(notes_.getOrDefault(name, now));
 
-    const string text(difference(notes_.subDict(name), notesNow));
-
-    if (!text.empty())
+    if (then != now)
     {
         FatalErrorInFunction
-            << path_ << " holds cells of another " << name.c_str() << ':'
-            << text.c_str() << nl << "    Put the " << name.c_str()
+            << path_ << " holds cells of another " << name.c_str() << nl
+            << "    then: " << then.c_str() << nl
+            << "    now: " << now.c_str() << nl
+            << "    Put the " << name.c_str()
             << " back, or start again from the first time"
             << exit(FatalError);
     }

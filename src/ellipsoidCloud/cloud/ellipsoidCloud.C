@@ -193,11 +193,11 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
     {
         const masterGate once;
 
-        earlier_.checkSame("shape", population_.notes());
+        earlier_.checkSame("shape", population_.text());
         if (Pstream::master())
         {
-            meshNotes_ = checkpoint::notesOf(undecomposed_->mesh());
-            earlier_.checkSame("mesh", meshNotes_);
+            meshText_ = checkpoint::meshText(undecomposed_->mesh());
+            earlier_.checkSame("mesh", meshText_);
         }
     }
 

@@ -185,8 +185,8 @@ void Foam::ellipsoidCloud::writeTime()
     dictionary notes;
     notes.add("time", time_);
     notes.add("folder", string(firstTime_));
-    notes.add("mesh", meshNotes_);
-    notes.add("shape", population_.notes());
+    notes.add("mesh", meshText_);
+    notes.add("shape", population_.text());
     notes.add("plan", plan_);
     if (occupancy_.valid())
     {
