@@ -27,26 +27,33 @@ struct Foam::groupAdvance::member
 {
     // Public Data
 
+        //- In the list of cells
         const label index;
+
         cellSweep& cell;
         const ellipsoid_model& model;
         const cellDomain& domain;
+
+        //- Is the space that it sweeps asked for?
         const bool sweeping;
 
         //- Steps that end before have no row of a track [s]
         const scalar firstRow;
         DynamicList<segment>& path;
+
         cellSurroundings here;
+
+        //- Where the last step ended, the image there, and the step
         meshFlow::locationType location;
         isometry image;
         ellipsoid_step last;
 
-    //- Where it was at the start [m], and when [s]
-    point from;
-    scalar since;
+        //- Where it was at the start [m], and when [s]
+        point from;
+        scalar since;
 
-    //- Distance from there at which it is stopped [m]; 0: at none
-    scalar reach;
+        //- Distance from there at which it is stopped [m]; 0: at none
+        scalar reach;
 
 
     // Member Functions
@@ -57,10 +64,9 @@ struct Foam::groupAdvance::member
         {
             member& m = *static_cast<member*>(context);
             cellState& state = m.cell.state;
-
             const ellipsoid_contact& contact = step->contact;
-
             const label tet = m.here.home.tet;
+
             m.last = *step;
             m.location = m.here.moveHome(pointOf(step->after.x), m.image);
             state.deepest = max(state.deepest, contact.deepest);
@@ -176,16 +182,16 @@ struct Foam::groupAdvance::member
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-const ellipsoid_model& Foam::groupAdvance::silent(const label id)
+const ellipsoid_model& Foam::groupAdvance::noiseless(const label id)
 {
-    if (!silent_.found(id))
+    if (!noiseless_.found(id))
     {
         ellipsoid_options options(population_.model(id).options);
         options.brownian = false;
-        silent_.set(id, new ellipsoid_model(cellPopulation::modelOf(options)));
+        noiseless_.set(id, new ellipsoid_model(cellPopulation::modelOf(options)));
     }
 
-    return *silent_[id];
+    return *noiseless_[id];
 }
 
 
@@ -254,7 +260,8 @@ void Foam::groupAdvance::enter
             new member
             {
                 group[i], cell,
-                tried && model.options.brownian ? silent(id) : model, domain_,
+                tried && model.options.brownian ? noiseless(id) : model,
+                domain_,
                 properties.pushing() || tried, tried ? GREAT : nextRow, path,
                 {domain_, meshFlow::probe{cell.state.tet, -1}},
                 meshFlow::pInside, isometry(), ellipsoid_step(),
@@ -262,21 +269,20 @@ void Foam::groupAdvance::enter
                 isTried ? tried->reach : 0
             }
         );
-        own[i].here.fixed = isFixed(id, tried);
-        own[i].here.setForces(properties.forces(), own[i].model.options);
+        cellSurroundings& here = own[i].here;
+        here.fixed = isFixed(id, tried);
+        here.setForces(properties.forces(), own[i].model.options);
         if (isTried && tried->pull)
         {
-            own[i].here.setStill(*tried->pull);
+            here.setStill(*tried->pull);
         }
-
-        own[i].here.repeat =
-            reinterpret_cast<const scalar(*)[3]>(periods_.cdata());
-        own[i].here.repeat_count = periods_.size();
-        own[i].here.seed = properties.seed();
-        own[i].here.id = id;
+        here.repeat = reinterpret_cast<const scalar(*)[3]>(periods_.cdata());
+        here.repeat_count = periods_.size();
+        here.seed = properties.seed();
+        here.id = id;
 
         members[i].model = &own[i].model;
-        members[i].surroundings = &own[i].here;
+        members[i].surroundings = &here;
         members[i].state = &cell.state.body;
         members[i].controller = &cell.state.controller;
         members[i].cache = *caches_[id];
