@@ -55,7 +55,6 @@ Description
 #include "cloud/ellipsoidCloudFiles.C"
 #include "cloud/ellipsoidCloudInjections.C"
 #include "cloud/ellipsoidCloudParticles.C"
-#include "cloud/ellipsoidCloudRun.C"
 #include "cloud/flowChecks.C"
 #include "cloud/inletFlux.C"
 

@@ -170,6 +170,64 @@ void Foam::ellipsoidCloud::checkImages(const domainImages& images) const
 }
 
 
+void Foam::ellipsoidCloud::evolve()
+{
+    const clockTime timer;
+
+    const scalar end = presentTime(mesh_.time());
+
+    addNew(time_, end);
+
+    List<cellSweep> moves(interval_->advanceInterval(cells_, time_, end));
+    DynamicList<cellEvent> events;
+    criterion_.judge(cells_, moves, end, events);
+
+    // Those that have gone are taken out
+    label nLeft = 0;
+    for (const cellSweep& cell : moves)
+    {
+        if (cell.gone())
+        {
+            interval_->forget(cell.state.id);
+        }
+        else
+        {
+            cells_[nLeft++] = cell.state;
+        }
+    }
+    cells_.setSize(nLeft);
+    time_ = end;
+
+    if (occupancy_.valid())
+    {
+        occupancy_->update(cells_, events);
+    }
+    statistics_->add(std::move(events));
+
+    // A cell that enters now has a row of this time, too
+    tracks_->flush(time_);
+
+    for (const cellSweep& cell : moves)
+    {
+        if (cell.gone())
+        {
+            population_.forget(cell.state.id);
+            if (occupancy_.valid())
+            {
+                occupancy_->forget(cell.state.id);
+            }
+        }
+        if (cell.state.fate == cellState::lost)
+        {
+            reportLost(cell, tracks_->set());
+        }
+    }
+
+    trackingTime_ += timer.elapsedTime();
+    report();
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
@@ -361,59 +419,63 @@ void Foam::ellipsoidCloud::advance(const solverFields& flow)
 }
 
 
-void Foam::ellipsoidCloud::evolve()
+void Foam::ellipsoidCloud::track
+(
+    Time& runTime,
+    const label every,
+    flowRenewal* occupied
+)
 {
-    const clockTime timer;
-
-    const scalar end = presentTime(mesh_.time());
-
-    addNew(time_, end);
-
-    List<cellSweep> moves(interval_->advanceInterval(cells_, time_, end));
-    DynamicList<cellEvent> events;
-    criterion_.judge(cells_, moves, end, events);
-
-    // Those that have gone are taken out
-    label nLeft = 0;
-    for (const cellSweep& cell : moves)
+    beginTables();
+    if (occupied)
     {
-        if (cell.gone())
+        occupied->begin();
+    }
+
+    while (runTime.loop())
+    {
+        evolve();
+        // Else it adds up rounding, and so do the names of times
+        static_cast<dimensionedScalar&>(runTime).value() = time_;
+        if (occupied)
         {
-            interval_->forget(cell.state.id);
+            occupied->update();
         }
-        else
+
+        if (every ? runTime.timeIndex() % every == 0 : runTime.writeTime())
         {
-            cells_[nLeft++] = cell.state;
+            writeTime();
         }
     }
-    cells_.setSize(nLeft);
-    time_ = end;
 
-    if (occupancy_.valid())
+    finish();
+}
+
+
+void Foam::ellipsoidCloud::finish()
+{
+    if (Pstream::master())
     {
-        occupancy_->update(cells_, events);
-    }
-    statistics_->add(std::move(events));
-
-    // A cell that enters now has a row of this time, too
-    tracks_->flush(time_);
-
-    for (const cellSweep& cell : moves)
-    {
-        if (cell.gone())
+        DynamicList<cellTracks::row> rows;
+        for (cellState& cell : cells_)
         {
-            population_.forget(cell.state.id);
-            if (occupancy_.valid())
+            if (cell.fate != cellState::waiting)
             {
-                occupancy_->forget(cell.state.id);
+                tracks_->finish(cell, rows);
             }
         }
-        if (cell.state.fate == cellState::lost)
-        {
-            reportLost(cell, tracks_->set());
-        }
+        tracks_->addRows(rows);
     }
+    tracks_->flush();
 
-    trackingTime_ += timer.elapsedTime();
-    report();
+    reportWork();
+
+    if (Pstream::master())
+    {
+        statistics_->finish(cells_, Info);
+        tracks_->writeVTP
+        (
+            [&](const label id) { return statistics_->sizeOf(id); }
+        );
+    }
 }

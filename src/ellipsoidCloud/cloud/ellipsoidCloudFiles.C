@@ -14,6 +14,7 @@ Description
 #include "masterGate.H"
 #include "atomicWrite.H"
 #include "fvMesh.H"
+#include "OSspecific.H"
 #include "StringStream.H"
 
 #include <cmath>
@@ -60,6 +61,60 @@ void Foam::ellipsoidCloud::makeTables()
         (
             new occupancy(blocking_, criterion_, set, earlier_.notes())
         );
+    }
+}
+
+
+void Foam::ellipsoidCloud::beginTables()
+{
+    const fileName folder(statistics_->log.name().path());
+    const fileName copy(folder + ".part");
+
+    // What a run left that was killed while it wrote them
+    if (Pstream::master())
+    {
+        rmDir(copy, true);
+        for (const fileName& within : {folder, fileName(folder/"poses")})
+        {
+            for (const fileName& file : readDir(within, fileName::FILE))
+            {
+                if (file.hasExt("part"))
+                {
+                    rm(within/file);
+                }
+            }
+        }
+    }
+
+    // Tables that reach beyond the start are cut there
+    const bool goesOn = earlier_.found();
+    const bool cut =
+        mesh_.time().times().last().value() > mesh_.time().value();
+
+    if (Pstream::master() && isDir(folder) && (cut || !goesOn))
+    {
+        if
+        (
+            (goesOn && !cp(folder, copy))
+         || !mvBak(folder, "bak")
+         || (goesOn && !mv(copy, folder))
+        )
+        {
+            cannotWrite(folder);
+        }
+        Info<< "ellipsoidCloud: the tables that were in " << folder.c_str()
+            << " are kept beside it, as .bak" << endl;
+    }
+
+    if (goesOn)
+    {
+        removeLaterPoses(tracks_->set(), time_);
+    }
+    statistics_->log.open();
+    tracks_->file.open();
+    if (occupancy_.valid())
+    {
+        occupancy_->begin();
     }
 }
 
