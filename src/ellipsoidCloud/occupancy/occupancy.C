@@ -150,7 +150,7 @@ Foam::occupancy::occupancy
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::occupancy::still(List<cellState>& cells) const
+void Foam::occupancy::stopHeld(List<cellState>& cells) const
 {
     for (cellState& cell : cells)
     {
@@ -295,7 +295,7 @@ void Foam::occupancy::update
     }
     if (!changesFlow())
     {
-        still(cells);
+        stopHeld(cells);
         outdated_ = false;
     }
 }
@@ -350,7 +350,7 @@ bool Foam::occupancy::setWrenches
         }
     }
 
-    still(cells);
+    stopHeld(cells);
     outdated_ = false;
 
     return same;
