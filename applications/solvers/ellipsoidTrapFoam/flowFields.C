@@ -6,6 +6,7 @@
 #include "checkedEntries.H"
 #include "checkFinite.H"
 #include "dictionary.H"
+#include "flowChecks.H"
 #include "fvcFlux.H"
 #include "fvMesh.H"
 #include "inletFlux.H"
@@ -80,7 +81,7 @@ Foam::IOobject Foam::flowFields::fieldIO
 
 void Foam::flowFields::check() const
 {
-    caseFiles::checkDimensions({U_, p_, phi_});
+    checkDimensions({U_, p_, phi_});
     checkFinite(U_, mesh_.C(), "mesh cell");
     checkFinite(p_, mesh_.C(), "mesh cell");
     checkFinite(phi_, mesh_.Cf(), "mesh face");
@@ -156,7 +157,7 @@ bool Foam::flowFields::accept()
         );
     }
 
-    const caseFiles::fluxErrors errors({U_, p_, phi_});
+    const fluxErrors errors({U_, p_, phi_});
 
     Info<< "flow: taken as read from " << instance_ << ": net fluxes of mesh"
         << " cells " << text(errors.net) << " of those through them, phi and the"
@@ -174,7 +175,7 @@ bool Foam::flowFields::accept()
             << text(continuityTolerance) << " (dictionary flow of"
             << " system/fvSolution)" << exit(FatalError);
     }
-    caseFiles::checkFluxDifference(errors.difference, mesh_);
+    checkFluxDifference(errors.difference, mesh_);
 
     return true;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
-#include "caseFiles.H"
+#include "flowChecks.H"
 #include "checkedEntries.H"
 #include "fvcFlux.H"
 #include "fvcSurfaceIntegrate.H"
@@ -37,7 +37,7 @@ namespace Foam
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
-void Foam::caseFiles::checkDimensions(const solverFields& flow)
+void Foam::checkDimensions(const solverFields& flow)
 {
     needDimensions(flow.U, dimVelocity);
     needDimensions(flow.p, sqr(dimVelocity));
@@ -45,7 +45,7 @@ void Foam::caseFiles::checkDimensions(const solverFields& flow)
 }
 
 
-Foam::caseFiles::fluxErrors::fluxErrors(const solverFields& flow)
+Foam::fluxErrors::fluxErrors(const solverFields& flow)
 {
     const surfaceScalarField& phi = flow.phi;
     const scalarField left(fvc::surfaceIntegrate(phi)().primitiveField());
@@ -61,7 +61,7 @@ Foam::caseFiles::fluxErrors::fluxErrors(const solverFields& flow)
 }
 
 
-void Foam::caseFiles::checkFluxDifference
+void Foam::checkFluxDifference
 (
     const scalar difference,
     const fvMesh& mesh

@@ -8,6 +8,7 @@
 #include "caseSummary.H"
 #include "cellPopulation.H"
 #include "ellipsoidCloud.H"
+#include "flowChecks.H"
 #include "masterGate.H"
 #include "meshSearch.H"
 #include "Time.H"
@@ -181,7 +182,7 @@ Foam::solverFields Foam::functionObjects::ellipsoidTracking::flow() const
         mesh_.lookupObject<volScalarField>(p_),
         mesh_.lookupObject<surfaceScalarField>(phi_)
     };
-    caseFiles::checkDimensions(fields);
+    checkDimensions(fields);
 
     return fields;
 }
@@ -204,10 +205,7 @@ bool Foam::functionObjects::ellipsoidTracking::begin()
 
 void Foam::functionObjects::ellipsoidTracking::checkFlux() const
 {
-    caseFiles::checkFluxDifference
-    (
-        caseFiles::fluxErrors(flow()).difference, mesh_
-    );
+    checkFluxDifference(fluxErrors(flow()).difference, mesh_);
 }
 
 
