@@ -3,9 +3,9 @@
 
 #include "flowFields.H"
 #include "atomicWrite.H"
-#include "checkpoint.H"
 #include "dictionary.H"
 #include "fileOperation.H"
+#include "flowChecks.H"
 #include "fvMesh.H"
 #include "PstreamReduceOps.H"
 #include "SHA1.H"
@@ -104,7 +104,7 @@ void Foam::flowFields::nameParts(const fileName& path)
     durableWrite(digestsFile(path), os.str());
 
     waitForRanks();
-    rm(checkpoint::unfinishedFlow(path));
+    rm(unfinishedFlow(path));
 }
 
 
@@ -114,10 +114,7 @@ bool Foam::flowFields::unfinished() const
 {
     const fileName path(mesh_.time().path()/instance_);
 
-    return returnReduce
-    (
-        isFile(checkpoint::unfinishedFlow(path)), orOp<bool>()
-    );
+    return returnReduce(isFile(unfinishedFlow(path)), orOp<bool>());
 }
 
 
@@ -148,7 +145,7 @@ bool Foam::flowFields::foreign() const
 void Foam::flowFields::finishWriting(const Time& time)
 {
     const fileName path(time.path()/time.timeName());
-    const bool whole = textOf(checkpoint::unfinishedFlow(path)) == wholeParts;
+    const bool whole = textOf(unfinishedFlow(path)) == wholeParts;
 
     if (returnReduce(whole, orOp<bool>()))
     {
@@ -168,7 +165,7 @@ void Foam::flowFields::write()
 {
     const word& instance = mesh_.time().timeName();
     const fileName path(mesh_.time().path()/instance);
-    const fileName unfinished(checkpoint::unfinishedFlow(path));
+    const fileName unfinished(unfinishedFlow(path));
 
     if (fileHandler().type() == "uncollated")
     {

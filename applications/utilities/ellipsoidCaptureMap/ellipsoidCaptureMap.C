@@ -36,8 +36,8 @@ SourceFiles
 #include "caseProperties.H"
 #include "caseSummary.H"
 #include "masterGate.H"
-#include "checkpoint.H"
 #include "ellipsoidCore.H"
+#include "flowChecks.H"
 #include "surfaceFields.H"
 #include "undecomposedFlow.H"
 #include "volFields.H"
@@ -73,7 +73,7 @@ static void checkCase
     const bool solved = returnReduce
     (
         phi.typeHeaderOk<surfaceScalarField>(true)
-     && !isFile(checkpoint::unfinishedFlow(runTime.path()/instance)),
+     && !isFile(unfinishedFlow(runTime.path()/instance)),
         andOp<bool>()
     );
 

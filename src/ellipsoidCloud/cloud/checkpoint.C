@@ -184,12 +184,6 @@ Foam::checkpoint::checkpoint(const Time& time)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::fileName Foam::checkpoint::unfinishedFlow(const fileName& path)
-{
-    return path/"U.unfinished";
-}
-
-
 Foam::string Foam::checkpoint::meshText(const polyMesh& mesh)
 {
     SHA1 digest;
