@@ -5,7 +5,7 @@
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::captureStatistics::record::see(const cellState& now)
+void Foam::captureStatistics::record::update(const cellState& now)
 {
     centre = now.centre();
     unfolded = now.unfolded();
@@ -38,7 +38,7 @@ void Foam::captureStatistics::count(const cellEvent& event)
         cell.start = now.centre();
         std::copy_n(now.body.q, 4, cell.startQ.begin());
     }
-    cell.see(now);
+    cell.update(now);
     cell.time = now.time;
     ++counts_[now.fate];
 

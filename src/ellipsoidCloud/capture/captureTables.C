@@ -195,7 +195,7 @@ void Foam::captureStatistics::finish
     {
         if (cell.fate != cellState::waiting)
         {
-            cells_.at(cell.id).see(cell);
+            cells_.at(cell.id).update(cell);
         }
     }
 

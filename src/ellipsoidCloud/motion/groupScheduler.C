@@ -138,7 +138,7 @@ void Foam::groupScheduler::withMemory
 }
 
 
-ellipsoid_world* Foam::groupScheduler::begun
+ellipsoid_world* Foam::groupScheduler::makeWorld
 (
     const ellipsoid_world_cells& cells,
     const scalar start,
@@ -176,7 +176,7 @@ void Foam::groupScheduler::sample
 (
     const UList<cellSweep>& before,
     const labelUList& group,
-    journey& seen
+    groupPath& seen
 )
 {
     // Until its end the cells have the fate that they had at the start, or
@@ -220,7 +220,7 @@ bool Foam::groupScheduler::advanceGroups
 (
     ellipsoid_world* world,
     const scalar time,
-    List<journey>& seen
+    List<groupPath>& seen
 )
 {
     const int* todo;
@@ -243,7 +243,7 @@ bool Foam::groupScheduler::advanceGroups
 
     for (const label k : groupSharing::inMeshOrder(cells_, members))
     {
-        journey& of = seen[todo[k]];
+        groupPath& of = seen[todo[k]];
 
         if (ranks[k] == Pstream::myProcNo())
         {
@@ -310,8 +310,8 @@ Foam::List<Foam::cellSweep> Foam::groupScheduler::advanceInterval
     }
 
     const ellipsoid_world_cells moved(worldCells());
-    ellipsoid_world* world = begun(moved, start, end);
-    List<journey> seen(ellipsoid_world_group_count(world));
+    ellipsoid_world* world = makeWorld(moved, start, end);
+    List<groupPath> seen(ellipsoid_world_group_count(world));
 
     while (advanceGroups(world, end - start, seen))
     {
@@ -333,7 +333,7 @@ Foam::List<Foam::cellSweep> Foam::groupScheduler::advanceInterval
         }
     }
 
-    for (const journey& of : seen)
+    for (const groupPath& of : seen)
     {
         if (tracks_)
         {

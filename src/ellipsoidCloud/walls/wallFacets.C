@@ -76,7 +76,7 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::List<Foam::scalar> Foam::wallFacets::made
+Foam::List<Foam::scalar> Foam::wallFacets::createWalls
 (
     const undecomposedFlow& undecomposed,
     const scalar length,
@@ -186,7 +186,7 @@ Foam::wallFacets::wallFacets
 
     if (Pstream::master())
     {
-        memory = made(undecomposed, length, images, mirrors);
+        memory = createWalls(undecomposed, length, images, mirrors);
         span_ = boundBox(undecomposed.mesh().points(), false);
 
         int count;
