@@ -128,10 +128,7 @@ Foam::flowFields::solveType Foam::flowFields::solveOf(const fvMesh& mesh)
     const dictionary& dict = controlsOf(mesh);
     const masterGate once;
 
-    checkKeywords
-    (
-        dict, {"solve", "continuityTolerance", "fluxTolerance"}
-    );
+    checkKeywords(dict, {"solve", "continuityTolerance", "fluxTolerance"});
 
     return solveTypeNames_.getOrDefault("solve", dict, solveType::AUTO);
 }

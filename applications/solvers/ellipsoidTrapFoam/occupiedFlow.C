@@ -80,10 +80,7 @@ void Foam::occupiedFlow::renew(const bool again)
     {
         const undecomposedFlow::serialScope serial;
         wrenches = solve(bodies);
-        cells_.takeFlow
-        (
-            {flow_->U(), flow_->p(), flow_->phi()}, !again
-        );
+        cells_.takeFlow({flow_->U(), flow_->p(), flow_->phi()}, !again);
     }
     broadcast(wrenches);
 

@@ -47,10 +47,7 @@ namespace Foam
             }
             else if (v.x() + v.y() + v.z() > 1)
             {
-                v = vector
-                (
-                    1 - v.y() - v.z(), v.y(), v.x() + v.y() + v.z() - 1
-                );
+                v = vector(1 - v.y() - v.z(), v.y(), v.x() + v.y() + v.z() - 1);
             }
             points[i] = v;
         }
@@ -146,11 +143,7 @@ Foam::solidBodies::part Foam::solidBodies::partOf(const heldBody& body) const
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::solidBodies::solidBodies
-(
-    const fvMesh& mesh,
-    const dimensionedScalar& nu
-)
+Foam::solidBodies::solidBodies(const fvMesh& mesh, const dimensionedScalar& nu)
 :
     mesh_(mesh),
     viscousRate_

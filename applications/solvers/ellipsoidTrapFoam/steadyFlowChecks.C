@@ -178,10 +178,7 @@ void Foam::steadyFlow::checkModels() const
     (
         readIfPresent(mesh_, "turbulenceProperties", constant)
     );
-    const word type
-    (
-        turbulence.getOrDefault<word>("simulationType", "laminar")
-    );
+    const word type(turbulence.getOrDefault<word>("simulationType", "laminar"));
     const dictionary motion(readIfPresent(mesh_, "dynamicMeshDict", constant));
     const word moving
     (

@@ -119,10 +119,7 @@ void Foam::captureMap::writeStarts(std::ostream& os) const
         const label touched = one.end.touched;
 
         os  << id << ',' << one.level << commas{one.x.v_, 3};
-        const word name
-        (
-            touched < 0 ? word("-") : cells_.patchNames()[touched]
-        );
+        const word name(touched < 0 ? word("-") : cells_.patchNames()[touched]);
         os  << ',' << one.at.pose << ','
             << csvField(kindName(kindOf(id))) << ','
             << csvField(name) << '\n';

@@ -133,10 +133,7 @@ void makeMap
 
     if (Pstream::master())
     {
-        map.write
-        (
-            runTime.globalPath()/"postProcessing"/"captureMap"/instance
-        );
+        map.write(runTime.globalPath()/"postProcessing"/"captureMap"/instance);
     }
 }
 

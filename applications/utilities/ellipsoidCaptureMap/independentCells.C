@@ -48,10 +48,7 @@ Foam::independentCells::followSome
     {
         const scalar end = n + 1 < nIntervals ? (n + 1)*deltaT : endTime;
         events.clear();
-        List<cellSweep> moves
-        (
-            scheduler.advanceInterval(cells, n*deltaT, end)
-        );
+        List<cellSweep> moves(scheduler.advanceInterval(cells, n*deltaT, end));
         criterion_.judge(cells, moves, end, events);
 
         label nStay = 0;

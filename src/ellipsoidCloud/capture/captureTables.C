@@ -185,11 +185,7 @@ void Foam::captureStatistics::reportContact(Ostream& os) const
 }
 
 
-void Foam::captureStatistics::finish
-(
-    const UList<cellState>& cells,
-    Ostream& os
-)
+void Foam::captureStatistics::finish(const UList<cellState>& cells, Ostream& os)
 {
     for (const cellState& cell : cells)
     {

@@ -178,11 +178,7 @@ namespace Foam
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
-void Foam::listedCells::read
-(
-    dictionary& injections,
-    const fileName& caseFolder
-)
+void Foam::listedCells::read(dictionary& injections, const fileName& caseFolder)
 {
     for (const word& name : injections.toc())
     {

@@ -61,11 +61,7 @@ Foam::fluxErrors::fluxErrors(const solverFields& flow)
 }
 
 
-void Foam::checkFluxDifference
-(
-    const scalar difference,
-    const fvMesh& mesh
-)
+void Foam::checkFluxDifference(const scalar difference, const fvMesh& mesh)
 {
     const masterGate once;
     const scalar tolerance = checkedNumber

@@ -20,12 +20,7 @@ namespace Foam
 namespace functionObjects
 {
     defineTypeNameAndDebug(ellipsoidTracking, 0);
-    addToRunTimeSelectionTable
-    (
-        functionObject,
-        ellipsoidTracking,
-        dictionary
-    );
+    addToRunTimeSelectionTable(functionObject, ellipsoidTracking, dictionary);
 }
 }
 

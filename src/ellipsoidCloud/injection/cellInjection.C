@@ -234,10 +234,7 @@ Foam::cellInjection::cellInjection(const setting& from)
 {}
 
 
-Foam::autoPtr<Foam::cellInjection> Foam::cellInjection::New
-(
-    const setting& from
-)
+Foam::autoPtr<Foam::cellInjection> Foam::cellInjection::New(const setting& from)
 {
     checkEntries(from.dict);
 

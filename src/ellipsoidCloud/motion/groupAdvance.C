@@ -351,10 +351,7 @@ bool Foam::groupAdvance::integrate
                 m.noteContacts();
                 if (observer_ && !m.here.fixed)
                 {
-                    observer_->ended
-                    (
-                        m.cell, m.from, m.since, m.model, domain_
-                    );
+                    observer_->ended(m.cell, m.from, m.since, m.model, domain_);
                 }
             }
             else

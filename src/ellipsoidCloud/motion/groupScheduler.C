@@ -121,11 +121,7 @@ ellipsoid_world_cells Foam::groupScheduler::worldCells()
 
 
 template<class Act>
-void Foam::groupScheduler::withMemory
-(
-    ellipsoid_world* world,
-    const Act& act
-)
+void Foam::groupScheduler::withMemory(ellipsoid_world* world, const Act& act)
 {
     while (act() == ELLIPSOID_TOO_MANY_CELLS)
     {

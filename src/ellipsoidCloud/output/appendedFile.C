@@ -24,10 +24,7 @@ std::string Foam::tableSet::timeText
 
     // A double has no more than fifteen
     char text[32];
-    std::snprintf
-    (
-        text, sizeof(text), "%.*g", max(digits, min(needed, 15)), t
-    );
+    std::snprintf(text, sizeof(text), "%.*g", max(digits, min(needed, 15)), t);
     return text;
 }
 
