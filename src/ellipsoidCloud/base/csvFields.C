@@ -8,8 +8,7 @@
 std::string Foam::csvField(const std::string& word)
 {
     // A minus alone stands for no word
-    const bool formula =
-        word.find_first_of("=+-@") == 0 && word != "-";
+    const bool formula = word.find_first_of("=+-@") == 0 && word != "-";
 
     if (!formula && word.find_first_of(",\"") == std::string::npos)
     {

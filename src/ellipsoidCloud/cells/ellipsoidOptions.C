@@ -269,6 +269,5 @@ Foam::string Foam::ellipsoidProperties::complaint
         return string();
     }
 
-    return
-        nameOf(optionOf(member)) + " is out of range\n    allowed: " + range;
+    return nameOf(optionOf(member)) + " is out of range\n    allowed: " + range;
 }

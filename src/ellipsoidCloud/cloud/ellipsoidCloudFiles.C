@@ -88,8 +88,7 @@ void Foam::ellipsoidCloud::beginTables()
 
     // Tables that reach beyond the start are cut there
     const bool goesOn = earlier_.found();
-    const bool cut =
-        mesh_.time().times().last().value() > mesh_.time().value();
+    const bool cut = mesh_.time().times().last().value() > mesh_.time().value();
 
     if (Pstream::master() && isDir(folder) && (cut || !goesOn))
     {

@@ -53,8 +53,7 @@ Foam::fluxErrors::fluxErrors(const solverFields& flow)
     (
         fvc::surfaceSum(mag(phi - fvc::flux(flow.U)))().primitiveField()
     );
-    const scalar through =
-        gSum(fvc::surfaceSum(mag(phi))().primitiveField());
+    const scalar through = gSum(fvc::surfaceSum(mag(phi))().primitiveField());
 
     net = gSum(mag(left)*phi.mesh().V())/(0.5*through + VSMALL);
     difference = gSum(apart)/(through + VSMALL);

@@ -150,8 +150,7 @@ void Foam::cellTracks::add
         const cellState there(at(inStep));
         const ellipsoid_state& body = there.body;
 
-        const scalar move =
-            magSqr(pointOf(body.x) - pointOf(cell.lastRow + 1));
+        const scalar move = magSqr(pointOf(body.x) - pointOf(cell.lastRow + 1));
         const scalar alike = std::inner_product
         (
             body.q, body.q + 4, cell.lastRow + 4, scalar(0)
