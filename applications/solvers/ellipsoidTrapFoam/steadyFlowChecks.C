@@ -45,20 +45,21 @@ void Foam::steadyFlow::checkControls() const
 {
     const masterGate once;
 
-    // What other solvers read there is in many a case
-    const wordHashSet known
-    ({
-        "coupled", "consistent", "nNonOrthogonalCorrectors", "maxIterations",
-        "residualControl", "fluxTolerance", "fluxWindow",
-        "pRefCell", "pRefPoint", "pRefValue"
-    });
-    const wordHashSet knownElsewhere
-    ({
-        "momentumPredictor", "transonic", "frozenFlow", "nCorrectors",
-        "nOuterCorrectors", "turbOnFinalIterOnly", "pMin", "pMax",
-        "pMinFactor", "pMaxFactor", "rhoMin", "rhoMax"
-    });
+    checkKeywords
+    (
+        controls_,
+        {
+            "coupled", "consistent", "nNonOrthogonalCorrectors",
+            "maxIterations", "residualControl", "fluxTolerance", "fluxWindow",
+            "pRefCell", "pRefPoint", "pRefValue",
 
+            // Of other solvers, as in many a case
+            "momentumPredictor", "transonic", "frozenFlow", "nCorrectors",
+            "nOuterCorrectors", "turbOnFinalIterOnly", "pMin", "pMax",
+            "pMinFactor", "pMaxFactor", "rhoMin", "rhoMax"
+        },
+        {"residualControl"}
+    );
     for (const char* field : {"U", "p"})
     {
         checkValues
@@ -66,31 +67,6 @@ void Foam::steadyFlow::checkControls() const
             mesh_.solverDict(field),
             {"solver", "tolerance", "relTol", "maxIter"}
         );
-    }
-    for (const entry& e : controls_)
-    {
-        if (e.isDict() && e.keyword() != "residualControl")
-        {
-            streamOf(controls_, e.keyword());
-        }
-    }
-
-    wordHashSet unknown(controls_.toc());
-    unknown -= known;
-    unknown -= knownElsewhere;
-    for (const word& name : unknown.toc())
-    {
-        if (isVariable(controls_, name))
-        {
-            unknown.erase(name);
-        }
-    }
-
-    if (unknown.size())
-    {
-        FatalIOErrorInFunction(controls_)
-            << "Unknown entries " << unknown.sortedToc() << nl
-            << "Known are " << known.sortedToc() << exit(FatalIOError);
     }
 
     if
