@@ -183,7 +183,7 @@ bool Foam::captureCriterion::stays
 
     if (displacement_ > 0)
     {
-        if (was.fate == cellState::waiting)
+        if (was.waits())
         {
             cell.place = was.unfolded();
         }
@@ -264,9 +264,9 @@ void Foam::captureCriterion::judge
     forAll(moves, i)
     {
         cellState& cell = moves[i].state;
-        const bool waits = cell.fate == cellState::waiting;
+        const bool waits = cell.waits();
 
-        if (before[i].fate == cellState::waiting && !waits)
+        if (before[i].waits() && !waits)
         {
             events.append(cellEvent{"injected", before[i]});
             events.last().cell.fate = cellState::inFlight;

@@ -189,7 +189,7 @@ void Foam::captureStatistics::finish(const UList<cellState>& cells, Ostream& os)
 {
     for (const cellState& cell : cells)
     {
-        if (cell.fate != cellState::waiting)
+        if (!cell.waits())
         {
             cells_.at(cell.id).update(cell);
         }

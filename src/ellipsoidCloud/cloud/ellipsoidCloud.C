@@ -459,7 +459,7 @@ void Foam::ellipsoidCloud::finish()
         DynamicList<cellTracks::row> rows;
         for (cellState& cell : cells_)
         {
-            if (cell.fate != cellState::waiting)
+            if (!cell.waits())
             {
                 tracks_->finish(cell, rows);
             }

@@ -30,7 +30,7 @@ Foam::List<Foam::ellipsoidCloud::particle> Foam::ellipsoidCloud::particles() con
           ? -1
           : localCells_[domain_->flow.cell(meshFlow::probe{cell.tet, -1})];
 
-        if (celli >= 0 && cell.fate != cellState::waiting)
+        if (celli >= 0 && !cell.waits())
         {
             found.append({cell, celli});
         }

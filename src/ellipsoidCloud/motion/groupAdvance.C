@@ -237,7 +237,7 @@ void Foam::groupAdvance::enter
         cellSweep& cell = cells[group[i]];
         const label id = cell.state.id;
 
-        if (cell.state.fate == cellState::waiting)
+        if (cell.state.waits())
         {
             cell.state.fate = cellState::inFlight;
         }

@@ -10,11 +10,6 @@
 
 namespace Foam
 {
-    static inline bool waits(const cellSweep& cell)
-    {
-        return cell.state.fate == cellState::waiting;
-    }
-
     static labelList indicesOf(const ellipsoid_world* world, const int group)
     {
         List<int> index(ellipsoid_world_group(world, group, nullptr));
@@ -42,7 +37,7 @@ void Foam::groupScheduler::look
     view->model = &s.population_.model(c.state.id);
     view->state = &c.state.body;
     view->phase =
-        waits(c) ? ELLIPSOID_WAITING
+        c.state.waits() ? ELLIPSOID_WAITING
       : c.gone() ? ELLIPSOID_GONE : ELLIPSOID_PRESENT;
     view->time = c.state.time;
     view->fixed = s.groups_.isFixed(c.state.id);
@@ -185,7 +180,7 @@ void Foam::groupScheduler::sample
         cellState& cell = cells_[group[k]].state;
         cell = before[group[k]].state;
 
-        if (cell.fate == cellState::waiting && !waits(after[k]))
+        if (cell.waits() && !after[k].state.waits())
         {
             cell.fate = cellState::inFlight;
             tracks_->start(cell, seen.rows);
@@ -297,7 +292,7 @@ Foam::List<Foam::cellSweep> Foam::groupScheduler::advanceInterval
     forAll(cells, i)
     {
         // A cell that had no room tries again
-        if (cells[i].fate == cellState::waiting)
+        if (cells[i].waits())
         {
             cells[i].time = max(cells[i].time, start);
         }

@@ -41,7 +41,7 @@ bool Foam::occupancy::isNear(const cellState& a, const cellState& b) const
 
     return
         set_.population.properties().pushing()
-     && b.fate != cellState::waiting
+     && !b.waits()
      && ellipsoid_cell_gap
         (
             &set_.population.model(a.id), a.body.x, a.body.q,

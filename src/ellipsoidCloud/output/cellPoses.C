@@ -135,7 +135,7 @@ void Foam::writePoses
     DynamicList<cellState> entered;
     for (const cellState& cell : cells)
     {
-        if (cell.fate != cellState::waiting)
+        if (!cell.waits())
         {
             entered.append(cell);
         }
