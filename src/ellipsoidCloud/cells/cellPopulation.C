@@ -109,7 +109,7 @@ Foam::cellPopulation::cellPopulation(const ellipsoidProperties& properties)
 
     for (const cellSize& size : extremes())
     {
-        const string why(complaint(size));
+        const string why(ellipsoidProperties::complaint(optionsOf(size)));
 
         if (!why.empty())
         {
@@ -133,8 +133,10 @@ ellipsoid_model Foam::cellPopulation::modelOf(const ellipsoid_options& options)
     if (ellipsoid_model_init(&model, &options) != ELLIPSOID_OK)
     {
         FatalErrorInFunction
-            << "the options of a cell of length " << 2*options.semi_axes[1]
-            << " m are not those that were checked" << abort(FatalError);
+            << "a cell of length " << shortText(2*options.semi_axes[1]).c_str()
+            << " m and width " << shortText(2*options.semi_axes[0]).c_str()
+            << " m: " << ellipsoidProperties::complaint(options).c_str()
+            << exit(FatalError);
     }
 
     return model;

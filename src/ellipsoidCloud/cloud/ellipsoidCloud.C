@@ -289,14 +289,6 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
         cells_ = readStates(earlier_.takeCells());
         for (const cellState& cell : cells_)
         {
-            const string why(population_.complaint(cell.size));
-            if (!why.empty())
-            {
-                FatalErrorInFunction
-                    << "time " << mesh.time().timeName() << ": cell "
-                    << cell.id << " has a size for which " << why.c_str()
-                    << exit(FatalError);
-            }
             population_.add(cell.id, cell.size);
         }
     }
