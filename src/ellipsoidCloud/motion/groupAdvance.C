@@ -188,7 +188,10 @@ const ellipsoid_model& Foam::groupAdvance::noiseless(const label id)
     {
         ellipsoid_options options(population_.model(id).options);
         options.brownian = false;
-        noiseless_.set(id, new ellipsoid_model(cellPopulation::modelOf(options)));
+        noiseless_.set
+        (
+            id, new ellipsoid_model(cellPopulation::modelOf(options))
+        );
     }
 
     return *noiseless_[id];
