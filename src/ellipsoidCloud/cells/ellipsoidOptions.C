@@ -248,8 +248,15 @@ void Foam::ellipsoidProperties::checkOptions() const
         refuseEntry(dict, option.entry, nameOf(option), range);
     }
 
+    const char* at = reinterpret_cast<const char*>(&options_) + option.offset;
+    const char* value =
+        option.words
+      ? option.words[*reinterpret_cast<const int*>(at)]
+      : option.default_text;
+
     FatalIOErrorInFunction(*this)
-        << nameOf(option).c_str() << ", the default, is out of range" << nl
+        << nameOf(option).c_str() << ' ' << value
+        << ", the default, is out of range" << nl
         << "    allowed: " << range << exit(FatalIOError);
 }
 
