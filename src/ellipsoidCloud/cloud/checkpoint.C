@@ -197,7 +197,8 @@ Foam::string Foam::checkpoint::meshText(const polyMesh& mesh)
 
     // The log and the cells name patches, or count them
     OStringStream text;
-    text << mesh.nCells() << " mesh cells, points and faces " << digest.str();
+    text << mesh.nCells() << " mesh cells, points and faces "
+        << digest.str().c_str();
     for (const polyPatch& pp : mesh.boundaryMesh())
     {
         text<< ", " << pp.name() << ' ' << pp.type() << ' ' << pp.start() << ' '
@@ -210,7 +211,13 @@ Foam::string Foam::checkpoint::meshText(const polyMesh& mesh)
 
 void Foam::checkpoint::checkSame(const word& name, const string& now) const
 {
-    const string then(notes_.getOrDefault(name, now));
+    // A dictionary is of an earlier version
+    const string then
+    (
+        notes_.isDict(name)
+      ? string("of another version of this program")
+      : notes_.getOrDefault(name, now)
+    );
 
     if (then != now)
     {
