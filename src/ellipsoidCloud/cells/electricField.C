@@ -5,6 +5,7 @@
 #include "checkedEntries.H"
 #include "fvcGrad.H"
 #include "masterGate.H"
+#include "StringStream.H"
 #include "undecomposedFlow.H"
 #include "volFields.H"
 
@@ -36,24 +37,44 @@ namespace Foam
         );
         IOobject io(name, instance, mesh, IOobject::MUST_READ);
 
-        const bool there = returnReduce
-        (
-            io.typeHeaderOk<FieldType>(true, true, false), andOp<bool>()
-        );
+        const bool there =
+            returnReduce(io.typeHeaderOk<FieldType>(false), andOp<bool>());
+        const bool fits =
+            there && io.headerClassName() == FieldType::typeName;
+
         autoPtr<FieldType> field;
-        if (there)
+        if (fits)
         {
             field.reset(new FieldType(io, mesh));
         }
+
+        OStringStream fault;
+        if (!there)
+        {
+            fault
+                << "there is no such field in " << mesh.time().timeName()
+                << " or before";
+        }
+        else if (!fits)
+        {
+            fault
+                << (io.instance()/name).c_str() << " is a "
+                << io.headerClassName() << ", not a " << FieldType::typeName;
+        }
+        else if (field->dimensions() != dimensions)
+        {
+            fault
+                << (io.instance()/name).c_str() << " has the dimensions "
+                << field->dimensions() << ", not " << dimensions;
+        }
+
         const masterGate once;
 
-        if (!there || field->dimensions() != dimensions)
+        if (fault.str().size())
         {
             FatalIOErrorInFunction(streamOf(dict, entry))
-                << keyword << '/' << entry << ' ' << name << " is no "
-                << FieldType::typeName << " of the dimensions " << dimensions
-                << " in " << mesh.time().timeName() << " or before"
-                << exit(FatalIOError);
+                << keyword << '/' << entry << ' ' << name << ": "
+                << fault.str().c_str() << exit(FatalIOError);
         }
 
         return field;
