@@ -304,8 +304,9 @@ static void test_even_intervals(void **unused)
     }
 }
 
-/* Pressed by ten kT per gap to the wall that is next to it, and not away from it
-   or along, a body is held there, and has the regular interval. */
+/* Pressed by more than kT per two fifths of the gap to the wall that is next to
+   it, and not away from it or along, a body is held there, and has the regular
+   interval. */
 static void test_load(void **unused)
 {
     static const double regular = 0.05;
@@ -313,8 +314,8 @@ static void test_load(void **unused)
     {
         double direction[3], energies;
         int held;
-    } loads[] = {{{0, 0, -1}, 10.1, 1},
-                 {{0, 0, -1}, 9.9, 0},
+    } loads[] = {{{0, 0, -1}, 2.51, 1},
+                 {{0, 0, -1}, 2.49, 0},
                  {{0, 0, 1}, 1000, 0},
                  {{1, 0, 0}, 1000, 0}};
     const ellipsoid_options o = near_wall(ELLIPSOID_MOTION_INERTIAL, regular);

@@ -69,14 +69,11 @@ static int factorise(double matrix[6][6])
     return 1;
 }
 
-/* A body is off a wall that it touches by a gap with the probability
-   exp(-load gap/kT): from so many kT on it is taken for held there. */
-static const double holding = 10;
-
 /* Of an interval in which the nearest point moves by `part` of the gap along the
    normal, rms: (part gap)^2/(2 kT o.M o), o.M o the square of 1/L o; the gap is
-   that at which the table is read, which is wider past a wall's rim. load [N],
-   body frame: what holds it. */
+   that at which the table is read, which is wider past a wall's rim. Without
+   limit where a load [N], body frame, holds it to the wall: it is off that by
+   kT/load in the mean, which such an interval would not resolve. */
 static double longest_interval(const ellipsoid_model *model,
                                const ellipsoid_noise *noise,
                                const ellipsoid_plane *plane,
@@ -84,14 +81,14 @@ static double longest_interval(const ellipsoid_model *model,
 {
     static const double part = 0.4;
     const double energy = ELLIPSOID_BOLTZMANN * model->options.temperature;
-    const double gap = plane->gap[ELLIPSOID_PLANE_FAR], moved = part * gap;
+    const double moved = part * plane->gap[ELLIPSOID_PLANE_FAR];
     const double *a = model->options.semi_axes, *n = plane->effect.normal;
     const double stretched[3] = {a[0] * a[0] * n[0], a[1] * a[1] * n[1],
                                  a[2] * a[2] * n[2]};
     const double p = sqrt(ellipsoid_dot(n, stretched));
     double out[6] = {n[0], n[1], n[2]}, square = 0;
 
-    if (-ellipsoid_dot(n, load) * gap > holding * energy)
+    if (-ellipsoid_dot(n, load) * moved > energy)
     {
         return HUGE_VAL;
     }
