@@ -78,7 +78,7 @@ static inline int ellipsoid_has_near_walls(const ellipsoid_model *model,
 
 /* Adds to force and torque, or to velocities. */
 static inline void ellipsoid_add6(double factor, const double other[6],
-                                  double sum[6])
+                                  double sum[restrict 6])
 {
     for (int i = 0; i < 6; i++)
     {

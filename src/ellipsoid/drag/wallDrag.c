@@ -108,20 +108,25 @@ void ellipsoid_wall_matrix(const ellipsoid_model *model,
     }
 }
 
-/* Adds what the planes do at this pose. */
+/* Adds what the planes do at this pose: the sum is a copy, or each term would be
+   stored before the next is read. */
 static void add_planes(const ellipsoid_wall_expansion *e, const double x[3],
                        const double q[4], const double motion[MOTION],
                        double action[6])
 {
+    double sum[6];
+
+    memcpy(sum, action, sizeof(sum));
     for (int m = 0; e->planes > 0 && m < MOTION; m++)
     {
-        ellipsoid_add6(motion[m], e->by[m], action);
+        ellipsoid_add6(motion[m], e->by[m], sum);
     }
     for (int l = 0; e->planes > 0 && l < POSE; l++)
     {
         ellipsoid_add6(l < 3 ? x[l] - e->x[l] : q[l - 3] - e->q[l - 3],
-                       e->by_pose[l], action);
+                       e->by_pose[l], sum);
     }
+    memcpy(action, sum, sizeof(sum));
 }
 
 /* (R^T first, second) */

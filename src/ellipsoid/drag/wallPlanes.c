@@ -20,7 +20,7 @@
 /* How far from a body facets are looked for, in ranges; how far the centre may
    move before they are listed again, the less where there are too many. */
 static const double looked = 1.25;
-static const double margin_parts[] = {0.4, 0.1};
+static const double margin_parts[] = {0.6, 0.1};
 
 /* What makes two planes one: an angle [rad], a part of the range. */
 static const double in_plane = 1e-6;

@@ -29,7 +29,7 @@ static const double seldom = 0.06, often = 0.4; /* uses for each facet listed */
 
 /* How much farther than asked for facets are listed for searches to come, in
    bead radii. */
-static const double about = 3;
+static const double about = 8;
 
 /* Where facets are too many: smaller margins, each by this factor, down to the
    narrowest. */
