@@ -184,12 +184,67 @@ static void test_stiff_wall(void **unused)
     }
 }
 
+/*
+    A cell that friction holds while a load presses it to the wall, and a pull of
+    half of what friction bears acts along it: each interval of the noise is one
+    step in most cases, or a few, where small tolerances take a dozen and more; and
+    the cell is where they lead, to the tolerance.
+*/
+static test_walk held_by_friction(double tolerance, double load, long count)
+{
+    ellipsoid_options o =
+        over_wall(ELLIPSOID_MOTION_INERTIAL, 32, 1e6, scale, 5e-3);
+    test_walk w;
+
+    o.buoyancy = 0;
+    o.density = 1040;
+    o.friction = 0.3;
+    o.slip_speed = 1e-7;
+    o.wall_resistance = ELLIPSOID_WALL_RESISTANCE_PLANE;
+    o.tolerance = tolerance;
+    ellipsoid_set(o.external_force, 0.15 * load, 0.05 * load, -load);
+    w = walk_over_wall(&o, 77, 3, 0.5 * micron);
+    for (long n = 0; n < count; n++)
+    {
+        test_walk_on(&w);
+    }
+    return w;
+}
+
+static void test_rests(void **unused)
+{
+    const double load = 32e-12, tolerance = 1e-3, length = 2 * micron;
+    const long count = test_count(100, 400, 400);
+    const test_walk rough = held_by_friction(tolerance, load, count);
+    const test_walk fine = held_by_friction(1e-6, load, count);
+    const long attempts = rough.statistics.accepted + rough.statistics.rejected;
+    double apart[3], turned = 0;
+
+    (void)unused;
+    ellipsoid_difference(rough.state.x, fine.state.x, apart);
+    for (int n = 0; n < 4; n++)
+    {
+        turned += pow(rough.state.q[n] - fine.state.q[n], 2);
+    }
+    print_message(
+        "# held by friction: %.1f attempted steps an interval in place "
+        "of %.1f, %.2f nm and %.1e apart after %.2f um\n",
+        (double)attempts / (double)count,
+        (double)(fine.statistics.accepted + fine.statistics.rejected)
+            / (double)count,
+        ellipsoid_length(apart) / 1e-9, sqrt(turned), fine.state.x[0] / micron);
+    assert_true(attempts < 5 * count);
+    assert_true(ellipsoid_length(apart) < tolerance * length);
+    assert_true(sqrt(turned) < tolerance);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_soft_wall_refinement),
         cmocka_unit_test(test_steps),
         cmocka_unit_test(test_stiff_wall),
+        cmocka_unit_test(test_rests),
     };
 
     return cmocka_run_group_tests(tests, build_wall, free_wall);

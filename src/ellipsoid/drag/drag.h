@@ -250,11 +250,15 @@ void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
                              double motion[ELLIPSOID_WALL_MOTION],
                              ellipsoid_body_wrench *wrench);
 
-/* Adds it to the blocks, in the state of the expansion, which has its motion; sets
-   by_pose. */
+/* Sets by_pose of an expansion that has its motion, by its planes. */
+void ellipsoid_wall_expansion_slopes(const ellipsoid_near_walls *near,
+                                     ellipsoid_wall_expansion *expansion);
+
+/* Adds it to the blocks, in a state of that motion. */
 void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
                                     const ellipsoid_state *state,
-                                    ellipsoid_wall_expansion *expansion,
+                                    const ellipsoid_wall_expansion *about,
+                                    const double motion[ELLIPSOID_WALL_MOTION],
                                     ellipsoid_jacobian_blocks *blocks);
 
 /* The velocities [m/s, rad/s, body frame] that an expansion is wrong by in the

@@ -276,9 +276,19 @@ static void add_column(const ellipsoid_near_walls *near,
     }
 }
 
+void ellipsoid_wall_expansion_slopes(const ellipsoid_near_walls *near,
+                                     ellipsoid_wall_expansion *e)
+{
+    for (int p = 0; p < near->planes->count; p++)
+    {
+        add_slopes(near, &near->planes->at[p], e);
+    }
+}
+
 void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
                                     const ellipsoid_state *state,
-                                    ellipsoid_wall_expansion *e,
+                                    const ellipsoid_wall_expansion *e,
+                                    const double motion[MOTION],
                                     ellipsoid_jacobian_blocks *b)
 {
     static const double none[6];
@@ -286,13 +296,9 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
     const int averaged = near->model->flow_points > 0;
     double(*axis)[3] = near->frame->axis, outrun[3], action[6] = {0};
 
-    for (int p = 0; p < near->planes->count; p++)
-    {
-        add_slopes(near, &near->planes->at[p], e);
-    }
     ellipsoid_difference(free->u, state->u, outrun);
-    add_planes(e, state->x, state->q, e->motion, action);
-    add_free(near->model, e->motion, action);
+    add_planes(e, state->x, state->q, motion, action);
+    add_free(near->model, motion, action);
     for (int l = 0; l < 3; l++)
     {
         const double u[3] = {free->u_x[0][l], free->u_x[1][l], free->u_x[2][l]};

@@ -182,9 +182,13 @@ static ellipsoid_status try_step(ellipsoid_group *g,
     return try_rosenbrock(g, planned, error);
 }
 
-/* Tells the accepted step. */
+/* The continuous extension of a step of a cell. */
+typedef void dense_output(const ellipsoid_group *group, int cell,
+                          double dense[3][UNKNOWNS]);
+
+/* Tells the accepted step; NULL: it is linear in time. */
 static void describe_step(const ellipsoid_group *g,
-                          const ellipsoid_plan *planned, int explicitly)
+                          const ellipsoid_plan *planned, dense_output *dense)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
@@ -195,8 +199,14 @@ static void describe_step(const ellipsoid_group *g,
         step->before = g->start[cell].state;
         step->after = g->next[cell].state;
         step->contact = g->next[cell].contact;
-        (explicitly ? ellipsoid_explicit_dense
-                    : ellipsoid_rosenbrock_dense)(g, cell, step->dense);
+        if (dense)
+        {
+            dense(g, cell, step->dense);
+        }
+        else
+        {
+            memset(step->dense, 0, sizeof(step->dense));
+        }
     }
 }
 
@@ -246,7 +256,9 @@ static void accept_step(ellipsoid_group *g, const ellipsoid_plan *planned,
     }
     if (g->observed)
     {
-        describe_step(g, planned, explicitly);
+        describe_step(g, planned,
+                      explicitly ? ellipsoid_explicit_dense
+                                 : ellipsoid_rosenbrock_dense);
     }
 }
 
@@ -302,6 +314,22 @@ static ellipsoid_status take_step(ellipsoid_group *g, double *t, double end,
         }
     }
     return ELLIPSOID_TOO_MANY_STEPS;
+}
+
+/* Takes the group at rest to where the interval ends. */
+static ellipsoid_status take_rest(ellipsoid_group *g,
+                                  const ellipsoid_plan *interval, double *t,
+                                  long *attempts)
+{
+    g->next_has_blocks = 0;
+    ++*attempts;
+    count_attempt(g, 1);
+    if (g->observed)
+    {
+        describe_step(g, interval, NULL);
+    }
+    *t = interval->end;
+    return ELLIPSOID_OK;
 }
 
 /* An orientation of length one is taken as it is, so that a run can be
@@ -415,11 +443,14 @@ ellipsoid_status ellipsoid_group_advance(ellipsoid_group *g,
                                          long *attempts)
 {
     ellipsoid_controller controller = common(g, members);
-    ellipsoid_status status = begin(g, *t, end);
+    const ellipsoid_plan whole = {end - *t, *t, end, 1, 1, controller.step};
+    const int rests = ellipsoid_rest(g, &whole);
+    ellipsoid_status status = rests ? ELLIPSOID_OK : begin(g, *t, end);
 
     while (status == ELLIPSOID_OK && *t < end)
     {
-        status = take_step(g, t, end, attempts, &controller);
+        status = rests ? take_rest(g, &whole, t, attempts)
+                       : take_step(g, t, end, attempts, &controller);
         if (status == ELLIPSOID_OK)
         {
             ellipsoid_evaluation *finished = g->start;

@@ -62,15 +62,19 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
     }
     if (status == ELLIPSOID_OK)
     {
-        double motion[ELLIPSOID_WALL_MOTION];
+        double stage[ELLIPSOID_WALL_MOTION];
+        double *motion = cell->about ? stage : at->walls.motion;
 
-        ellipsoid_add_wall_drag(&near, about, &at->state,
-                                cell->about ? motion : at->walls.motion,
-                                &wrench);
-    }
-    if (status == ELLIPSOID_OK && blocks)
-    {
-        ellipsoid_add_wall_drag_blocks(&near, &at->state, &at->walls, blocks);
+        ellipsoid_add_wall_drag(&near, about, &at->state, motion, &wrench);
+        if (blocks && !cell->about)
+        {
+            ellipsoid_wall_expansion_slopes(&near, &at->walls);
+        }
+        if (blocks)
+        {
+            ellipsoid_add_wall_drag_blocks(&near, &at->state, about, motion,
+                                           blocks);
+        }
     }
     ellipsoid_copy(wrench.force, e->force);
     ellipsoid_copy(wrench.torque, e->torque);

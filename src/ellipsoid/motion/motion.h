@@ -132,8 +132,7 @@ typedef struct ellipsoid_stages
     double y[UNKNOWNS];               /* result */
     double error[UNKNOWNS];
     int order; /* of the error estimate in the step */
-    /* Where contact was evaluated: poses, in the order of their time, and the
-       gap [m] that a bead may cross there with nothing in its way */
+    /* Where contact was evaluated, by time: poses, gap [m] that a bead may cross */
     int sampled;
     const int *in_time;
     double x[ELLIPSOID_MAX_STAGES][3], q[ELLIPSOID_MAX_STAGES][4];
@@ -310,6 +309,9 @@ ellipsoid_status ellipsoid_friction_balance(ellipsoid_group *group,
                                             ellipsoid_evaluation *points,
                                             int with_blocks);
 
+/* Expands the drag near walls about the start, or no longer (rosenbrock.c). */
+void ellipsoid_expand_about_start(ellipsoid_group *group, int expanded);
+
 /* As below, for contacts that do not depend on velocities, or not balanced. */
 static inline ellipsoid_status
 ellipsoid_group_evaluate_once(ellipsoid_group *g, ellipsoid_evaluation *points,
@@ -323,9 +325,8 @@ ellipsoid_group_evaluate_once(ellipsoid_group *g, ellipsoid_evaluation *points,
     return ellipsoid_cell_evaluate(g->cell, points, balanced, with_blocks);
 }
 
-/* Evaluates the equations at the time t in the states of all points. balanced
-   says whether u and omega are set first. with_blocks: and the Jacobian, with
-   couplings. */
+/* Evaluates the equations at the time t in the states of all points; balanced: u
+   and omega are set first; with_blocks: and the Jacobian, with couplings. */
 static inline ellipsoid_status
 ellipsoid_group_evaluate(ellipsoid_group *g, double t,
                          ellipsoid_evaluation *points, int balanced,
@@ -361,16 +362,13 @@ ellipsoid_status
 ellipsoid_near_pairs_collect(ellipsoid_group *group,
                              const ellipsoid_evaluation *points);
 
-/* Adds the forces between the cells to points that have been evaluated
-   without (groupContacts.c). */
+/* Adds the forces between cells to points evaluated without (groupContacts.c). */
 ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *group,
                                               ellipsoid_evaluation *points,
                                               int balanced, int with_blocks);
 
-/*
-    The linear system of several cells: that of each, coupled by contacts. It is
-    solved for stages k_i in place. 0 if it is singular (groupMatrix.c).
-*/
+/* The linear system of several cells: that of each, coupled by contacts. It is
+   solved for stages k_i in place. 0 if it is singular (groupMatrix.c). */
 int ellipsoid_group_matrix_prepare(ellipsoid_group *group, double per_g);
 void ellipsoid_group_matrix_solve(const ellipsoid_group *group, int stage);
 
@@ -448,9 +446,11 @@ void ellipsoid_explicit_dense(const ellipsoid_group *group, int cell,
                               double dense[3][UNKNOWNS]);
 
 /* At the start of a noise interval that lasts many relaxation times: takes the
-   start to where they have passed, in no time (noiseLayer.c). */
+   start to where they have passed, in no time; or, if friction holds all cells,
+   `next` to the end of the interval, else returns 0 (noiseLayer.c). */
 ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *group, double t,
                                        double until);
+int ellipsoid_rest(ellipsoid_group *group, const ellipsoid_plan *interval);
 
 /* -------------------------------------------------------- step control */
 

@@ -6,11 +6,13 @@
 
     There the random force and torque jump, and u and omega relax to new values.
     Where the interval is many relaxation times long the layer is not resolved:
-    the state is taken across it by matched asymptotics.
+    the state is taken across it by matched asymptotics. A cell that friction
+    holds is taken across the whole interval.
 */
 #include "motion/motion.h"
 
 #include <float.h>
+#include <math.h>
 
 /* [relaxation times] from which on an interval is long */
 static const double long_interval = 30;
@@ -101,4 +103,180 @@ ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *g, double t,
         }
     }
     return status;
+}
+
+/* ---------------------------------------------------- cells that lie on walls */
+
+/*
+    When the random force jumps, contacts give way, within microseconds at first
+    and creeping at last, with velocities far above the slip speed in between. To
+    follow that takes some twenty steps, though hardly anything moves. So, where
+    friction acts, an interval is first tried as one step of the implicit Euler
+    method, solved by Newton's method.
+*/
+
+/* [tolerances] displacement in an interval up to which that serves: its error was
+   a thirtieth of the displacement in the median, an eighth in 95 of 100. */
+static const double most_displaced = 3;
+
+/* Newton's method has converged where a change moves a cell by this part of the
+   tolerance, or its surface by this part of the slip speed. */
+static const double converged = 0.1;
+
+enum
+{
+    MOST_ITERATIONS = 10,
+    CHANGE = 0 /* of the stages */
+};
+
+/* The larger of how far the cell is displaced and turned by a change, in units of
+   the tolerance. */
+static double displacement(const ellipsoid_cell *p, const double change[])
+{
+    return fmax(ellipsoid_length(change + AT_X) / p->length,
+                sqrt(ellipsoid_square4(change + AT_Q)))
+         / p->model->options.tolerance;
+}
+
+/* The largest of the cells in the interval. */
+static double largest_displacement(const ellipsoid_group *g)
+{
+    double largest = 0;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        double change[UNKNOWNS];
+
+        for (int n = 0; n < UNKNOWNS; n++)
+        {
+            change[n] = g->next[cell].y[n] - g->start[cell].y[n];
+        }
+        largest = fmax(largest, displacement(&g->cell[cell], change));
+    }
+    return largest;
+}
+
+/* The speed of its surface by a change, in slip speeds. */
+static double slip(const ellipsoid_cell *p, const double change[])
+{
+    return (ellipsoid_length(change + AT_U)
+            + p->length * ellipsoid_length(change + AT_OMEGA))
+         / p->model->options.slip_speed;
+}
+
+/* Is the cell, in a noise interval that begins, as slow as that? */
+static int is_slow(const ellipsoid_cell *p, const ellipsoid_evaluation *start,
+                   const ellipsoid_plan *interval)
+{
+    const ellipsoid_options *o = &p->model->options;
+    const ellipsoid_state *state = &start->state;
+
+    return o->friction > 0 && is_thin(p, interval->start, interval->end)
+        && interval->h <= o->maximum_step
+        && interval->h
+                   * fmax(ellipsoid_length(state->u) / p->length,
+                          0.5 * ellipsoid_length(state->omega))
+               <= most_displaced * o->tolerance;
+}
+
+/* Are all cells slow, and those that are not fixed in contact? Sets what the
+   start has. */
+static int may_rest(ellipsoid_group *g, const ellipsoid_plan *interval)
+{
+    int may = g->inertial;
+
+    for (int cell = 0; may && cell < g->count; cell++)
+    {
+        may = g->cell[cell].fixed
+           || (ellipsoid_has_contact(g, cell)
+               && is_slow(&g->cell[cell], &g->start[cell], interval));
+    }
+    may = may
+       && ellipsoid_group_evaluate(g, interval->end, g->start, 0, 1)
+              == ELLIPSOID_OK;
+    for (int cell = 0; may && cell < g->count; cell++)
+    {
+        may = g->cell[cell].fixed
+           || ellipsoid_in_contact(&g->start[cell].contact);
+    }
+    return may;
+}
+
+/* One of Newton's changes to the next states, which have their blocks. */
+static int change_next(ellipsoid_group *g, double h, double *largest)
+{
+    ellipsoid_evaluation *const start = g->start;
+    int regular;
+
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        const ellipsoid_evaluation *at = &g->next[cell];
+        double *k = g->stages[cell].k[CHANGE];
+
+        for (int n = 0; n < UNKNOWNS; n++)
+        {
+            k[n] = at->slope[n] - (at->y[n] - g->start[cell].y[n]) / h;
+        }
+    }
+    g->start = g->next;
+    regular = ellipsoid_group_prepare(g, h);
+    if (regular)
+    {
+        ellipsoid_group_solve(g, CHANGE);
+    }
+    g->start = start;
+    *largest = 0;
+    for (int cell = 0; regular && cell < g->count; cell++)
+    {
+        const ellipsoid_cell *p = &g->cell[cell];
+        const double *k = g->stages[cell].k[CHANGE];
+
+        if (p->fixed)
+        {
+            continue;
+        }
+        for (int n = 0; n < UNKNOWNS; n++)
+        {
+            g->next[cell].y[n] += k[n];
+        }
+        *largest = fmax(*largest, fmax(displacement(p, k), slip(p, k)));
+        regular = isfinite(*largest);
+    }
+    return regular;
+}
+
+/* The implicit step, from where the next states are those of the start. */
+static int solve(ellipsoid_group *g, const ellipsoid_plan *interval)
+{
+    double largest;
+    int goes_on = change_next(g, interval->h, &largest);
+
+    ellipsoid_expand_about_start(g, 1);
+    for (int n = 1; goes_on && largest > converged; n++)
+    {
+        goes_on = n < MOST_ITERATIONS
+               && ellipsoid_group_evaluate(g, interval->end, g->next, 0, 1)
+                      == ELLIPSOID_OK
+               && change_next(g, interval->h, &largest);
+    }
+    ellipsoid_expand_about_start(g, 0);
+    return goes_on;
+}
+
+int ellipsoid_rest(ellipsoid_group *g, const ellipsoid_plan *interval)
+{
+    int rests = may_rest(g, interval);
+
+    if (rests)
+    {
+        memcpy(g->next, g->start, (size_t)g->count * sizeof(*g->start));
+        rests = solve(g, interval) && largest_displacement(g) <= most_displaced;
+    }
+    for (int cell = 0; rests && cell < g->count; cell++)
+    {
+        ellipsoid_normalise(g->next[cell].state.q);
+    }
+    return rests
+        && ellipsoid_group_evaluate(g, interval->end, g->next, 0, 0)
+               == ELLIPSOID_OK;
 }

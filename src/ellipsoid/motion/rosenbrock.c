@@ -118,11 +118,11 @@ static inline void take_first_stage(ellipsoid_group *g, int count, double h,
     ellipsoid_group_solve(g, 0);
 }
 
-/* Is the drag near walls that of the start, expanded? It is what costs most, and
-   the derivatives are exact, so that the method is of its order in the rest. */
-static inline void expand_about(ellipsoid_group *g, int count, int expanded)
+/* It is what costs most, and the derivatives are exact, so that a method is of its
+   order in the rest. */
+void ellipsoid_expand_about_start(ellipsoid_group *g, int expanded)
 {
-    for (int cell = 0; cell < count; cell++)
+    for (int cell = 0; cell < g->count; cell++)
     {
         g->cell[cell].about = expanded ? &g->start[cell].walls : NULL;
     }
@@ -139,10 +139,10 @@ static inline ellipsoid_status evaluate_stage(ellipsoid_group *g, int count,
 
     if (part > 0)
     {
-        expand_about(g, count, 1);
+        ellipsoid_expand_about_start(g, 1);
         status = ellipsoid_group_evaluate(g, ellipsoid_stage_time(plan, part),
                                           g->next, 0, 0);
-        expand_about(g, count, 0);
+        ellipsoid_expand_about_start(g, 0);
     }
     for (int cell = 0; status == ELLIPSOID_OK && cell < count; cell++)
     {
