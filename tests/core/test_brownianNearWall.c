@@ -304,9 +304,8 @@ static void test_even_intervals(void **unused)
     }
 }
 
-/* Pressed by more than kT per two fifths of the gap to the wall that is next to
-   it, and not away from it or along, a body is held there, and has the regular
-   interval. */
+/* Pressed to a wall by more than kT per two fifths of the gap, and not away from it
+   or along, a body is held there, and has the regular interval. */
 static void test_load(void **unused)
 {
     static const double regular = 0.05;
