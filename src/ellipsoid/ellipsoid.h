@@ -402,7 +402,7 @@ typedef struct ellipsoid_step
    order in x and q if the step was explicit and the velocity is not
    `piecewise`. In INERTIALESS motion u and omega have one order less; if the
    step was not explicit and the velocity is `piecewise`, they are linear in
-   time. */
+   time. A noise interval that is one step is linear in all. */
 void ellipsoid_step_state(const ellipsoid_step *step, double t,
                           ellipsoid_state *state);
 

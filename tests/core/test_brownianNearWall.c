@@ -17,10 +17,10 @@ static ellipsoid_options near_wall(ellipsoid_motion motion, double interval)
     return o;
 }
 
-static const double no_load[3] = {0, 0, 0};
+static const ellipsoid_load no_load;
 
 /* The noise of the interval that begins at t. */
-static void begin_noise(test_walk *w, double t, const double load[3],
+static void begin_noise(test_walk *w, double t, const ellipsoid_load *load,
                         ellipsoid_noise *noise)
 {
     assert_ok(ellipsoid_noise_at(&w->model, &w->around, t, noise));
@@ -139,7 +139,7 @@ static void check_interval(ellipsoid_motion motion, long count)
         double rates[6] = {0}, action[6];
 
         w = walk_over_wall(&o, 1, (uint32_t)id, height);
-        begin_noise(&w, 0, no_load, &noise);
+        begin_noise(&w, 0, &no_load, &noise);
         assert_true(noise.near);
         dt = noise.end;
         ellipsoid_wall_noise_set(&w.model, &w.around, dt, &noise);
@@ -189,10 +189,10 @@ static void test_numbers(void **unused)
     memset(&near, 0, sizeof(near));
     memset(&far, 0, sizeof(far));
     assert_ok(ellipsoid_noise_at(&w.model, &w.around, 0.0305, &far));
-    begin_noise(&w, 0.0305, no_load, &near);
+    begin_noise(&w, 0.0305, &no_load, &near);
     assert_memory_equal(&far, &near, sizeof(far));
     w.state.x[2] = 0.6e-6;
-    begin_noise(&w, 0.0305, no_load, &near);
+    begin_noise(&w, 0.0305, &no_load, &near);
     assert_true(near.near && near.start == 0.0305 && near.end <= far.end);
 }
 
@@ -241,7 +241,7 @@ static void test_past_rims(void **unused)
         }
         ellipsoid_set(w.state.x, 3e-6 * test_signed(&seed), 0,
                       sqrt(square) + 1e-6 * pow(10, -3 * test_uniform(&seed)));
-        begin_noise(&w, 0, no_load, &noise);
+        begin_noise(&w, 0, &no_load, &noise);
     }
     for (int k = 0; k < 4; k++)
     {
@@ -273,7 +273,7 @@ static void test_interval_past_a_rim(void **unused)
         w.around.walls_context = &block;
         ellipsoid_quaternion_from_axis(axis, 0, w.state.q);
         ellipsoid_set(w.state.x, -0.5e-6, 0, 0.82e-6);
-        begin_noise(&w, 0, no_load, &noise);
+        begin_noise(&w, 0, &no_load, &noise);
         end[n] = noise.end;
         wall_mesh_free(&block);
     }
@@ -292,7 +292,7 @@ static void test_even_intervals(void **unused)
     double end;
 
     (void)unused;
-    begin_noise(&whole, 0, no_load, &noise);
+    begin_noise(&whole, 0, &no_load, &noise);
     end = 1.5 * noise.end;
     assert_true(noise.near && end < 1);
     assert_ok(test_walk_to(&whole, end));
@@ -304,19 +304,18 @@ static void test_even_intervals(void **unused)
     }
 }
 
-/* Pressed to a wall by more than kT per two fifths of the gap, and not away from it
-   or along, a body is held there, and has the regular interval. */
+/* Pressed to a wall, which pushes back, a body has the regular interval there. */
 static void test_load(void **unused)
 {
     static const double regular = 0.05;
     static const struct
     {
-        double direction[3], energies;
-        int held;
-    } loads[] = {{{0, 0, -1}, 2.51, 1},
-                 {{0, 0, -1}, 2.49, 0},
-                 {{0, 0, 1}, 1000, 0},
-                 {{1, 0, 0}, 1000, 0}};
+        double direction[3], energies, pushed, held;
+    } loads[] = {{{0, 0, -1}, 2.51, 0.51, 1},
+                 {{0, 0, -1}, 2.49, 1, 0},
+                 {{0, 0, -1}, 1000, 0.49, 0},
+                 {{0, 0, 1}, 1000, 1, 0},
+                 {{1, 0, 0}, 1000, 1, 0}};
     const ellipsoid_options o = near_wall(ELLIPSOID_MOTION_INERTIAL, regular);
     const double gap = 50e-9; /* beyond the cut-off */
 
@@ -324,19 +323,20 @@ static void test_load(void **unused)
     for (size_t n = 0; n < sizeof(loads) / sizeof(*loads); n++)
     {
         test_walk w = walk_over_wall(&o, 1, 1, o.semi_axes[2] + gap);
+        const double force = loads[n].energies * test_kt / gap;
         ellipsoid_noise noise;
-        double load[3];
+        ellipsoid_load load;
 
         /* the length lies along y, and turned its load is another in its frame */
         ellipsoid_quaternion_from_axis((const double[3]){0.6, 0.8, 0}, 0.3,
                                        w.state.q);
         for (int i = 0; i < 3; i++)
         {
-            load[i] = loads[n].energies * test_kt / gap * loads[n].direction[i];
+            load.force[i] = force * loads[n].direction[i];
+            load.push[i] = -loads[n].pushed * load.force[i];
         }
-        begin_noise(&w, 0, load, &noise);
-        assert_true(noise.near);
-        assert_int_equal(noise.end == regular, loads[n].held);
+        begin_noise(&w, 0, &load, &noise);
+        assert_true(noise.near && (noise.end == regular) == loads[n].held);
     }
 }
 

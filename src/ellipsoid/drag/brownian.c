@@ -72,12 +72,13 @@ static int factorise(double matrix[6][6])
 /* Of an interval in which the nearest point moves by `part` of the gap along the
    normal, rms: (part gap)^2/(2 kT o.M o), o.M o the square of 1/L o; the gap is
    that at which the table is read, which is wider past a wall's rim. Without
-   limit where a load [N], body frame, holds it to the wall: it is off that by
-   kT/load in the mean, which such an interval would not resolve. */
+   limit where a load holds it to the wall, which pushes half of that back at
+   least: it is off the wall by kT/load in the mean, which such an interval would
+   not resolve. load: in the body frame. */
 static double longest_interval(const ellipsoid_model *model,
                                const ellipsoid_noise *noise,
                                const ellipsoid_plane *plane,
-                               const double load[3])
+                               const ellipsoid_load *load)
 {
     static const double part = 0.4;
     const double energy = ELLIPSOID_BOLTZMANN * model->options.temperature;
@@ -86,9 +87,11 @@ static double longest_interval(const ellipsoid_model *model,
     const double stretched[3] = {a[0] * a[0] * n[0], a[1] * a[1] * n[1],
                                  a[2] * a[2] * n[2]};
     const double p = sqrt(ellipsoid_dot(n, stretched));
+    const double pressed = -ellipsoid_dot(n, load->force);
     double out[6] = {n[0], n[1], n[2]}, square = 0;
 
-    if (-ellipsoid_dot(n, load) * moved > energy)
+    if (pressed * moved > energy
+        && ellipsoid_dot(n, load->push) >= 0.5 * pressed)
     {
         return HUGE_VAL;
     }
@@ -109,17 +112,18 @@ static double longest_interval(const ellipsoid_model *model,
 ellipsoid_status ellipsoid_wall_noise_begin(
     const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
     const ellipsoid_state *state, ellipsoid_facet_cache *cache, double t,
-    const double load[3], ellipsoid_noise *noise)
+    const ellipsoid_load *load, ellipsoid_noise *noise)
 {
     const double *q = state->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
     ellipsoid_frame frame = {.by_q = NULL};
     ellipsoid_planes planes;
     ellipsoid_wall_expansion here;
-    double in_body[3];
+    ellipsoid_load in_body;
     ellipsoid_status status;
 
     ellipsoid_rotation_inline(opposite, frame.axis);
-    ellipsoid_product(frame.axis, load, in_body);
+    ellipsoid_product(frame.axis, load->force, in_body.force);
+    ellipsoid_product(frame.axis, load->push, in_body.push);
     status = ellipsoid_find_planes(model, surroundings, state, &frame, cache,
                                    &planes);
     noise->near = status == ELLIPSOID_OK && planes.count > 0;
@@ -138,7 +142,7 @@ ellipsoid_status ellipsoid_wall_noise_begin(
     {
         noise->end =
             fmin(noise->end,
-                 t + longest_interval(model, noise, &planes.at[p], in_body));
+                 t + longest_interval(model, noise, &planes.at[p], &in_body));
     }
     return noise->end > t ? ELLIPSOID_OK : ELLIPSOID_STEP_UNDERFLOW;
 }

@@ -52,14 +52,19 @@ ellipsoid_status ellipsoid_noise_at(const ellipsoid_model *model,
 /*
     Near walls an interval of its own begins where the noise is asked for: sets
     its start, t, an end no later than that of the noise, and the factor of the
-    resistance, L L^T; *near is 0 where there are no walls. load [N, lab]: what
-    presses the body to walls that it touches, 0 if it touches none. Then the noise
-    until that end or an earlier one.
+    resistance, L L^T; *near is 0 where there are no walls. Then the noise until that
+    end or an earlier one.
 */
+typedef struct ellipsoid_load
+{
+    double force[3]; /* [N] of all but walls on a body at rest without noise */
+    double push[3];  /* [N] of the walls that it touches; 0: none */
+} ellipsoid_load;
+
 ellipsoid_status ellipsoid_wall_noise_begin(
     const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
     const ellipsoid_state *state, ellipsoid_facet_cache *cache, double t,
-    const double load[3], ellipsoid_noise *noise);
+    const ellipsoid_load *load, ellipsoid_noise *noise);
 void ellipsoid_wall_noise_set(const ellipsoid_model *model,
                               const ellipsoid_surroundings *surroundings,
                               double end, ellipsoid_noise *noise);

@@ -316,11 +316,15 @@ static ellipsoid_status take_step(ellipsoid_group *g, double *t, double end,
     return ELLIPSOID_TOO_MANY_STEPS;
 }
 
-/* Takes the group at rest to where the interval ends. */
+/* Takes the group that rests to where the interval ends, which `next` is. */
 static ellipsoid_status take_rest(ellipsoid_group *g,
                                   const ellipsoid_plan *interval, double *t,
                                   long *attempts)
 {
+    if (*attempts >= g->cell[0].model->options.maximum_steps)
+    {
+        return ELLIPSOID_TOO_MANY_STEPS;
+    }
     g->next_has_blocks = 0;
     ++*attempts;
     count_attempt(g, 1);
@@ -444,7 +448,8 @@ ellipsoid_status ellipsoid_group_advance(ellipsoid_group *g,
 {
     ellipsoid_controller controller = common(g, members);
     const ellipsoid_plan whole = {end - *t, *t, end, 1, 1, controller.step};
-    const int rests = ellipsoid_rest(g, &whole);
+    const int rests =
+        ellipsoid_rest(g, &whole) && !is_one_release_wrong(g, whole.h);
     ellipsoid_status status = rests ? ELLIPSOID_OK : begin(g, *t, end);
 
     while (status == ELLIPSOID_OK && *t < end)

@@ -17,9 +17,9 @@
 
 /*
     Drag where walls are near, or the u and omega that balance it; where none is,
-    *acted is 0 and nothing done. In a stage of a step it is expanded about the
-    start. The copies are for those who want an address: so the compiler need not
-    give the originals one.
+    *acted is 0 and nothing done. It is expanded about the start where the group
+    says so. The copies are for those who want an address: so the compiler need
+    not give the originals one.
 */
 static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
                                       ellipsoid_evaluation *at, int balanced,

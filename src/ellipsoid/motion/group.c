@@ -119,18 +119,17 @@ static ellipsoid_status set_noise(ellipsoid_group *g, double t, double end,
         if (status == ELLIPSOID_OK && is_near_walls(p))
         {
             const ellipsoid_evaluation *rest = &g->next[cell];
-            double load[3]; /* [N, lab] presses it to walls that it touches */
+            ellipsoid_load load = {.push = {0}};
 
-            for (int i = 0; i < 3; i++)
+            for (int i = 0; i < 3 && rest->contact.bead_contacts > 0; i++)
             {
-                load[i] = rest->contact.bead_contacts > 0
-                            ? p->model->mass * rest->derivative.u[i]
-                                  - rest->contact.force[i]
-                            : 0;
+                load.push[i] = rest->contact.force[i];
+                load.force[i] =
+                    p->model->mass * rest->derivative.u[i] - load.push[i];
             }
             status = ellipsoid_wall_noise_begin(p->model, &p->surroundings,
                                                 &g->start[cell].state, p->cache,
-                                                t, load, noise);
+                                                t, &load, noise);
         }
         if (noise->end < *until - noise->tolerance)
         {

@@ -446,8 +446,8 @@ void ellipsoid_explicit_dense(const ellipsoid_group *group, int cell,
                               double dense[3][UNKNOWNS]);
 
 /* At the start of a noise interval that lasts many relaxation times: takes the
-   start to where they have passed, in no time; or, if friction holds all cells,
-   `next` to the end of the interval, else returns 0 (noiseLayer.c). */
+   start to where they have passed, in no time; or, if all cells are slow and touch
+   with friction, `next` to its end, else returns 0 (noiseLayer.c). */
 ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *group, double t,
                                        double until);
 int ellipsoid_rest(ellipsoid_group *group, const ellipsoid_plan *interval);

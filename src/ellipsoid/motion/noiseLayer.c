@@ -6,8 +6,8 @@
 
     There the random force and torque jump, and u and omega relax to new values.
     Where the interval is many relaxation times long the layer is not resolved:
-    the state is taken across it by matched asymptotics. A cell that friction
-    holds is taken across the whole interval.
+    the state is taken across it by matched asymptotics. A cell that is slow and
+    touches something with friction may be taken across the whole interval.
 */
 #include "motion/motion.h"
 
@@ -138,24 +138,6 @@ static double displacement(const ellipsoid_cell *p, const double change[])
          / p->model->options.tolerance;
 }
 
-/* The largest of the cells in the interval. */
-static double largest_displacement(const ellipsoid_group *g)
-{
-    double largest = 0;
-
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        double change[UNKNOWNS];
-
-        for (int n = 0; n < UNKNOWNS; n++)
-        {
-            change[n] = g->next[cell].y[n] - g->start[cell].y[n];
-        }
-        largest = fmax(largest, displacement(&g->cell[cell], change));
-    }
-    return largest;
-}
-
 /* The speed of its surface by a change, in slip speeds. */
 static double slip(const ellipsoid_cell *p, const double change[])
 {
@@ -164,7 +146,34 @@ static double slip(const ellipsoid_cell *p, const double change[])
          / p->model->options.slip_speed;
 }
 
-/* Is the cell, in a noise interval that begins, as slow as that? */
+/* Is no cell displaced too far, nor past a wall or another cell unseen
+   (unseen_travel() of stepControl.c)? */
+static int are_near(const ellipsoid_group *g)
+{
+    int near = 1;
+
+    for (int cell = 0; near && cell < g->count; cell++)
+    {
+        const ellipsoid_cell *p = &g->cell[cell];
+        const double safe =
+            (g->pairs ? 0.5 : 1) * p->model->options.bead_radius;
+        double change[UNKNOWNS];
+
+        for (int n = 0; n < UNKNOWNS; n++)
+        {
+            change[n] = g->next[cell].y[n] - g->start[cell].y[n];
+        }
+        near = displacement(p, change) <= most_displaced
+            && ellipsoid_length(change + AT_X)
+                       + 2 * p->model->reach
+                             * sqrt(ellipsoid_square4(change + AT_Q))
+                   <= safe;
+    }
+    return near;
+}
+
+/* Is the cell, in a noise interval that begins, too slow to be displaced by more
+   than most_displaced? */
 static int is_slow(const ellipsoid_cell *p, const ellipsoid_evaluation *start,
                    const ellipsoid_plan *interval)
 {
@@ -179,25 +188,59 @@ static int is_slow(const ellipsoid_cell *p, const ellipsoid_evaluation *start,
                <= most_displaced * o->tolerance;
 }
 
-/* Are all cells slow, and those that are not fixed in contact? Sets what the
-   start has. */
+/* An implicit step does not leave an equilibrium, stable or not. Of a stable one
+   the matrix of the step, of u and omega, has positive pivots, as it is that of
+   drag, masses and stiffnesses but for positive factors of its rows. */
+static int is_stable(const ellipsoid_evaluation *start, double h)
+{
+    ellipsoid_reduced reduced;
+    double(*m)[6] = reduced.rates;
+
+    ellipsoid_stage_matrix_reduce(&start->blocks, &start->state, h, &reduced);
+    for (int n = 0; n < 6; n++)
+    {
+        m[n][n] += 1 / h;
+    }
+    for (int n = 0; n < 6; n++)
+    {
+        if (!(m[n][n] > 0))
+        {
+            return 0;
+        }
+        for (int i = n + 1; i < 6; i++)
+        {
+            const double part = m[i][n] / m[n][n];
+
+            for (int k = n; k < 6; k++)
+            {
+                m[i][k] -= part * m[n][k];
+            }
+        }
+    }
+    return 1;
+}
+
+/* Are there cells that are not fixed, and all of these slow, in contact, and
+   stable? Sets what the start has. */
 static int may_rest(ellipsoid_group *g, const ellipsoid_plan *interval)
 {
-    int may = g->inertial;
+    int may = g->inertial && !g->unsteady, moving = 0;
 
     for (int cell = 0; may && cell < g->count; cell++)
     {
+        moving += !g->cell[cell].fixed;
         may = g->cell[cell].fixed
            || (ellipsoid_has_contact(g, cell)
                && is_slow(&g->cell[cell], &g->start[cell], interval));
     }
-    may = may
+    may = may && moving > 0
        && ellipsoid_group_evaluate(g, interval->end, g->start, 0, 1)
               == ELLIPSOID_OK;
     for (int cell = 0; may && cell < g->count; cell++)
     {
         may = g->cell[cell].fixed
-           || ellipsoid_in_contact(&g->start[cell].contact);
+           || (ellipsoid_in_contact(&g->start[cell].contact)
+               && is_stable(&g->start[cell], interval->h));
     }
     return may;
 }
@@ -270,13 +313,18 @@ int ellipsoid_rest(ellipsoid_group *g, const ellipsoid_plan *interval)
     if (rests)
     {
         memcpy(g->next, g->start, (size_t)g->count * sizeof(*g->start));
-        rests = solve(g, interval) && largest_displacement(g) <= most_displaced;
+        rests = solve(g, interval) && are_near(g);
     }
     for (int cell = 0; rests && cell < g->count; cell++)
     {
-        ellipsoid_normalise(g->next[cell].state.q);
+        if (!g->cell[cell].fixed)
+        {
+            ellipsoid_normalise(g->next[cell].state.q);
+        }
     }
-    return rests
-        && ellipsoid_group_evaluate(g, interval->end, g->next, 0, 0)
-               == ELLIPSOID_OK;
+    rests = rests
+         && ellipsoid_group_evaluate(g, interval->end, g->next, 0, 0)
+                == ELLIPSOID_OK;
+    g->failed = -1;
+    return rests;
 }

@@ -118,8 +118,8 @@ static inline void take_first_stage(ellipsoid_group *g, int count, double h,
     ellipsoid_group_solve(g, 0);
 }
 
-/* It is what costs most, and the derivatives are exact, so that a method is of its
-   order in the rest. */
+/* The drag near walls is what costs most, and its derivatives are exact, so that a
+   method is of its order in the rest. */
 void ellipsoid_expand_about_start(ellipsoid_group *g, int expanded)
 {
     for (int cell = 0; cell < g->count; cell++)
