@@ -139,7 +139,7 @@ static double displacement(const ellipsoid_cell *p, const double change[])
 }
 
 /* The speed of its surface by a change, in slip speeds. */
-static double slip(const ellipsoid_cell *p, const double change[])
+static double slip_speeds(const ellipsoid_cell *p, const double change[])
 {
     return (ellipsoid_length(change + AT_U)
             + p->length * ellipsoid_length(change + AT_OMEGA))
@@ -282,7 +282,7 @@ static int change_next(ellipsoid_group *g, double h, double *largest)
         {
             g->next[cell].y[n] += k[n];
         }
-        *largest = fmax(*largest, fmax(displacement(p, k), slip(p, k)));
+        *largest = fmax(*largest, fmax(displacement(p, k), slip_speeds(p, k)));
         regular = isfinite(*largest);
     }
     return regular;
