@@ -190,11 +190,10 @@ static void test_stiff_wall(void **unused)
     step in most cases, or a few, where small tolerances take a dozen and more; and
     the cell is where they lead, to the tolerance.
 */
-static test_walk held_by_friction(double tolerance, double load, long count)
+static test_walk held_cell(double tolerance, double load)
 {
     ellipsoid_options o =
         over_wall(ELLIPSOID_MOTION_INERTIAL, 32, 1e6, scale, 5e-3);
-    test_walk w;
 
     o.buoyancy = 0;
     o.density = 1040;
@@ -203,7 +202,13 @@ static test_walk held_by_friction(double tolerance, double load, long count)
     o.wall_resistance = ELLIPSOID_WALL_RESISTANCE_PLANE;
     o.tolerance = tolerance;
     ellipsoid_set(o.external_force, 0.15 * load, 0.05 * load, -load);
-    w = walk_over_wall(&o, 77, 3, 0.5 * micron);
+    return walk_over_wall(&o, 77, 3, 0.5 * micron);
+}
+
+static test_walk held_by_friction(double tolerance, double load, long count)
+{
+    test_walk w = held_cell(tolerance, load);
+
     for (long n = 0; n < count; n++)
     {
         test_walk_on(&w);
@@ -236,6 +241,28 @@ static void test_rests(void **unused)
     assert_true(attempts < 5 * count);
     assert_true(ellipsoid_length(apart) < tolerance * length);
     assert_true(sqrt(turned) < tolerance);
+}
+
+/* What depends on time is followed; and one step of an interval counts as one of
+   those allowed. */
+static void test_rests_are_limited(void **unused)
+{
+    const double load = 32e-12;
+    const long count = 40;
+    test_walk w = held_cell(1e-3, load);
+
+    (void)unused;
+    w.around.unsteady = 1;
+    for (long n = 0; n < count; n++)
+    {
+        test_walk_on(&w);
+    }
+    assert_true(w.statistics.accepted > 8 * count);
+
+    w = held_cell(1e-3, load);
+    w.model.options.maximum_steps = 30;
+    assert_int_equal(test_walk_to(&w, 1), ELLIPSOID_TOO_MANY_STEPS);
+    assert_int_equal(w.statistics.accepted + w.statistics.rejected, 30);
 }
 
 /*
@@ -299,6 +326,7 @@ int main(void)
         cmocka_unit_test(test_steps),
         cmocka_unit_test(test_stiff_wall),
         cmocka_unit_test(test_rests),
+        cmocka_unit_test(test_rests_are_limited),
         cmocka_unit_test(test_upright_falls),
     };
 
