@@ -152,6 +152,13 @@ static void test_steps(void **unused)
     assert_true(most <= 15);
 }
 
+/* How deep a load presses a bead in. */
+static double overlap_at_rest(const ellipsoid_options *o, double load)
+{
+    return pow(0.75 * load / o->contact_modulus / sqrt(o->bead_radius),
+               2.0 / 3);
+}
+
 /*
     However stiff the wall, the noise presses a sphere in by what its force
     does: the force has 0.3 pN, pressed by 10 pN, so that in 1000 intervals the
@@ -166,8 +173,7 @@ static void test_stiff_wall(void **unused)
         const double modulus = pow(10, 6 + 2 * k), force = 1e-11;
         ellipsoid_options o =
             over_wall(ELLIPSOID_MOTION_INERTIAL, 1, modulus, scale, 1e-3);
-        const double radius = o.bead_radius;
-        const double rest = pow(0.75 * force / modulus / sqrt(radius), 2.0 / 3);
+        const double rest = overlap_at_rest(&o, force);
         test_walk w;
 
         o.buoyancy = 0;
@@ -184,13 +190,8 @@ static void test_stiff_wall(void **unused)
     }
 }
 
-/*
-    A cell that friction holds while a load presses it to the wall, and a pull of
-    half of what friction bears acts along it: each interval of the noise is one
-    step in most cases, or a few, where small tolerances take a dozen and more; and
-    the cell is where they lead, to the tolerance.
-*/
-static test_walk held_cell(double tolerance, double load)
+/* A cell with friction that a load presses to the wall. */
+static ellipsoid_options pressed(double tolerance, double load)
 {
     ellipsoid_options o =
         over_wall(ELLIPSOID_MOTION_INERTIAL, 32, 1e6, scale, 5e-3);
@@ -201,7 +202,17 @@ static test_walk held_cell(double tolerance, double load)
     o.slip_speed = 1e-7;
     o.wall_resistance = ELLIPSOID_WALL_RESISTANCE_PLANE;
     o.tolerance = tolerance;
-    ellipsoid_set(o.external_force, 0.15 * load, 0.05 * load, -load);
+    o.external_force[2] = -load;
+    return o;
+}
+
+/* And that is pulled along the wall, by half of what friction bears. */
+static test_walk held_cell(double tolerance, double load)
+{
+    ellipsoid_options o = pressed(tolerance, load);
+
+    o.external_force[0] = 0.15 * load;
+    o.external_force[1] = 0.05 * load;
     return walk_over_wall(&o, 77, 3, 0.5 * micron);
 }
 
@@ -216,6 +227,24 @@ static test_walk held_by_friction(double tolerance, double load, long count)
     return w;
 }
 
+/* |q - p| */
+static double turned(const ellipsoid_state *one, const ellipsoid_state *other)
+{
+    double change[4];
+
+    for (int n = 0; n < 4; n++)
+    {
+        change[n] = one->q[n] - other->q[n];
+    }
+    return sqrt(ellipsoid_square4(change));
+}
+
+/*
+    A cell that friction holds while a load presses it to the wall, and a pull of
+    half of what friction bears acts along it: each interval of the noise is one
+    step in most cases, or a few, where small tolerances take a dozen and more; and
+    the cell is where they lead, to the tolerance.
+*/
 static void test_rests(void **unused)
 {
     const double load = 32e-12, tolerance = 1e-3, length = 2 * micron;
@@ -223,24 +252,21 @@ static void test_rests(void **unused)
     const test_walk rough = held_by_friction(tolerance, load, count);
     const test_walk fine = held_by_friction(1e-6, load, count);
     const long attempts = rough.statistics.accepted + rough.statistics.rejected;
-    double apart[3], turned = 0;
+    const double turn = turned(&rough.state, &fine.state);
+    double apart[3];
 
     (void)unused;
     ellipsoid_difference(rough.state.x, fine.state.x, apart);
-    for (int n = 0; n < 4; n++)
-    {
-        turned += pow(rough.state.q[n] - fine.state.q[n], 2);
-    }
     print_message(
         "# held by friction: %.1f attempted steps an interval in place "
         "of %.1f, %.2f nm and %.1e apart after %.2f um\n",
         (double)attempts / (double)count,
         (double)(fine.statistics.accepted + fine.statistics.rejected)
             / (double)count,
-        ellipsoid_length(apart) / 1e-9, sqrt(turned), fine.state.x[0] / micron);
+        ellipsoid_length(apart) / 1e-9, turn, fine.state.x[0] / micron);
     assert_true(attempts < 5 * count);
     assert_true(ellipsoid_length(apart) < tolerance * length);
-    assert_true(sqrt(turned) < tolerance);
+    assert_true(turn < tolerance);
 }
 
 /* What depends on time is followed; and one step of an interval counts as one of
@@ -273,42 +299,27 @@ static void test_rests_are_limited(void **unused)
 static void test_upright_falls(void **unused)
 {
     const double load = 100e-12, tolerance = 1e-3;
-    ellipsoid_options o =
-        over_wall(ELLIPSOID_MOTION_INERTIAL, 32, 1e6, scale, 5e-3);
+    ellipsoid_options o = pressed(1e-5, load);
     static ellipsoid_facet_cache own;
-    double worst = 0, axis[3], rest;
+    double worst = 0, axis[3];
     test_walk w, fine;
 
     (void)unused;
-    o.buoyancy = 0;
-    o.density = 1040;
-    o.friction = 0.3;
-    o.slip_speed = 1e-7;
     o.contact_shape = ELLIPSOID_CONTACT_ELLIPSOID;
-    o.wall_resistance = ELLIPSOID_WALL_RESISTANCE_PLANE;
     o.temperature = 1;
-    o.external_force[2] = -load;
-    o.tolerance = 1e-5;
     fine = walk_over_wall(&o, 50, 1, 2 * micron);
     o.tolerance = tolerance;
-    rest = pow(0.75 * load / o.contact_modulus / sqrt(o.bead_radius), 2.0 / 3);
-    w = walk_over_wall(&o, 50, 1, 2 * micron - rest);
+    w = walk_over_wall(&o, 50, 1, 2 * micron - overlap_at_rest(&o, load));
     w.state.q[0] = w.state.q[3] = sqrt(0.5);
     ellipsoid_facet_cache_clear(&own);
     fine.cache = &own;
     for (int n = 0; n < 100; n++)
     {
-        double turned = 0;
-
         fine.state = w.state;
         fine.controller = (ellipsoid_controller){0};
         test_walk_on(&w);
         test_walk_on(&fine);
-        for (int i = 0; i < 4; i++)
-        {
-            turned += pow(w.state.q[i] - fine.state.q[i], 2);
-        }
-        worst = fmax(worst, sqrt(turned) / tolerance);
+        worst = fmax(worst, turned(&w.state, &fine.state) / tolerance);
     }
     test_long_axis(&w.state, axis);
     print_message(

@@ -49,18 +49,19 @@ ellipsoid_status ellipsoid_noise_at(const ellipsoid_model *model,
                                     const ellipsoid_surroundings *surroundings,
                                     double t, ellipsoid_noise *noise);
 
-/*
-    Near walls an interval of its own begins where the noise is asked for: sets
-    its start, t, an end no later than that of the noise, and the factor of the
-    resistance, L L^T; *near is 0 where there are no walls. Then the noise until that
-    end or an earlier one.
-*/
+/* What presses a body to walls, lab. */
 typedef struct ellipsoid_load
 {
     double force[3]; /* [N] of all but walls on a body at rest without noise */
     double push[3];  /* [N] of the walls that it touches; 0: none */
 } ellipsoid_load;
 
+/*
+    Near walls an interval of its own begins where the noise is asked for: sets
+    its start, t, an end no later than that of the noise, and the factor of the
+    resistance, L L^T; *near is 0 where there are no walls. Then the noise until that
+    end or an earlier one.
+*/
 ellipsoid_status ellipsoid_wall_noise_begin(
     const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
     const ellipsoid_state *state, ellipsoid_facet_cache *cache, double t,
