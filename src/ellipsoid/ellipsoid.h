@@ -234,6 +234,8 @@ typedef struct ellipsoid_contact
                                radius, the limit of the search; HUGE_VAL
                                without walls. For contact_shape ELLIPSOID the
                                gap of the ellipsoid instead of a bead */
+    double slip;       /* [m/s] speed with which the slowest contact slides,
+                               at least slip_speed; HUGE_VAL without friction */
     int bead_contacts; /* number of beads that overlap the walls or are
                                attracted by them; 1 if the ellipsoid is */
     int surface_count; /* distinct surfaces in contact, of which at most
@@ -246,6 +248,7 @@ typedef struct ellipsoid_contact
     double cell_deepest;   /* [m] deepest overlap with another cell */
     double cell_gap;       /* [m] smallest gap to a bead of another cell; as
                                for walls */
+    double cell_slip;      /* [m/s] as for walls */
     int cell_count;        /* cells in contact, of which at most MAX_SURFACES
                                are listed */
     uint32_t cell_id[ELLIPSOID_MAX_SURFACES]; /* in the order of the group */

@@ -172,7 +172,7 @@ static void test_the_law_takes_power(void **unused)
     Two balls that slide over one another along x2 and part along x1, in vacuum.
     The traction is that of friction.c with the geometric mean of both
     coefficients, the larger slip speed and the mean damping; N by Hertz. Either
-    ball comes first.
+    ball comes first; beads, then spheres.
 */
 static void test_unequal_cells(void **unused)
 {
@@ -181,8 +181,9 @@ static void test_unequal_cells(void **unused)
     const double overlap = 0.02;
 
     (void)unused;
-    for (int first = 0; first < 2; first++)
+    for (int k = 0; k < 4; k++)
     {
+        const int first = k / 2;
         ellipsoid_model model[2];
         ellipsoid_surroundings around[2] = {{.id = 1}, {.id = 2}};
         ellipsoid_statistics statistics = {0};
@@ -198,6 +199,8 @@ static void test_unequal_cells(void **unused)
             const int kind = n == 0 ? first : 1 - first;
             ellipsoid_options o = contact_ball(1, 1);
 
+            o.contact_shape =
+                k % 2 ? ELLIPSOID_CONTACT_ELLIPSOID : ELLIPSOID_CONTACT_BEADS;
             o.buoyancy = 0;
             o.contact_modulus = 100;
             o.friction = friction[kind];
@@ -230,6 +233,8 @@ static void test_unequal_cells(void **unused)
             assert_relative(force[0], sign * normal, 1e-9);
             assert_relative(force[1], sign * tangential, 1e-9);
             assert_true(force[2] == 0);
+            assert_relative(group.start[n].contact.cell_slip,
+                            sqrt(slip * slip + speed * speed), 1e-9);
         }
         free(memory);
     }

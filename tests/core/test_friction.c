@@ -57,12 +57,22 @@ static void test_ball_on_an_incline(void **unused)
             rolls ? 5.0 / 7 * g * s : g * (s - friction[n] * c);
         const double turning =
             rolls ? faster / 0.01 : 2.5 * friction[n] * g * c / 0.01;
+        double slip;
 
         assert_int_equal(rolls, n < 3);
         on_incline(&r, shapes[k % 2], angle[n], friction[n]);
         assert_ok(contact_go(&r, 0.1));
         assert_relative(r.state.u[0], 0.1 * faster, 2e-5);
         assert_relative(r.state.omega[1], 0.1 * turning, 2e-5);
+        slip = contact_now(&r).slip;
+        if (rolls)
+        {
+            assert_true(slip < 2 * r.model.options.slip_speed);
+        }
+        else
+        {
+            assert_relative(slip, 0.1 * (faster - 0.01 * turning), 1e-4);
+        }
     }
     wall_mesh_free(&r.mesh);
 }
@@ -331,12 +341,14 @@ static void test_unequal_balls(void **unused)
         .law = ellipsoid_friction_law_between(&model[0], &model[1]),
         .dissipative = 1,
         .gap = 1e-2,
+        .slip = HUGE_VAL,
         .of_a = &wrench[0],
         .of_b = &wrench[1]};
 
     ellipsoid_list_beads(&body[0], &body[1], 1e-2, &near);
     ellipsoid_pair_contact_evaluate(&m, &near);
     assert_int_equal(m.contacts, 1);
+    assert_relative(m.slip, 0.4 * distance / 1.4, 1e-9);
     for (int n = 0; n < 2; n++)
     {
         const double *f = wrench[n].force, arm = radius[n] * distance / 1.4;

@@ -188,6 +188,41 @@ static void test_size_of_errors(void **unused)
     }
 }
 
+/* Where friction acts, errors of the velocities are to be below the slip speed, or
+   a tenth of the speed with which the slowest contact slides. */
+static void test_errors_in_contact(void **unused)
+{
+    const double slip_speed = 1e-7, length = 2e-6;
+    const double slip[3] = {slip_speed, 5e-5, 2e-5};
+    ellipsoid_options o = test_paper_options();
+    ellipsoid_model model;
+
+    (void)unused;
+    o.friction = 0.3;
+    o.slip_speed = slip_speed;
+    model = test_model(&o);
+    for (int n = 0; n < 6; n++)
+    {
+        const double allowed = fmax(slip_speed, 0.1 * slip[n / 2]);
+        judged j = {.cell = {.model = &model,
+                             .length = length,
+                             .rate = 1e7,
+                             .rotation_rate = 1e8,
+                             .inertial = 1}};
+        const ellipsoid_group g = group_of(&j);
+        double error;
+
+        j.start.contact = ellipsoid_no_contact();
+        j.start.contact.bead_contacts = 1;
+        j.start.contact.slip = n < 4 ? slip[n / 2] : slip[1];
+        j.start.contact.cell_slip = n < 4 ? HUGE_VAL : slip[2];
+        j.stages.error[n % 2 ? AT_OMEGA : AT_U] =
+            0.7 * allowed / (n % 2 ? length : 1);
+        assert_ok(ellipsoid_judge_step(&g, 1e-5, &error));
+        assert_relative(error, 0.7, 1e-12);
+    }
+}
+
 /* What the drag near walls is expanded wrong by: a third of it over the step,
    by the length or half of the turn; of that of places, the cube of the step. */
 static void test_errors_near_walls(void **unused)
@@ -252,6 +287,7 @@ int main(void)
         cmocka_unit_test(test_larger_error_before),
         cmocka_unit_test(test_after_rejection),
         cmocka_unit_test(test_size_of_errors),
+        cmocka_unit_test(test_errors_in_contact),
         cmocka_unit_test(test_errors_near_walls),
         cmocka_unit_test(test_coming_to_rest),
     };

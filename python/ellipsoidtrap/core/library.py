@@ -68,9 +68,9 @@ class Member(Structure):
 
 
 class Contact(Structure):
-    _fields_ = [("force", vector), ("torque", vector), ("deepest", c_double), ("gap", c_double), ("bead_contacts", c_int),
+    _fields_ = [("force", vector), ("torque", vector), ("deepest", c_double), ("gap", c_double), ("slip", c_double), ("bead_contacts", c_int),
                 ("surface_count", c_int), ("surface", c_int * 8), ("cell_force", vector), ("cell_torque", vector),
-                ("cell_deepest", c_double), ("cell_gap", c_double), ("cell_count", c_int), ("cell_id", c_uint32 * 8)]
+                ("cell_deepest", c_double), ("cell_gap", c_double), ("cell_slip", c_double), ("cell_count", c_int), ("cell_id", c_uint32 * 8)]
 
 
 class Option(Structure):

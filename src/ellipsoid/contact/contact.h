@@ -18,6 +18,15 @@ static inline int ellipsoid_in_contact(const ellipsoid_contact *contact)
     return contact->bead_contacts > 0 || contact->cell_count > 0;
 }
 
+/* That of a cell that nothing touches. */
+static inline ellipsoid_contact ellipsoid_no_contact(void)
+{
+    return (ellipsoid_contact){.gap = HUGE_VAL,
+                               .slip = HUGE_VAL,
+                               .cell_gap = HUGE_VAL,
+                               .cell_slip = HUGE_VAL};
+}
+
 /* ------------------------------------------------- a bead and walls */
 
 /* One bead, lab frame. */
@@ -102,7 +111,8 @@ ellipsoid_friction_law ellipsoid_friction_law_between(const ellipsoid_model *a,
 typedef struct ellipsoid_traction
 {
     double normal[3];
-    double force[3];          /* [N] lab */
+    double force[3]; /* [N] lab */
+    double slip;     /* [m/s] sqrt(v_t^2 + v_s^2); HUGE_VAL without friction */
     double by_elastic[3][3];  /* [-] by the elastic force, v being constant */
     double by_velocity[3][3]; /* [N s/m] */
 } ellipsoid_traction;
@@ -228,6 +238,7 @@ typedef struct ellipsoid_surface_force
 typedef struct ellipsoid_wrench
 {
     double force[3], torque[2][3]; /* [N], [N m] lab */
+    double slip;                   /* [m/s] the smallest */
     double force_slope[ELLIPSOID_WRENCH_VARIABLES][3];
     double torque_slope[2][ELLIPSOID_WRENCH_VARIABLES][3];
 } ellipsoid_wrench;
@@ -311,6 +322,7 @@ typedef struct ellipsoid_pair_contact
     ellipsoid_friction_law law;
     int dissipative; /* does friction or damping act? */
     double gap;      /* [m] the smallest found */
+    double slip;     /* [m/s] likewise, HUGE_VAL at first */
     int contacts;    /* of beads, or of the ellipsoids */
     int derivatives;
     ellipsoid_pair_wrench *of_a, *of_b;

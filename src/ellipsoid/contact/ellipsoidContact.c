@@ -374,9 +374,10 @@ ellipsoid_status ellipsoid_surface_contact_add(
         {
             ellipsoid_surface_force at = {
                 .bodies = 1, .body = {&body}, .state = {state}};
-            ellipsoid_wrench sum = {.force = {0, 0, 0}};
+            ellipsoid_wrench sum = {.slip = HUGE_VAL};
 
             add_laws(model, &laws, &all, jacobian != NULL, &at, &sum);
+            contact->slip = sum.slip;
             ellipsoid_wrench_report(&at, &sum, 0, contact->force,
                                     contact->torque, jacobian ? by : NULL);
         }

@@ -78,12 +78,13 @@ void ellipsoid_surface_pair_contact(ellipsoid_pair_contact *m)
 
     ellipsoid_surface_force at = {
         .bodies = 2, .body = {&a, &b}, .state = {m->state_a, m->state_b}};
-    ellipsoid_wrench sum = {.force = {0, 0, 0}};
+    ellipsoid_wrench sum = {.slip = HUGE_VAL};
 
     m->contacts = 1;
     set_force(&pair, &m->normal_law, m->derivatives, &at);
     ellipsoid_wrench_add(&at, m->dissipative ? &m->law : NULL, m->derivatives,
                          &sum);
+    m->slip = sum.slip;
     for (int k = 0; k < 2; k++)
     {
         ellipsoid_wrench_report(&at, &sum, k, side[k]->force, side[k]->torque,

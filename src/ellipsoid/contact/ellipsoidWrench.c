@@ -139,6 +139,7 @@ void ellipsoid_wrench_add(const ellipsoid_surface_force *p,
         {
             return;
         }
+        sum->slip = fmin(sum->slip, traction.slip);
     }
     ellipsoid_add(sum->force, traction.force);
     for (int b = 0; b < p->bodies; b++)

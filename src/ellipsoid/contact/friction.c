@@ -118,6 +118,7 @@ int ellipsoid_contact_traction(const ellipsoid_friction_law *law,
         slip[i] = velocity[i] - along * t->normal[i];
     }
     w = 1 / sqrt(ellipsoid_dot(slip, slip) + law->slip_speed * law->slip_speed);
+    t->slip = law->friction > 0 ? 1 / w : HUGE_VAL;
     for (int i = 0; i < 3; i++)
     {
         t->force[i] =
@@ -207,6 +208,7 @@ void ellipsoid_add_wall_friction(ellipsoid_wall_contact *at,
     {
         return;
     }
+    at->contact->slip = fmin(at->contact->slip, friction.traction.slip);
     ellipsoid_add_friction(&friction, 0, at->contact->force,
                            at->contact->torque);
     if (!at->jacobian)

@@ -112,6 +112,7 @@ static void add_with_friction(ellipsoid_pair_contact *m, int bead_a, int bead_b,
     {
         return;
     }
+    m->slip = fmin(m->slip, friction.traction.slip);
     ellipsoid_add_friction(&friction, 0, m->of_a->force, m->of_a->torque);
     ellipsoid_add_friction(&friction, 1, m->of_b->force, m->of_b->torque);
     if (m->derivatives)

@@ -216,8 +216,7 @@ ellipsoid_status ellipsoid_contact_evaluate(
     const ellipsoid_state *state, ellipsoid_facet_cache *cache,
     ellipsoid_contact *contact, ellipsoid_wrench_jacobian *jacobian)
 {
-    memset(contact, 0, sizeof *contact);
-    contact->gap = contact->cell_gap = HUGE_VAL;
+    *contact = ellipsoid_no_contact();
     if (jacobian)
     {
         memset(jacobian, 0, sizeof *jacobian);

@@ -412,7 +412,7 @@ ellipsoid_force_balance(const ellipsoid_model *model,
     ellipsoid_status status;
 
     point.state = *state;
-    point.contact = (ellipsoid_contact){.gap = HUGE_VAL, .cell_gap = HUGE_VAL};
+    point.contact = ellipsoid_no_contact();
     status = ellipsoid_group_evaluate(&g, surroundings->time, &point, 1, 0);
     *state = point.state;
     *derivative = point.derivative;

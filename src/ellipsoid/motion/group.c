@@ -158,7 +158,7 @@ static ellipsoid_status advance(ellipsoid_group *g,
                                 const ellipsoid_member members[], double *t,
                                 double end, ellipsoid_observer observer)
 {
-    const ellipsoid_contact nothing = {.gap = HUGE_VAL, .cell_gap = HUGE_VAL};
+    const ellipsoid_contact nothing = ellipsoid_no_contact();
     ellipsoid_status status;
     long attempts = 0;
 

@@ -80,6 +80,7 @@ static void add_to_point(ellipsoid_group *g, ellipsoid_evaluation *points,
     {
         return;
     }
+    contact->cell_slip = fmin(contact->cell_slip, m->slip);
     ellipsoid_add(contact->cell_force, wrench->force);
     ellipsoid_add(contact->cell_torque, wrench->torque);
     if (contact->cell_count < ELLIPSOID_MAX_SURFACES)
@@ -126,6 +127,7 @@ static ellipsoid_status add_pair(ellipsoid_group *g,
         .law = law,
         .dissipative = law.friction > 0 || law.damping > 0,
         .gap = ellipsoid_pair_horizon(g->cell[a].model, g->cell[b].model),
+        .slip = HUGE_VAL,
         .derivatives = with_blocks,
         .of_a = &on_a,
         .of_b = &on_b,
@@ -161,6 +163,7 @@ ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *g,
         memset(c->cell_torque, 0, sizeof(c->cell_torque));
         c->cell_gap = ellipsoid_pair_horizon(model, model);
         c->cell_deepest = 0;
+        c->cell_slip = HUGE_VAL;
         c->cell_count = 0;
         g->pairs->body[cell].model = NULL;
     }

@@ -48,18 +48,24 @@ static int is_rubbing(const ellipsoid_cell *p,
         && ellipsoid_in_contact(&start->contact);
 }
 
+/* Errors of the velocities may be this part of the speed with which it slides. */
+static const double sliding_part = 0.1;
+
 /*
     Where friction may hold a body, errors of its velocities are to be below the
-    slip speed, or each step would find it slipping another way.
+    slip speed, or each step would find it slipping another way; or a part of the
+    speed with which the slowest of its contacts slides.
 */
 static double slip_error(const ellipsoid_cell *p,
                          const ellipsoid_evaluation *start,
                          const double error[])
 {
+    const double slip = fmin(start->contact.slip, start->contact.cell_slip);
+
     return is_rubbing(p, start)
              ? (ellipsoid_length(error + AT_U)
                 + p->length * ellipsoid_length(error + AT_OMEGA))
-                   / p->model->options.slip_speed
+                   / fmax(p->model->options.slip_speed, sliding_part * slip)
              : 0;
 }
 
