@@ -136,7 +136,8 @@ def tracks(bench):
         f"{number} cells in ten bursts over 1 s, up to 1.2 s; errors of {followed}. Medians of {bench.repeats}. "
         f"The last column compares with the stock tool at `maxCo {numbers[-1]}`, whose error is "
         f"{stock[-1]['median']:.2g} nm.", "",
-        "| | `maxCo` or tolerance | error of x: median [nm] | nine in ten [nm] | time [s] | by the stock tool's |",
+        "| | `maxCo` or tolerance | error of x: median [nm] | nine in ten [nm] | time [s] "
+        "| relative to the stock tool |",
         "|---|---|---|---|---|---|",
     ]
     for row in sets:
@@ -152,7 +153,8 @@ def tracks(bench):
 def equal_errors(sets):
     """Rows of times at equal errors, by the stock tool's."""
     names = list(dict.fromkeys(row["name"] for row in sets))
-    lines = ["", "At equal median error, between the rows above: times [s], and by the stock tool's.", "",
+    lines = ["", "Times [s] at equal median error, interpolated between the rows above; in parentheses relative to the "
+             "stock tool.", "",
              "| error [nm] | " + " | ".join(names) + " |", "|---|" + "---|" * len(names)]
     for error in (1000, 100, 10, 1, 0.1):
         times = [at_error([row for row in sets if row["name"] == name], error) for name in names]
@@ -216,8 +218,8 @@ def numbers_of_cells(bench):
     """Processor time by the number of cells."""
     numbers = [10**i for i in range(2, 9) if 10**i <= bench.largest] or [bench.largest]
     lines = [medians(bench), "",
-             "| cells | way | tolerance | processor time [s] | less that before the first cell [s] "
-             "| of it, per cell [ms] | grows as the power |", "|---|---|---|---|---|---|---|"]
+             "| cells | way | tolerance | processor time [s] | after the first cell has entered [s] "
+             "| the same per cell [ms] | exponent of growth |", "|---|---|---|---|---|---|---|"]
     for way in bench.growing:
         few = [bench.trap(f"cells{n}", way, way[3], n) for n in numbers if n <= 10000]
         many = [bench.trap(f"cells{n}", way, way[3], n) for n in numbers if n > 10000]
@@ -234,7 +236,7 @@ def ranks(bench):
     """Clock time of the tracking on 1, 2 and 4 ranks, and how much of the ranks' it is that cells move in."""
     number = min(10000, bench.largest)
     lines = [medians(bench), "",
-             "| cells | way | ranks | tracking, by the clock [s] | evenness | moving cells, of the ranks' time |",
+             "| cells | way | ranks | tracking, by the clock [s] | evenness | share of time for moving cells |",
              "|---|---|---|---|---|---|"]
     for way in bench.growing:
         cases = []
@@ -256,8 +258,8 @@ def meshes(bench):
     number = min(1000, bench.largest)
     names = sorted((path.name for path in bench.folder.glob("sieve[0-9]*")), key=lambda name: int(name[5:]))
     lines = [medians(bench, many=False), "",
-             "| mesh cells | way | before the first cell [s] | in the kernel, besides [s] | grows as the power "
-             f"| tracking of {number} cells [s] | grows as the power |",
+             "| mesh cells | way | before the first cell [s] | in the kernel, in addition [s] | exponent of growth "
+             f"| tracking of {number} cells [s] | exponent of growth |",
              "|---|---|---|---|---|---|---|"]
     for way in bench.growing:
         cases = []
