@@ -2,8 +2,9 @@
    Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
 /*
-    ellipsoidModel.h - what a body is and what acts on it: statuses, options,
-    and the model made of them. A part of ellipsoid.h: include that.
+    ellipsoidModel.h - statuses, the options of a body and of what acts on it,
+    and the model that is computed from them. Programs include ellipsoid.h,
+    which includes this header.
 */
 #ifndef ELLIPSOID_MODEL_H
 #define ELLIPSOID_MODEL_H
@@ -14,8 +15,9 @@
 extern "C" {
 #endif
 
-/* The one place of the version. A minor one adds, a major one may change what is
-   declared here and in ellipsoid.h (semver.org; below 1.0 any may). */
+/* The version is defined here only. A minor version adds declarations to the
+   public headers; a major one may change them (semver.org). Below 1.0 any
+   version may change them. */
 #define ELLIPSOID_VERSION_MAJOR 0
 #define ELLIPSOID_VERSION_MINOR 1
 #define ELLIPSOID_VERSION_PATCH 0
@@ -27,12 +29,13 @@ extern "C" {
     ELLIPSOID_DOTTED(ELLIPSOID_VERSION_MAJOR, ELLIPSOID_VERSION_MINOR,         \
                      ELLIPSOID_VERSION_PATCH)
 
-/* ELLIPSOID_VERSION of the library, which need not be that of the header. */
+/* ELLIPSOID_VERSION of the library, which may differ from that of the
+   header. */
 const char *ellipsoid_version(void);
 
 /* -------------------------------------------------------------- status */
 
-/* Every status with its text, in one list. */
+/* All statuses with their texts. */
 #define ELLIPSOID_STATUS_LIST(X)                                               \
     X(OK, "success")                                                           \
     X(STOPPED, "stopped by the observer")                                      \
@@ -61,14 +64,14 @@ typedef enum ellipsoid_status
 /* The text of a status; never NULL. */
 const char *ellipsoid_status_text(ellipsoid_status status);
 
-/* Its name without the prefix, as "OUTSIDE"; never NULL. */
+/* The name of a status without the prefix, such as "OUTSIDE"; never NULL. */
 const char *ellipsoid_status_name(ellipsoid_status status);
 
 /* ------------------------------------------------------------- options */
 
 /*
-    The enumerations among the options: ellipsoid_motion, ellipsoid_flow_at,
-    ellipsoid_wall_resistance, ellipsoid_pressure_gradient,
+    The types of options that are one of several words: ellipsoid_motion,
+    ellipsoid_flow_at, ellipsoid_wall_resistance, ellipsoid_pressure_gradient,
     ellipsoid_contact_shape, ellipsoid_bead_layout. options.def says what each
     enumerator means.
 */
@@ -81,9 +84,10 @@ const char *ellipsoid_status_name(ellipsoid_status status);
 #define ELLIPSOID_MAX_BEADS 256
 
 /*
-    Everything that says what body moves in what fluid under which forces.
-    Copyable; start from ellipsoid_options_default(). options.def has the
-    members, each with its unit, default, range, meaning and frame.
+    All options: those of the body, the fluid, the forces, contact and
+    integration. Start from ellipsoid_options_default(). The struct may be
+    copied. options.def lists the members, each with its unit, default, range,
+    meaning and frame.
 */
 typedef struct ellipsoid_options
 {
@@ -97,121 +101,126 @@ typedef struct ellipsoid_options
 
 ellipsoid_options ellipsoid_options_default(void);
 
-/* What kind of member an option is. */
+/* The type of an option's member. */
 typedef enum ellipsoid_option_type
 {
     ELLIPSOID_OPTION_REAL,   /* double */
     ELLIPSOID_OPTION_VECTOR, /* double[3] */
     ELLIPSOID_OPTION_WHOLE,  /* int */
     ELLIPSOID_OPTION_SWITCH, /* int, 0 or 1 */
-    ELLIPSOID_OPTION_CHOICE  /* enumeration, 0 to the number of words less 1 */
+    ELLIPSOID_OPTION_CHOICE  /* enumeration: 0 to number of words minus 1 */
 } ellipsoid_option_type;
 
-/* What options.def says of one option. */
+/* The entry of one option in options.def. */
 typedef struct ellipsoid_option
 {
     ellipsoid_option_type type;
     size_t offset;            /* [bytes] of the member in ellipsoid_options */
     const char *member;       /* its name */
-    const char *section;      /* of the dictionary; "" at its top */
+    const char *section;      /* of the dictionary; "" for its top level */
     const char *entry;        /* keyword in that section */
     const char *unit;         /* "" for none */
-    const char *default_text; /* as options.def writes it */
-    const char *range;        /* text of what is allowed */
+    const char *default_text; /* as it is written in options.def */
+    const char *range;        /* text of the allowed values */
     const char *meaning;
-    const char *const *words; /* of a CHOICE, ends with NULL; else NULL */
-    double low, high;         /* ends of the range, of each component */
+    const char *const *words; /* of a CHOICE, terminated by NULL; else NULL */
+    double low, high;         /* limits of the range, for each component */
     int above;                /* 1: low itself is not allowed */
     int related;              /* 1: other options narrow the range */
-    int needs; /* the range matters unless this option of the list is 0; or -1
-                */
+    int needs; /* index of another option in the list: the range is checked only
+                  if that option is not 0; -1: it is always checked */
 } ellipsoid_option;
 
-/* All options in the order of options.def. */
+/* All options, in the order of options.def; *count is set to their number. */
 const ellipsoid_option *ellipsoid_option_list(int *count);
 
 /*
-    OK or BAD_OPTION. On BAD_OPTION, *field names the member at fault and
-    *range what is allowed, in the words of the dictionary (static strings;
-    both pointers may be NULL).
+    Returns OK or BAD_OPTION. For BAD_OPTION, *field is the name of the member
+    that is out of range, and *range lists the allowed values in the words of
+    the dictionary. Both are static strings, and both pointers may be NULL.
 */
 ellipsoid_status ellipsoid_options_check(const ellipsoid_options *options,
                                          const char **field,
                                          const char **range);
 
 /*
-    The options of a cell of another length 2 a2 and width 2 a1 [m], not
-    checked: a3 and the bead radius keep their ratio to a1, and beads in rings
-    become more where they would else lie farther apart, in their radii.
+    The options of a cell with another length 2 a2 and width 2 a1 [m]. a3 and
+    the bead radius keep their ratio to a1. Rings of beads are added if the
+    beads would otherwise lie farther apart, in units of their radius. The
+    result is not checked.
 */
 ellipsoid_options ellipsoid_options_resized(const ellipsoid_options *options,
                                             double length, double width);
 
 /* --------------------------------------------------------------- model */
 
-/* What walls do to the spheroid of a body's shape (drag/planeFunctions.c). */
+/* The effect of a plane wall on the spheroid that represents a body's shape
+   (drag/planeFunctions.c). */
 #define ELLIPSOID_PLANE_TILTS 9
 #define ELLIPSOID_PLANE_GAPS 8
 #define ELLIPSOID_PLANE_FUNCTIONS 18
 
 typedef struct ellipsoid_plane_table
 {
-    int axis;       /* of the body: that of the spheroid */
-    double radius;  /* [m] across it */
-    double ratio;   /* [-] semi-axis along it, over that */
-    double free[4]; /* resistance, lengths by radius */
+    int axis;       /* the body axis along the axis of the spheroid */
+    double radius;  /* [m] semi-axis across this axis */
+    double ratio;   /* [-] semi-axis along this axis, divided by radius */
+    double free[4]; /* resistance far from walls, with lengths in units of
+                       radius */
     double at[ELLIPSOID_PLANE_TILTS][ELLIPSOID_PLANE_GAPS]
              [ELLIPSOID_PLANE_FUNCTIONS]; /* coefficients */
 } ellipsoid_plane_table;
 
-/* What follows from the options once and for all; read-only afterwards. */
+/* Quantities that are computed once from the options; read-only afterwards. */
 typedef struct ellipsoid_model
 {
     ellipsoid_options options;
-    double volume;            /* [m3] V = 4/3 pi a1 a2 a3 */
-    double mass;              /* [kg] m_p */
-    double fluid_mass;        /* [kg] m_f, displaced */
-    double viscosity;         /* [Pa s] mu = rho_f nu, dynamic */
-    double inertia[3];        /* [kg m2] body axes */
-    double constant_force[3]; /* [N] lab: (m_p - m_f) g and the external one */
-    double resistance[3];     /* [m] K^_i: F = mu R K^ R^T (u_f - u) */
+    double volume;                 /* [m3] V = 4/3 pi a1 a2 a3 */
+    double mass;                   /* [kg] m_p */
+    double fluid_mass;             /* [kg] m_f, of the displaced fluid */
+    double viscosity;              /* [Pa s] mu = rho_f nu, dynamic */
+    double inertia[3];             /* [kg m2] body axes */
+    double constant_force[3];      /* [N] lab: (m_p - m_f) g + external_force */
+    double resistance[3];          /* [m] K^_i: F = mu R K^ R^T (u_f - u) */
     double rotation_resistance[3]; /* [m3] C_i = c_i (a_j^2 + a_k^2) / mu:
                                       T^_i = mu C_i (W^_i - w^_i + ...) */
     double strain_factor[3];     /* [-] (a_j^2 - a_k^2)/(a_j^2 + a_k^2), cyclic:
                                T^_1 = mu C_1 (s_1 e^23 + W^_1 - w^_1) */
     double mobility[3];          /* [s/kg] 1/(mu K^_i) */
     double rotation_mobility[3]; /* [1/(J s)] 1/(mu C_i) */
-    double relaxation_time;      /* [s] slowest translational m/(mu K^) */
-    double rotation_relaxation_time; /* [s] slowest I/(mu C) */
+    double relaxation_time;      /* [s] longest of translation, m/(mu K^) */
+    double rotation_relaxation_time; /* [s] longest, I/(mu C) */
     double noise_force[3];    /* [N] body, standard deviation of a component */
-    double noise_torque[3];   /* [N m] likewise */
-    int electric, has_dipole; /* does a field act? On a dipole? */
-    int dissipative;          /* do contacts depend on velocities? */
-    double wall_range; /* [m] how far walls act on the drag; 0: they do not */
-    ellipsoid_plane_table plane; /* if they do */
-    double reach;    /* [m] farthest contact surface from the centre */
-    int flow_points; /* 0 unless FLOW_BODY */
+    double noise_torque[3];   /* [N m] the same of the torque */
+    int electric, has_dipole; /* 1: E acts on charge or dipole; on a dipole */
+    int dissipative;          /* 1: contact forces depend on velocities */
+    double wall_range; /* [m] distance from the centre up to which walls act on
+                          the drag; 0: they do not act */
+    ellipsoid_plane_table plane; /* set if wall_range is above 0 */
+    double reach;    /* [m] largest distance of a contact surface from the
+                        centre */
+    int flow_points; /* their number; 0 unless FLOW_BODY */
     double flow_point[ELLIPSOID_MAX_FLOW_POINTS][3]; /* [m] body, on surface */
     double flow_weight[ELLIPSOID_MAX_FLOW_POINTS];   /* [-] they add up to 1 */
     int bead_count;
     double bead[ELLIPSOID_MAX_BEADS][3]; /* [m] body frame, bead centres */
 } ellipsoid_model;
 
-/* How far from a body of these options walls act on its drag [m]; 0: they do
-   not. */
+/* The distance from the centre of a body with these options up to which walls
+   act on its drag [m]; 0: they do not act. */
 double ellipsoid_wall_range(const ellipsoid_options *options);
 
-/* Bytes of a model, for languages that do not read this header. */
+/* Size of a model [bytes], for languages that do not read this header. */
 size_t ellipsoid_model_size(void);
 
-/* Checks the options and derives the model; *model is untouched on failure. */
+/* Checks the options and computes the model. On failure *model is unchanged. */
 ellipsoid_status ellipsoid_model_init(ellipsoid_model *model,
                                       const ellipsoid_options *options);
 
 /*
-    Translation and rotation coefficients of an ellipsoid of any three
-    semi-axes [m] in Stokes flow: K^ [m] and C [m3] as in ellipsoid_model.
-    Sphere of radius a: K^ = 6 pi a, C = 8 pi a^3.
+    Translation and rotation coefficients of an ellipsoid with any three
+    semi-axes [m] in Stokes flow: K^ [m] and C [m3] as in ellipsoid_model. For a
+    sphere of radius a they are K^ = 6 pi a and C = 8 pi a^3.
 */
 void ellipsoid_resistance(const double semi_axes[3], double resistance[3],
                           double rotation_resistance[3]);

@@ -2,8 +2,9 @@
    Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
 /*
-    ellipsoidWalls.h - walls: facets as the core asks for them, and how they are
-    made of triangles. A part of ellipsoid.h: include that.
+    ellipsoidWalls.h - walls: the facets that the core requests from a callback,
+    and functions that make facets from triangles. Programs include ellipsoid.h,
+    which includes this header.
 */
 #ifndef ELLIPSOID_WALLS_PUBLIC_H
 #define ELLIPSOID_WALLS_PUBLIC_H
@@ -22,7 +23,7 @@ extern "C" {
 typedef enum ellipsoid_edge
 {
     ELLIPSOID_EDGE_FLAT,   /* the neighbour lies in the same plane */
-    ELLIPSOID_EDGE_CONVEX, /* the solid protrudes; also a free rim, which is
+    ELLIPSOID_EDGE_CONVEX, /* the solid protrudes; also a free rim, which can be
                               touched from behind the facet, too */
     ELLIPSOID_EDGE_CONCAVE
 } ellipsoid_edge;
@@ -30,64 +31,70 @@ typedef enum ellipsoid_edge
 /* A triangle of the wall. Edge k runs from vertex k to vertex (k+1)%3. */
 typedef struct ellipsoid_facet
 {
-    double middle[3], radius; /* [m] lab, of a ball that holds it */
+    double middle[3], radius; /* [m] lab, of a sphere that contains it */
     double normal[3];         /* unit, into the fluid */
     double vertex[3][3]; /* [m] lab, counter-clockwise seen from the fluid */
     ellipsoid_edge edge[3];
     double edge_inward[3][3]; /* unit, perpendicular to edge k, in the plane of
-                                 the facet ACROSS edge k, pointing into it */
+                                 the facet ACROSS edge k, pointing into it; zero
+                                 at a free rim */
     double neighbour_normal[3][3]; /* unit normal of the facet across edge k */
     ptrdiff_t star[3]; /* [bytes] from the facet to double[][3], the unit
-                          directions of all wall edges that leave vertex k: no
-                          addresses, so that facets may be moved with them */
+                          directions of all wall edges that leave vertex k; an
+                          offset, not an address, so that facets may be moved
+                          together with these */
     int star_count[3];
     int surface; /* label of the wall patch, for reports */
-    int mirror;  /* 1: no wall but a plane of symmetry, where a cell meets its
-                    own mirror image: the elastic force is a wall's (half the
-                    radius, half the modulus, twice the overlap), damping is of
-                    twice the speed, and there is neither friction nor adhesion,
-                    nor a wall's resistance. docs/theory/contact.md */
-    ptrdiff_t plane; /* [bytes] from the facet to double[2][3], a point of the
-                        plane that stands for it where walls add to the
-                        resistance, and the normal; 0: its own */
-    int within;      /* bit k: so it does for the facet across edge k */
+    int mirror;  /* 1: a plane of symmetry, not a wall: a cell touches its own
+                    mirror image there. The elastic force is that of a wall
+                    (half the radius, half the modulus, twice the overlap), the
+                    damping that of twice the speed. There is no friction,
+                    adhesion or wall resistance. See docs/theory/contact.md */
+    ptrdiff_t plane; /* [bytes] from the facet to double[2][3], a point and the
+                        normal of the plane that represents the facet in the
+                        wall resistance; 0: its own plane */
+    int within;      /* bit k is set if this plane also represents the facet
+                        across edge k */
 } ellipsoid_facet;
 
 /*
-    Sets the vertices, and the normal and ball that follow from them; edges lead
-    to free rims until they are set, and it is a wall. Returns 0 if the triangle
-    has no area.
+    Sets the vertices, and computes the normal and the sphere that contains the
+    facet. All edges are free rims until facets are joined, and the facet is a
+    wall. Returns 0 if the triangle has no area, else 1.
 */
 int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3]);
 
 /*
-    Makes `other` the facet across edge k if it has that edge the other way
-    round and none that was joined there before is met sooner on turning about
-    the edge through the fluid. So baffles may be joined with all that meets at
-    an edge, in any order. Vertices are one if they are equal to the last bit.
-    Returns 1 if it is the one across now.
+    Makes `other` the facet across edge k if it contains this edge in the
+    opposite direction. If another facet was joined there before, the one that
+    comes first in a rotation about the edge through the fluid is kept. Where
+    baffles meet, all facets at an edge may therefore be joined, in any order.
+    Two vertices are the same if they are equal to the last bit. Returns 1 if
+    `other` is the facet across the edge now, else 0.
 */
 int ellipsoid_facet_join(ellipsoid_facet *facet, int k,
                          const ellipsoid_facet *other);
 
-/* Facets are named by their index in one array that outlives the cells. */
+/* A list of facets, by their indices in one array. The array must exist as long
+   as the cells. */
 typedef struct ellipsoid_facet_list
 {
     const ellipsoid_facet *facets; /* the whole array */
     const int *index;              /* the candidates, ascending */
     int count;
-    double reach; /* [m] >= the reach asked for: no facet outside the list is
-                     nearer to the centre than this */
+    double reach; /* [m] at least the requested reach: no facet outside the list
+                     is nearer to the centre than this */
 } ellipsoid_facet_list;
 
 /*
-    Lists all facets nearer than `reach` [m] to `centre` [m, lab]. The list's
-    memory is the callee's and stays valid until its next call. Walls stand
-    still: a cache keeps facets from one time t [s] to others, and is to be
-    cleared when the facets change. Whether this is called depends on what the
-    cache holds, and steps must not: it may refuse by the centre alone, and where
-    it does the flow must refuse, too.
-    Returns 0; > 0: shorten the step; < 0: give up.
+    Lists all facets nearer than `reach` [m] to `centre` [m, lab]. The memory of
+    the list belongs to the callback and stays valid until its next call. Walls
+    do not move: a cache uses facets that were listed at one time t [s] at other
+    times, and has to be cleared when the facets change. Whether the callback is
+    called depends on the content of the cache, but the steps must not.
+    Therefore its return value may depend on the centre alone, and where it is
+    not 0, that of the flow must not be 0 either. Returns 0; > 0: shorten the
+    step; < 0: give up.
 */
 typedef int (*ellipsoid_walls_function)(void *context, double t,
                                         const double centre[3], double reach,
@@ -95,113 +102,121 @@ typedef int (*ellipsoid_walls_function)(void *context, double t,
 
 /* ------------------------------------------------ walls from triangles */
 
-/* A surface as triangles. */
+/* A surface that consists of triangles. */
 typedef struct ellipsoid_triangles
 {
     int point_count;
     const double (*point)[3]; /* [m] lab */
     int count;
-    const int (*corner)[3]; /* points of a triangle, counter-clockwise seen from
-                               the fluid */
-    const int *label;       /* of each, for reports; NULL: all 0 */
-    const int *mirror;      /* of each, 1: a part of a plane of symmetry, see
-                          ellipsoid_facet; NULL: all 0 */
+    const int (*corner)[3]; /* the points of each triangle, counter-clockwise
+                               seen from the fluid */
+    const int *label;       /* of each triangle, for reports; NULL: all 0 */
+    const int *mirror;      /* of each triangle; 1: it is on a plane of
+                               symmetry, see ellipsoid_facet; NULL: all 0 */
 } ellipsoid_triangles;
 
-/* A reflection, a translation, or several of them: x becomes x + A x + b. */
+/* A reflection, a translation, or several of them in sequence: it maps x to x +
+   A x + b. */
 typedef struct ellipsoid_isometry
 {
-    double A[3][3]; /* [-] the linear part less the unit matrix */
+    double A[3][3]; /* [-] the linear part minus the unit matrix */
     double b[3];    /* [m] */
 } ellipsoid_isometry;
 
-/* A plane of symmetry: a point [m, lab] and the unit normal out of the fluid. */
+/* A plane of symmetry: a point [m, lab] and the unit normal out of the
+   fluid. */
 typedef struct ellipsoid_symmetry_plane
 {
     double x[3], n[3];
 } ellipsoid_symmetry_plane;
 
-/* How walls are made; all zero: of the triangles as they are. */
+/* How walls are made. If all members are zero, the facets are the triangles as
+   they are. */
 typedef struct ellipsoid_walls_options
 {
-    double same_point;   /* [m] points no farther apart are one, as where each
-                          triangle has its own (STL); 0: only those of one
-                          index */
-    double longest_edge; /* [m] of triangles that come about where the wall is
-                            flat and few may stand for many, as long as it stays
-                            what it is; 0: none are merged */
-    double flat_depth;   /* [m] a part of the wall that is nowhere farther than
-                            this from the plane of one of its facets is one
-                            plane where walls add to the resistance; 0: only
-                            where it is flat */
-    /* Where the walls go on beyond planes of symmetry or a period: what takes
-       them to their images, the walls themselves (all zero) first */
+    double same_point;   /* [m] points that are no farther apart than this are
+                            the same point, as in an STL file, where each
+                            triangle has its own points; 0: only points of one
+                            index are the same */
+    double longest_edge; /* [m] longest edge of triangles that result from
+                            merging where the wall is flat, which does not
+                            change the surface; 0: none are merged */
+    double flat_depth;   /* [m] in the wall resistance, a part of the wall is
+                            one plane if it is nowhere farther than this from
+                            the plane of one of its facets; 0: only where it is
+                            flat */
+    /* If the walls continue beyond planes of symmetry or periods: the
+       isometries that map the walls to their images. The first one is the
+       identity (all zero), for the walls themselves */
     int image_count; /* 0: no images */
     const ellipsoid_isometry *image;
-    double low[3], high[3]; /* [m] images of triangles beside this box are left
+    double low[3], high[3]; /* [m] images of triangles outside this box are left
                                out */
     int plane_count;
-    const ellipsoid_symmetry_plane *plane; /* no triangle is an image in its own
-                                              plane */
+    const ellipsoid_symmetry_plane *plane; /* a triangle that lies in one of
+                                              these planes has no image in it */
 } ellipsoid_walls_options;
 
-/* Facets that know their neighbours, and a search tree. Position independent:
-   the first ellipsoid_walls_bytes() of its memory may be copied elsewhere, or
-   lie in memory that processes share. */
+/* Facets with their neighbours, and a search tree. They contain no addresses:
+   the first ellipsoid_walls_bytes() of their memory may be copied elsewhere, or
+   be in memory that processes share. */
 typedef struct ellipsoid_walls ellipsoid_walls;
 
-/* Bytes of memory in which walls are made of these triangles; 0 if an argument
-   is not what it should be. */
+/* Bytes of memory that are needed to make walls from these triangles; 0 if an
+   argument is not valid. */
 size_t ellipsoid_walls_size(const ellipsoid_triangles *triangles,
                             const ellipsoid_walls_options *options);
 
 /*
-    Makes walls in so much memory, aligned as by malloc(), which they begin:
-    *walls is its address. The facets keep the order of the triangles where none
-    are merged. BAD_ARGUMENT: a NULL, or too little memory. BAD_TRIANGLE: it has
-    no area, or a corner that is no point; *which of them (may be NULL).
+    Makes walls in `memory` of `size` bytes, aligned as by malloc(). The walls
+    are at the beginning of this memory, and *walls is set to its address. If no
+    triangles are merged, the facets are in the order of the triangles.
+    BAD_ARGUMENT: a pointer is NULL, or there is too little memory.
+    BAD_TRIANGLE: a triangle has no area, or a corner that is not the index of a
+    point; *which is set to its index. `which` may be NULL.
 */
 ellipsoid_status ellipsoid_walls_create(void *memory, size_t size,
                                         const ellipsoid_triangles *triangles,
                                         const ellipsoid_walls_options *options,
                                         ellipsoid_walls **walls, int *which);
 
-/* Bytes of its memory that walls need once they are made. */
+/* Bytes of their memory that walls need once they are made. */
 size_t ellipsoid_walls_bytes(const ellipsoid_walls *walls);
 
-/* All facets, and how many. */
+/* All facets; *count is set to their number. */
 const ellipsoid_facet *ellipsoid_walls_facets(const ellipsoid_walls *walls,
                                               int *count);
 
-/* In reaches, how far a search looks as a rule. */
+/* The usual value of `far` in a search, in units of the reach. */
 #define ELLIPSOID_FAR_REACHES 1000
 
 /*
-    The facets whose boxes come nearer than `reach` [m] to `centre` [m, lab],
-    ascending, into index[], at most so many; list->reach is the distance of the
-    nearest facet, up to `far` [m], where there are none: a cell that is told of
-    so many reaches does not need to ask for a while. Returns how many there are:
-    if they are more than there is room for, the list is of no use.
+    Writes the facets whose boxes are nearer than `reach` [m] to `centre` [m,
+    lab] into index[], ascending, at most `room` of them. If there are none,
+    list->reach is set to the distance of the nearest facet, at most `far` [m];
+    a cell needs no other search until it has moved that far. Returns the number
+    of these facets. If this is larger than `room`, the list must not be used.
 */
 int ellipsoid_walls_search(const ellipsoid_walls *walls, const double centre[3],
                            double reach, double far, int room, int *index,
                            ellipsoid_facet_list *list);
 
-/* Walls as a cell's surroundings have them: its context of
-   ellipsoid_walls_list(), one for each thread. */
+/* The walls_context of a cell's surroundings if their callback is
+   ellipsoid_walls_list(). Each thread needs its own. */
 typedef struct ellipsoid_walls_context
 {
     const ellipsoid_walls *walls;
     int room;
-    int *index; /* as many as there are facets are always enough */
+    int *index; /* `room` numbers; as many as there are facets are always
+                   enough */
 } ellipsoid_walls_context;
 
-/* An ellipsoid_walls_function; gives up where there is too little room. */
+/* An ellipsoid_walls_function; gives up if there is too little room. */
 int ellipsoid_walls_list(void *context, double t, const double centre[3],
                          double reach, ellipsoid_facet_list *list);
 
-/* The twelve triangles of the inside of a box [m, lab], and its eight points,
-   for ellipsoid_triangles. */
+/* Sets the eight points of a box [m, lab] and the twelve triangles of its inner
+   surface, for ellipsoid_triangles. */
 void ellipsoid_box(const double low[3], const double high[3],
                    double point[8][3], int corner[12][3]);
 
