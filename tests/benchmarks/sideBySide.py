@@ -133,7 +133,8 @@ def tracks(bench):
     stock = [row for row in sets if row["tool"] == "stock"]
     compared = stock[-1]["time"]
     lines = [
-        f"{number} cells in ten bursts over 1 s, up to 1.2 s; errors of {followed}. Medians of {bench.repeats}. "
+        f"{number} cells in ten bursts over 1 s, tracked up to 1.2 s. Errors are those of {followed} cells, times are "
+        f"medians of {bench.repeats}. "
         f"The last column compares with the stock tool at `maxCo {numbers[-1]}`, whose error is "
         f"{stock[-1]['median']:.2g} nm.", "",
         "| | `maxCo` or tolerance | error of x: median [nm] | nine in ten [nm] | time [s] "
