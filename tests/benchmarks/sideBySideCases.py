@@ -101,8 +101,9 @@ class OursCase(Case):
         self.settings = ""
 
     def choose(self, interpolation, motion, tolerance):
-        """The settings to compare."""
+        """The settings to compare, with the paper's model: the stock tool sees the flow at a point, and no walls."""
         self.settings = (f"interpolation {interpolation}; motion {motion};\ncontact {{ cells off; }}\n"
+                         "forces { flow centre; wallResistance none; }\n"
                          f"integration {{ tolerance {tolerance}; }}\n"
                          'capture { sieves ("S[1-8]"); displacement 4e-6; holdTime 1; }\n')
 
