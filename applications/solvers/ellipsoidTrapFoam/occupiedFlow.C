@@ -40,57 +40,13 @@ void Foam::occupiedFlow::makeOwn()
 }
 
 
-Foam::List<Foam::heldWrench> Foam::occupiedFlow::solve
-(
-    const List<heldBody>& bodies
-)
-{
-    Info<< "occupancy: " << bodies.size() << " cells held" << endl;
-    solids_->set(bodies);
-    if (bodies.empty())
-    {
-        flow_->restore(*empty_);
-    }
-    else
-    {
-        flow_->solveFrom(*empty_, cells_.occupied()->settings().tolerance);
-    }
-
-    const List<heldWrench> wrenches
-    (
-        solids_->wrenches(flow_->U(), cells_.fluidDensity())
-    );
-    forAll(bodies, i)
-    {
-        Info<< "occupancy: cell " << bodies[i].id << ": force "
-            << wrenches[i].force << " N, torque " << wrenches[i].torque
-            << " N m" << endl;
-    }
-
-    return wrenches;
-}
-
-
-void Foam::occupiedFlow::renew(const bool again)
-{
-    const List<heldBody> bodies(cells_.heldBodies());
-    List<heldWrench> wrenches(bodies.size());
-
-    if (flow_)
-    {
-        const undecomposedFlow::serialScope serial;
-        wrenches = solve(bodies);
-        cells_.takeFlow({flow_->U(), flow_->p(), flow_->phi()}, !again);
-    }
-    broadcast(wrenches);
-
-    cells_.renewFlow(wrenches, !again);
-}
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::occupiedFlow::occupiedFlow(flowFields& empty, ellipsoidCloud& cells)
+Foam::occupiedFlow::occupiedFlow
+(
+    flowFields& empty,
+    const ellipsoidCloud& cells
+)
 :
     cells_(cells),
     flow_(dynamic_cast<steadyFlow*>(&empty))
@@ -138,17 +94,30 @@ Foam::occupiedFlow::~occupiedFlow()
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::occupiedFlow::begin()
+Foam::solverFields Foam::occupiedFlow::solve
+(
+    const List<heldBody>& bodies,
+    List<heldWrench>& wrenches
+)
 {
-    renew(cells_.restarted());
-    update();
-}
-
-
-void Foam::occupiedFlow::update()
-{
-    while (cells_.occupied()->outdated())
+    Info<< "occupancy: " << bodies.size() << " cells held" << endl;
+    solids_->set(bodies);
+    if (bodies.empty())
     {
-        renew(false);
+        flow_->restore(*empty_);
     }
+    else
+    {
+        flow_->solveFrom(*empty_, cells_.occupied()->settings().tolerance);
+    }
+
+    wrenches = solids_->wrenches(flow_->U(), cells_.fluidDensity());
+    forAll(bodies, i)
+    {
+        Info<< "occupancy: cell " << bodies[i].id << ": force "
+            << wrenches[i].force << " N, torque " << wrenches[i].torque
+            << " N m" << endl;
+    }
+
+    return {flow_->U(), flow_->p(), flow_->phi()};
 }

@@ -228,6 +228,40 @@ void Foam::ellipsoidCloud::evolve()
 }
 
 
+void Foam::ellipsoidCloud::renewFlow(heldFlowSolver& solver, bool again)
+{
+    do
+    {
+        const List<heldBody> bodies(occupancy_->bodies(cells_));
+        List<heldWrench> wrenches(bodies.size());
+
+        if (Pstream::master())
+        {
+            const undecomposedFlow::serialScope serial;
+            const solverFields flow(solver.solve(bodies, wrenches));
+
+            undecomposed_->take(flow);
+            if (!again)
+            {
+                const scalar inflow = inletFlux(flow.U, flow.phi).inflow;
+                occupancy_->write(time_, flow.phi, inflow, cells_);
+            }
+        }
+        broadcast(wrenches);
+        domain_->flow.renew(*undecomposed_, fluidDensity());
+
+        if (!occupancy_->setWrenches(wrenches, cells_) || !again)
+        {
+            DynamicList<cellEvent> events;
+            occupancy_->release(cells_, true, events);
+            statistics_->add(std::move(events));
+        }
+        again = false;
+    }
+    while (occupancy_->outdated());
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
@@ -360,35 +394,6 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow)
 }
 
 
-void Foam::ellipsoidCloud::takeFlow(const solverFields& flow, const bool listed)
-{
-    undecomposed_->take(flow);
-
-    if (listed)
-    {
-        const scalar inflow = inletFlux(flow.U, flow.phi).inflow;
-        occupancy_->write(time_, flow.phi, inflow, cells_);
-    }
-}
-
-
-void Foam::ellipsoidCloud::renewFlow
-(
-    const UList<heldWrench>& wrenches,
-    const bool judge
-)
-{
-    domain_->flow.renew(*undecomposed_, fluidDensity());
-
-    if (!occupancy_->setWrenches(wrenches, cells_) || judge)
-    {
-        DynamicList<cellEvent> events;
-        occupancy_->release(cells_, true, events);
-        statistics_->add(std::move(events));
-    }
-}
-
-
 void Foam::ellipsoidCloud::advance(const solverFields& flow)
 {
     const scalar end = presentTime(mesh_.time());
@@ -415,13 +420,13 @@ void Foam::ellipsoidCloud::track
 (
     Time& runTime,
     const label every,
-    flowRenewal* occupied
+    heldFlowSolver* solver
 )
 {
     beginTables();
-    if (occupied)
+    if (solver)
     {
-        occupied->begin();
+        renewFlow(*solver, earlier_.found());
     }
 
     while (runTime.loop())
@@ -429,9 +434,9 @@ void Foam::ellipsoidCloud::track
         evolve();
         // Else it adds up rounding, and so do the names of times
         static_cast<dimensionedScalar&>(runTime).value() = time_;
-        if (occupied)
+        if (solver && occupancy_->outdated())
         {
-            occupied->update();
+            renewFlow(*solver, false);
         }
 
         if (every ? runTime.timeIndex() % every == 0 : runTime.writeTime())
