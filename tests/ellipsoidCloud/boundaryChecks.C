@@ -9,6 +9,7 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "baffleSides.H"
+#include "caseSummary.H"
 #include "inletFlux.H"
 #include "layerParts.H"
 #include "patchInflow.H"
@@ -160,6 +161,21 @@ namespace Foam
         os.rewind();
         os << inflow.upTo;
         holds("where it goes out no cell comes in", alike, os.str());
+    }
+
+    //- By a shear rate [1/s], for a cell of 2 um in water
+    static void checkInertia(const fvMesh& mesh)
+    {
+        const auto isTold = [&](const scalar rate)
+        {
+            const layer at(mesh, Zero, tensor(0, 0, 0, rate, 0, 0, 0, 0, 0));
+            return reportInertia(at.undecomposed.U(), at.properties, 2e-6);
+        };
+        holds
+        (
+            "the inertia of the fluid is told of where it matters, every time",
+            isTold(4e4) && isTold(4e4) && !isTold(2e4)
+        );
     }
 
     //- What is sampled somewhere: seven vectors and tensors, and what of their
@@ -410,6 +426,7 @@ void Foam::checkBoundaries(fvMesh& mesh)
     if (!Pstream::parRun())
     {
         checkInlet(mesh);
+    checkInertia(mesh);
         checkSamples(mesh);
         checkFit(mesh, 0, "what is fitted to means is the flow that they are of");
         checkForces(mesh);

@@ -236,19 +236,13 @@ void Foam::reportSize
 }
 
 
-void Foam::reportInertia
+bool Foam::reportInertia
 (
     const volVectorField& U,
     const ellipsoidProperties& properties,
     const scalar longest
 )
 {
-    static bool told = false;
-    if (told)
-    {
-        return;
-    }
-
     // By Gauss, as the case need not name a scheme for it
     const tmp<volTensorField> gradU
     (
@@ -258,9 +252,10 @@ void Foam::reportInertia
     const scalar number =
         shear*sqr(longest)/properties.options().kinematic_viscosity;
 
-    if (number > 0.1)
+    const bool matters = number > 0.1;
+
+    if (matters)
     {
-        told = true;
         Warning
             << "The particle Reynolds number comes to "
             << word::printf("%.2g", number) << ", where the shear rate is "
@@ -268,4 +263,6 @@ void Foam::reportInertia
             << " the fluid, which the model of a cell does not have, turns and"
             << " shifts it" << nl << endl;
     }
+
+    return matters;
 }

@@ -358,7 +358,8 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow)
     planEntries();
     checkTimes();
     reportCells(through.inflow);
-    reportInertia(flow.U, properties_, population_.largest(longestSemiAxis));
+    inertiaTold_ =
+        reportInertia(flow.U, properties_, population_.largest(longestSemiAxis));
 
     localCells_ = undecomposed_->localCells();
 
@@ -403,7 +404,9 @@ void Foam::ellipsoidCloud::advance(const solverFields& flow)
     {
         return;
     }
-    reportInertia(flow.U, properties_, population_.largest(longestSemiAxis));
+    inertiaTold_ =
+        inertiaTold_
+     || reportInertia(flow.U, properties_, population_.largest(longestSemiAxis));
 
     undecomposed_->gather(flow);
     domain_->flow.advance(*undecomposed_, fluidDensity(), time_, end);
