@@ -57,7 +57,7 @@ int Foam::groupScheduler::advance
     labelList group(n);
     std::copy_n(index, n, group.begin());
 
-    return s.groups_.advance(s.cells_, group, end, mayFail, *s.path_);
+    return s.groups_.advance(s.cells_, group, end, mayFail, s.path_);
 }
 
 
@@ -71,7 +71,7 @@ void Foam::groupScheduler::putBack
 {
     groupScheduler& s = *static_cast<groupScheduler*>(context);
 
-    if (s.path_->empty())
+    if (s.path_.empty())
     {
         return;
     }
@@ -83,14 +83,14 @@ void Foam::groupScheduler::putBack
     }
 
     label nKept = 0;
-    for (const groupAdvance::segment& taken : *s.path_)
+    for (const groupAdvance::segment& taken : s.path_)
     {
         if (taken.step.start < time || !group.found(taken.cell))
         {
-            (*s.path_)[nKept++] = taken;
+            s.path_[nKept++] = taken;
         }
     }
-    s.path_->setSize(nKept);
+    s.path_.setSize(nKept);
 }
 
 
@@ -163,17 +163,17 @@ ellipsoid_world* Foam::groupScheduler::makeWorld
 }
 
 
-void Foam::groupScheduler::sample
+Foam::groupScheduler::groupRows Foam::groupScheduler::sample
 (
     const UList<cellSweep>& before,
-    const labelUList& group,
-    groupPath& seen
+    const labelUList& group
 )
 {
+    groupRows rows;
+
     // Until its end the cells have the fate that they had at the start, or
     // that they entered with
     List<cellSweep> after(UIndirectList<cellSweep>(cells_, group));
-    seen.rows.clear();
 
     forAll(after, k)
     {
@@ -183,13 +183,13 @@ void Foam::groupScheduler::sample
         if (cell.waits() && !after[k].state.waits())
         {
             cell.fate = cellState::inFlight;
-            tracks_->start(cell, seen.rows);
+            tracks_->start(cell, rows);
         }
     }
-    for (const groupAdvance::segment& taken : seen.path)
+    for (const groupAdvance::segment& taken : path_)
     {
         cellState& cell = cells_[taken.cell].state;
-        tracks_->add(cell, taken.step, domain_.flow, taken.tet, seen.rows);
+        tracks_->add(cell, taken.step, domain_.flow, taken.tet, rows);
     }
     forAll(after, k)
     {
@@ -200,10 +200,11 @@ void Foam::groupScheduler::sample
 
         if (after[k].gone())
         {
-            tracks_->finish(cell, seen.rows);
+            tracks_->finish(cell, rows);
         }
     }
-    seen.path.clear();
+
+    return rows;
 }
 
 
@@ -211,7 +212,7 @@ bool Foam::groupScheduler::advanceGroups
 (
     ellipsoid_world* world,
     const scalar time,
-    List<groupPath>& seen
+    List<groupRows>& rows
 )
 {
     const int* todo;
@@ -234,11 +235,9 @@ bool Foam::groupScheduler::advanceGroups
 
     for (const label k : groupSharing::inMeshOrder(cells_, members))
     {
-        groupPath& of = seen[todo[k]];
-
         if (ranks[k] == Pstream::myProcNo())
         {
-            path_ = &of.path;
+            path_.clear();
             withMemory
             (
                 world,
@@ -246,9 +245,8 @@ bool Foam::groupScheduler::advanceGroups
             );
             if (tracks_)
             {
-                sample(before, members[k], of);
+                rows[todo[k]] = sample(before, members[k]);
             }
-            of.path.clear();
         }
     }
 
@@ -302,9 +300,9 @@ Foam::List<Foam::cellSweep> Foam::groupScheduler::advanceInterval
 
     const ellipsoid_world_cells moved(worldCells());
     ellipsoid_world* world = makeWorld(moved, start, end);
-    List<groupPath> seen(ellipsoid_world_group_count(world));
+    List<groupRows> rows(ellipsoid_world_group_count(world));
 
-    while (advanceGroups(world, end - start, seen))
+    while (advanceGroups(world, end - start, rows))
     {
         withMemory(world, [&]() { return ellipsoid_world_join(world); });
 
@@ -313,22 +311,22 @@ Foam::List<Foam::cellSweep> Foam::groupScheduler::advanceInterval
         const int nTodo = ellipsoid_world_todo(world, &todo);
         for (int k = 0; k < nTodo; ++k)
         {
-            seen[todo[k]].rows.clear();
+            rows[todo[k]].clear();
         }
-        forAll(seen, groupi)
+        forAll(rows, groupi)
         {
             if (!ellipsoid_world_group(world, groupi, nullptr))
             {
-                seen[groupi].rows.clear();
+                rows[groupi].clear();
             }
         }
     }
 
-    for (const groupPath& of : seen)
+    for (const groupRows& some : rows)
     {
         if (tracks_)
         {
-            tracks_->addRows(of.rows);
+            tracks_->addRows(some);
         }
     }
 
