@@ -47,7 +47,6 @@ SourceFiles
 #include "occupiedFlow.H"
 #include "checkpoint.H"
 #include "commit.H"
-#include "ellipsoidProperties.H"
 #include "masterGate.H"
 #include "checkCells.H"
 
@@ -111,7 +110,7 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
 
     if (!accepted && cells.valid())
     {
-        cells->checkInjections({flow->U(), flow->p(), flow->phi()});
+        cells->checkInjections(flow->fields());
     }
     if (!accepted && dryRun)
     {
@@ -135,7 +134,7 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
         return;
     }
 
-    cells->setFlow({flow->U(), flow->p(), flow->phi()});
+    cells->setFlow(flow->fields());
     if (dryRun)
     {
         return;

@@ -6,6 +6,7 @@
 #include "checkedEntries.H"
 #include "checkFinite.H"
 #include "dictionary.H"
+#include "Enum.H"
 #include "flowChecks.H"
 #include "fvcFlux.H"
 #include "fvMesh.H"
@@ -13,23 +14,18 @@
 #include "masterGate.H"
 #include "processorCyclicFvPatchField.H"
 #include "PstreamReduceOps.H"
-#include "undecomposedFlow.H"
-
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
-
-const Foam::Enum<Foam::flowFields::solveType>
-Foam::flowFields::solveTypeNames_
-({
-    { solveType::NO, "no" },
-    { solveType::YES, "yes" },
-    { solveType::AUTO, "auto" }
-});
-
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
+    static const Enum<flowFields::solveType> solveTypeNames
+    ({
+        {flowFields::NO, "no"},
+        {flowFields::YES, "yes"},
+        {flowFields::AUTO, "auto"}
+    });
+
     //- The dictionary flow, or an empty one
     static const dictionary& controlsOf(const fvMesh& mesh)
     {
@@ -79,15 +75,6 @@ Foam::IOobject Foam::flowFields::fieldIO
 }
 
 
-void Foam::flowFields::check() const
-{
-    checkDimensions({U_, p_, phi_});
-    checkFinite(U_, mesh_.C(), "mesh cell");
-    checkFinite(p_, mesh_.C(), "mesh cell");
-    checkFinite(phi_, mesh_.Cf(), "mesh face");
-}
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::flowFields::flowFields(const fvMesh& mesh)
@@ -117,7 +104,11 @@ Foam::flowFields::flowFields(const fvMesh& mesh)
 {
     setSplitCyclic(U_);
     setSplitCyclic(p_);
-    check();
+
+    checkDimensions(fields());
+    checkFinite(U_, mesh_.C(), "mesh cell");
+    checkFinite(p_, mesh_.C(), "mesh cell");
+    checkFinite(phi_, mesh_.Cf(), "mesh face");
 }
 
 
@@ -130,7 +121,7 @@ Foam::flowFields::solveType Foam::flowFields::solveOf(const fvMesh& mesh)
 
     checkKeywords(dict, {"solve", "continuityTolerance", "fluxTolerance"});
 
-    return solveTypeNames_.getOrDefault("solve", dict, solveType::AUTO);
+    return solveTypeNames.getOrDefault("solve", dict, solveType::AUTO);
 }
 
 
@@ -154,7 +145,7 @@ bool Foam::flowFields::accept()
         );
     }
 
-    const fluxErrors errors({U_, p_, phi_});
+    const fluxErrors errors(fields());
 
     Info<< "flow: taken as read from " << instance_ << ": net fluxes of mesh"
         << " cells " << text(errors.net) << " of those through them, phi and the"

@@ -12,15 +12,13 @@
 #include "StringStream.H"
 #include "Time.H"
 
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
-
-const Foam::wordList Foam::flowFields::names_({"phi", "p", "U"});
-
-
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
+    //- Of U, p and phi, in the order that they are written
+    static const wordList fieldNames({"phi", "p", "U"});
+
     //- In the file of an unfinished flow: what is left to do is to rename
     static const std::string wholeParts
     (
@@ -44,68 +42,68 @@ namespace Foam
         return SHA1(textOf(file)).str();
     }
 
-} // End namespace Foam
-
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-bool Foam::flowFields::isOwn(const fileName& path, const word& name)
-{
-    return digestsOf(path).getOrDefault<string>(name, "") == digest(path/name);
-}
-
-
-void Foam::flowFields::setAside(const fileName& path, const word& name)
-{
-    const fileName plain(path/name);
-    const fileName file(plain + (isFile(plain, false) ? "" : ".gz"));
-    const std::string text(textOf(plain));
-
-    if
-    (
-        text.empty()
-     || isOwn(path, name)
-     || text == textOf(path.path()/"0.orig"/name)
-    )
+    //- Has flowFields written the file of a field, as it is now?
+    static bool isOwn(const fileName& path, const word& name)
     {
-        return;
+        return
+            digestsOf(path).getOrDefault<string>(name, "") == digest(path/name);
     }
-    if (!mvBak(file, "bak"))
+
+    //- Move the file of a field away that is neither our own nor a copy of that
+    //  in 0.orig
+    static void setAside(const fileName& path, const word& name)
     {
-        cannotWrite(file);
-    }
-    Info<< "flow: " << (path.name()/name).c_str()
-        << " as it was read is kept as " << name << ".bak" << endl;
-}
+        const fileName plain(path/name);
+        const fileName file(plain + (isFile(plain, false) ? "" : ".gz"));
+        const std::string text(textOf(plain));
 
-
-void Foam::flowFields::nameParts(const fileName& path)
-{
-    dictionary written;
-    written.set("ranks", Pstream::nProcs());
-
-    for (const word& name : names_)
-    {
-        if (isFile(partOf(path/name)))
+        if
+        (
+            text.empty()
+         || isOwn(path, name)
+         || text == textOf(path.path()/"0.orig"/name)
+        )
         {
-            setAside(path, name);
-            renamePart(path/name);
+            return;
         }
-        written.set(name, digest(path/name));
+        if (!mvBak(file, "bak"))
+        {
+            cannotWrite(file);
+        }
+        Info<< "flow: " << (path.name()/name).c_str()
+            << " as it was read is kept as " << name << ".bak" << endl;
     }
-    // decomposePar links the folder of the whole case
-    if ((path/"uniform").type(false) == fileName::LINK)
-    {
-        rm(path/"uniform");
-    }
-    OStringStream os;
-    written.write(os, false);
-    IOobject::writeEndDivider(os);
-    durableWrite(digestsFile(path), os.str());
 
-    waitForRanks();
-    rm(unfinishedFlow(path));
-}
+    //- Give what is written in a time its names, and the time its digests
+    static void nameParts(const fileName& path)
+    {
+        dictionary written;
+        written.set("ranks", Pstream::nProcs());
+
+        for (const word& name : fieldNames)
+        {
+            if (isFile(partOf(path/name)))
+            {
+                setAside(path, name);
+                renamePart(path/name);
+            }
+            written.set(name, digest(path/name));
+        }
+        // decomposePar links the folder of the whole case
+        if ((path/"uniform").type(false) == fileName::LINK)
+        {
+            rm(path/"uniform");
+        }
+        OStringStream os;
+        written.write(os, false);
+        IOobject::writeEndDivider(os);
+        durableWrite(digestsFile(path), os.str());
+
+        waitForRanks();
+        rm(unfinishedFlow(path));
+    }
+
+} // End namespace Foam
 
 
 // * * * * * * * * * * * *  Protected Member Functions * * * * * * * * * * * //
@@ -154,7 +152,7 @@ void Foam::flowFields::finishWriting(const Time& time)
         nameParts(path);
         return;
     }
-    for (const word& name : names_)
+    for (const word& name : fieldNames)
     {
         rm(partOf(path/name));
     }
@@ -172,7 +170,7 @@ void Foam::flowFields::write()
         writePart(phi_);
         writePart(p_);
         writePart(U_);
-        for (const word& name : names_)
+        for (const word& name : fieldNames)
         {
             toDisk(partOf(path/name));
         }
@@ -189,7 +187,7 @@ void Foam::flowFields::write()
     }
     else
     {
-        for (const word& name : names_)
+        for (const word& name : fieldNames)
         {
             setAside(path, name);
         }

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "occupiedFlow.H"
-#include "foamVersions.H"
 #include "masterGate.H"
 #include "readViscosity.H"
 
@@ -119,5 +118,5 @@ Foam::solverFields Foam::occupiedFlow::solve
             << " N m" << endl;
     }
 
-    return {flow_->U(), flow_->p(), flow_->phi()};
+    return flow_->fields();
 }

@@ -36,18 +36,15 @@ static dictionary readIfPresent
     );
 }
 
-} // End namespace Foam
 
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-void Foam::steadyFlow::checkControls() const
+//- Refuse entries of the dictionary SIMPLE that no solver knows
+static void checkControls(const fvMesh& mesh, const dictionary& controls)
 {
     const masterGate once;
 
     checkKeywords
     (
-        controls_,
+        controls,
         {
             "coupled", "consistent", "nNonOrthogonalCorrectors",
             "maxIterations", "residualControl", "fluxTolerance", "fluxWindow",
@@ -64,21 +61,21 @@ void Foam::steadyFlow::checkControls() const
     {
         checkValues
         (
-            mesh_.solverDict(field),
+            mesh.solverDict(field),
             {"solver", "tolerance", "relTol", "maxIter"}
         );
     }
 
     if
     (
-        controls_.getOrDefault("consistent", true)
+        controls.getOrDefault("consistent", true)
      && !(
-            mesh_.relaxEquation("U")
-         && mesh_.equationRelaxationFactor("U") < 1
+            mesh.relaxEquation("U")
+         && mesh.equationRelaxationFactor("U") < 1
         )
     )
     {
-        FatalIOErrorInFunction(mesh_.solutionDict())
+        FatalIOErrorInFunction(mesh.solutionDict())
             << "SIMPLEC needs a relaxation factor of the U equation below 1:"
             << " relaxationFactors { equations { U 0.9; } }"
             << exit(FatalIOError);
@@ -86,10 +83,36 @@ void Foam::steadyFlow::checkControls() const
 }
 
 
+//- Refuse jumps of the pressure, which decomposePar loses
+static void checkJumps(const volScalarField& p)
+{
+    const masterGate once;
+
+    for (const fvPatchScalarField& pp : p.boundaryField())
+    {
+        if
+        (
+            Pstream::parRun() && isA<jumpCyclicFvPatchField<scalar>>(pp)
+        )
+        {
+            FatalErrorInFunction
+                << "p has a jump, " << pp.type() << ", at patch "
+                << pp.patch().name() << ", which decomposePar loses" << nl
+                << "    Solve the flow on one rank, then decomposePar and"
+                << " -frozenFlow" << exit(FatalError);
+        }
+    }
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
 Foam::coupledStokes::settings Foam::steadyFlow::readControls() const
 {
-    checkJumps();
-    checkControls();
+    checkJumps(p_);
+    checkControls(mesh_, controls_);
 
     coupledStokes::settings how;
     const string refusal(coupledStokes::refusal(U_, p_));
@@ -218,26 +241,5 @@ void Foam::steadyFlow::checkRegions() const
             << "    Remove them (splitMeshRegions -largestOnly, or"
             << " cellSet and subsetMesh), or give each a patch that the fluid"
             << " passes" << exit(FatalError);
-    }
-}
-
-
-void Foam::steadyFlow::checkJumps() const
-{
-    const masterGate once;
-
-    for (const fvPatchScalarField& pp : p_.boundaryField())
-    {
-        if
-        (
-            Pstream::parRun() && isA<jumpCyclicFvPatchField<scalar>>(pp)
-        )
-        {
-            FatalErrorInFunction
-                << "p has a jump, " << pp.type() << ", at patch "
-                << pp.patch().name() << ", which decomposePar loses" << nl
-                << "    Solve the flow on one rank, then decomposePar and"
-                << " -frozenFlow" << exit(FatalError);
-        }
     }
 }
