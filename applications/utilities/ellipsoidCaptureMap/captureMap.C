@@ -324,7 +324,7 @@ Foam::captureMap::setting::setting
         },
         {"orientations"}
     );
-    cellInjection::findPatch(dict, patches);
+    cellInjection::checkPatch(dict, patches);
 }
 
 

@@ -14,7 +14,6 @@
 #include "PstreamReduceOps.H"
 #include "surfaceFields.H"
 #include "Time.H"
-#include "undecomposedFlow.H"
 #include "volFields.H"
 
 #include <algorithm>
@@ -34,15 +33,12 @@ namespace Foam
         const objectRegistry& db
     )
     {
-        const word instance
-        (
-            db.time().findInstance(folder, name, IOobject::READ_IF_PRESENT)
-        );
+        const IOobject::readOption ifPresent = IOobject::READ_IF_PRESENT;
 
         return IOobject
         (
-            name, instance, folder, db,
-            IOobject::READ_IF_PRESENT, IOobject::NO_WRITE, false
+            name, db.time().findInstance(folder, name, ifPresent), folder, db,
+            ifPresent, IOobject::NO_WRITE, false
         );
     }
 
@@ -352,15 +348,7 @@ void Foam::caseFiles::checkMesh(const Time& time, const bool forCells)
         need<labelIOList>(file, file.objectPath(), stepToMesh(time));
     }
 
-    const polyBoundaryMeshEntries patches
-    (
-        IOobject
-        (
-            "boundary", latest("boundary", folder, time).instance(),
-            folder, time,
-            IOobject::MUST_READ, IOobject::NO_WRITE, false
-        )
-    );
+    const polyBoundaryMeshEntries patches(latest("boundary", folder, time));
 
     checkPatches(patches, time);
 

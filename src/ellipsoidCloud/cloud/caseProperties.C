@@ -41,7 +41,7 @@ Foam::caseProperties::caseProperties(const polyMesh& mesh)
 
         if (e.dict().found("patch"))
         {
-            cellInjection::findPatch(e.dict(), patches);
+            cellInjection::checkPatch(e.dict(), patches);
         }
     }
 

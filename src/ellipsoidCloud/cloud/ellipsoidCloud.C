@@ -186,11 +186,7 @@ void Foam::ellipsoidCloud::evolve()
     label nLeft = 0;
     for (const cellSweep& cell : moves)
     {
-        if (cell.gone())
-        {
-            interval_->forget(cell.state.id);
-        }
-        else
+        if (!cell.gone())
         {
             cells_[nLeft++] = cell.state;
         }
@@ -211,6 +207,7 @@ void Foam::ellipsoidCloud::evolve()
     {
         if (cell.gone())
         {
+            interval_->forget(cell.state.id);
             population_.forget(cell.state.id);
             if (occupancy_.valid())
             {

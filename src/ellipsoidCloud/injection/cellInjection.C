@@ -269,7 +269,7 @@ void Foam::cellInjection::checkEntries(const dictionary& dict)
 }
 
 
-Foam::word Foam::cellInjection::findPatch
+void Foam::cellInjection::checkPatch
 (
     const dictionary& dict,
     const polyBoundaryMesh& patches
@@ -284,8 +284,6 @@ Foam::word Foam::cellInjection::findPatch
             << "    patches: " << flatOutput(patches.names())
             << exit(FatalIOError);
     }
-
-    return patch;
 }
 
 

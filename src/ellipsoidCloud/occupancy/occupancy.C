@@ -2,22 +2,20 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "occupancy.H"
+#include "Enum.H"
 #include "surfaceFields.H"
 #include "volFields.H"
-
-// * * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * //
-
-const Foam::Enum<Foam::occupancy::flowType> Foam::occupancy::flowNames
-({
-    {flowType::UNCHANGED, "unchanged"},
-    {flowType::SOLVED, "solved"}
-});
-
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
+    static const Enum<occupancy::flowType> flowNames
+    ({
+        {occupancy::UNCHANGED, "unchanged"},
+        {occupancy::SOLVED, "solved"}
+    });
+
     //- The entries of a state that keep a map: its ids, and of each value the
     //  vectors with which it begins, so many
     struct mapNotes
@@ -276,7 +274,7 @@ void Foam::occupancy::update
         }
         if
         (
-            blocks(cell) && !held_.found(cell.id)
+            setting_.fates.found(cell.fate) && !held_.found(cell.id)
          && criterion_.isAtRest(cell)
         )
         {

@@ -102,7 +102,7 @@ bool Foam::occupancy::moves
         {
             if (!group[i].gone())
             {
-                group[i].begin();
+                ellipsoid_sweep_begin(&group[i].sweep, &group[i].state.body);
                 present.append(i);
             }
         }
