@@ -83,17 +83,12 @@ void Foam::toDisk(const fileName& file)
 {
     const std::string path(file + (isFile(file, false) ? "" : ".gz"));
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool done = descriptor >= 0 && ::fsync(descriptor) == 0;
-    const int reason = errno;
 
-    if (descriptor >= 0)
+    if (descriptor < 0 || ::fsync(descriptor))
     {
-        ::close(descriptor);
+        cannotWrite(file);
     }
-    if (!done)
-    {
-        cannotWrite(file, reason);
-    }
+    ::close(descriptor);
 }
 
 

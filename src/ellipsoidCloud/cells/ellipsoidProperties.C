@@ -96,7 +96,7 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
             refuseRepeated(time().globalPath()/time().constant()/name());
         }
         readOptions();
-        if (found("injection") && isDict("injection"))
+        if (isDict("injection"))
         {
             listedCells::read(subDict("injection"), time().globalPath());
         }

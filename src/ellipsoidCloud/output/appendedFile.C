@@ -39,8 +39,7 @@ Foam::appendedFile::appendedFile
     const int precision
 )
 :
-    name_(set.folder/(name + ".csv")),
-    size_(0)
+    name_(set.folder/(name + ".csv"))
 {
     const dictionary earlier(set.earlier.subOrEmptyDict(name));
 

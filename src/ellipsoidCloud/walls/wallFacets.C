@@ -46,11 +46,10 @@ namespace Foam
                 {
                     const auto t = decomposition.triangle(facei, k);
 
-                    FixedList<int, 3> corner;
-                    corner[0] = t[0];
-                    corner[1] = t[2];
-                    corner[2] = t[1];
-                    corners.append(corner);
+                    corners.append
+                    (
+                        FixedList<int, 3>{int(t[0]), int(t[2]), int(t[1])}
+                    );
                     labels.append(pp.index());
                     mirror.append(isMirror);
                 }
