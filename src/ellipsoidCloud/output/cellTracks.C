@@ -3,6 +3,7 @@
 
 #include "cellTracks.H"
 #include "atomicWrite.H"
+#include "fromRanks.H"
 #include "stringOps.H"
 #include "vtkPolyData.H"
 
@@ -204,21 +205,15 @@ void Foam::cellTracks::flush(const scalar until)
         [&](const row& r) { return !(r[0] < until); }
     );
     const label nKept = due - rows_.begin();
-    const List<List<row>> all
+    List<row> rows
     (
-        gathered(List<row>(SubList<row>(rows_, rows_.size() - nKept, nKept)))
+        joined(SubList<row>(rows_, rows_.size() - nKept, nKept))
     );
     rows_.setSize(nKept);
 
     if (!Pstream::master())
     {
         return;
-    }
-
-    DynamicList<row> rows;
-    for (const List<row>& some : all)
-    {
-        rows.append(some);
     }
 
     // By time and cell, which no two have in common
