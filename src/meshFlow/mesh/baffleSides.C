@@ -6,16 +6,12 @@
 #include "pointImages.H"
 #include "wallPolyPatch.H"
 
-#include <algorithm>
-
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::labelHashSet Foam::baffleSides::bafflePoints() const
 {
-    // Of each point the last face of a wall of which it is the lowest, and of
-    // each such face the one before
-    labelList last(mesh_.nPoints(), -1);
-    labelList before(mesh_.nFaces(), -1);
+    // The faces of walls by their lowest point
+    Map<DynamicList<label>> facesOf;
     labelHashSet points;
 
     for (const polyPatch& pp : mesh_.boundaryMesh())
@@ -25,17 +21,16 @@ Foam::labelHashSet Foam::baffleSides::bafflePoints() const
         for (label i = 0; i < nFaces; ++i)
         {
             const face& f = pp[i];
-            label& lastHere = last[*std::min_element(f.begin(), f.end())];
+            DynamicList<label>& others = facesOf(min(f));
 
-            for (label other = lastHere; other >= 0; other = before[other])
+            for (const label other : others)
             {
                 if (face::sameVertices(mesh_.faces()[other], f))
                 {
                     points.insert(f);
                 }
             }
-            before[pp.start() + i] = lastHere;
-            lastHere = pp.start() + i;
+            others.append(pp.start() + i);
         }
     }
 

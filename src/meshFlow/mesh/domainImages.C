@@ -128,15 +128,13 @@ Foam::domainImages::domainImages
         return;
     }
 
-    DynamicList<seam> seams;
     for (const polyPatch& pp : mesh.boundaryMesh())
     {
         if (isSeam(pp) && pp.size() && !unreached.found(pp.index()))
         {
-            seams.append(isMirror(pp) ? symmetry(pp) : translational(pp));
+            seams_.append(isMirror(pp) ? symmetry(pp) : translational(pp));
         }
     }
-    seams_.transfer(seams);
 }
 
 

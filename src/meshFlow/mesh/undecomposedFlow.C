@@ -187,12 +187,7 @@ const Foam::tetDecomposition& Foam::undecomposedFlow::decomposition() const
 
 Foam::labelList Foam::undecomposedFlow::localCells() const
 {
-    labelList cells(nCells_, -1);
-    forAll(cellAddressing_, celli)
-    {
-        cells[cellAddressing_[celli]] = celli;
-    }
-    return cells;
+    return invert(nCells_, cellAddressing_);
 }
 
 

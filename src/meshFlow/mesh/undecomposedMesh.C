@@ -196,8 +196,7 @@ void Foam::undecomposedFlow::makeAddressing()
     }
     std::sort(inner.begin(), inner.end());
 
-    faceAddressing_.setSize(part_.nFaces());
-    faceAddressing_ = -1;
+    faceAddressing_ = labelList(part_.nFaces(), -1);
     const globalIndex innerFaces(inner.size());
     for (std::size_t i = 0; i < inner.size(); ++i)
     {
