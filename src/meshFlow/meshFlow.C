@@ -129,7 +129,7 @@ const Foam::tetFlow& Foam::meshFlow::flowIn
         (
             c.gradient,
             vertex,
-            values.excess[c.tet].flux,
+            values.excess[c.tet].cdata(),
             values.straight[c.tet]
         );
     }
@@ -202,8 +202,6 @@ Foam::meshFlow::meshFlow
     scheme_(scheme),
     pressure_(pressure),
     unsteady_(unsteady),
-    start_(0),
-    end_(0),
     fluxes_(new cellFluxes(tets_)),
     images_(undecomposed.mesh(), unreached)
 {

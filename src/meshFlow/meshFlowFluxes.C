@@ -117,25 +117,14 @@ namespace Foam
         const bitSet& fixed
     )
     {
-        bool isFixed[4] = {};
-        label nFixed = 0;
-        for (label a = 1; a < 4; ++a)
-        {
-            isFixed[a] = fixed.test(tet.vertices[a]);
-            nFixed += isFixed[a];
-        }
-
         label straight = 0;
         label edgei = 3;
-        for (label a = 1; nFixed > 1 && a < 3; ++a)
+        for (label a = 1; a < 3; ++a)
         {
             for (label b = a + 1; b < 4; ++b, ++edgei)
             {
-                if
-                (
-                    isFixed[a] && isFixed[b]
-                 && edges.found(edge(tet.vertices[a], tet.vertices[b]))
-                )
+                const edge e(tet.vertices[a], tet.vertices[b]);
+                if (fixed.test(e[0]) && fixed.test(e[1]) && edges.found(e))
                 {
                     straight |= 1 << edgei;
                 }
@@ -243,8 +232,8 @@ namespace Foam
 
                 for (label i = 1; i < 4; ++i)
                 {
-                    free.insert(tet.vertices[i], symmTensor(symmTensor::I));
-                    symmTensor& P = free[tet.vertices[i]];
+                    symmTensor& P =
+                        free(tet.vertices[i], symmTensor(symmTensor::I));
 
                     // Of another plane than those before
                     const vector n(P & (S/mag(S)));

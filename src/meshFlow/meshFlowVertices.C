@@ -11,7 +11,6 @@ Description
 #include "meshFlow.H"
 #include "bitSet.H"
 #include "checkFinite.H"
-#include "DynamicList.H"
 #include "fvcGrad.H"
 #include "tetDecomposition.H"
 #include "transform.H"

@@ -24,8 +24,8 @@ namespace Foam
     //  images by where they are, too
     class takenOnce
     {
-        label celli_;
-        scalar length_;
+        label celli_ = -1;
+        scalar length_ = 0;
         labelList takenFor_;
         DynamicList<Tuple2<label, point>> beyond_;
 
@@ -33,8 +33,6 @@ namespace Foam
 
         explicit takenOnce(const label n)
         :
-            celli_(-1),
-            length_(0),
             takenFor_(n, -1)
         {}
 
@@ -125,16 +123,14 @@ namespace Foam
         const volVectorField& U_;
         const polyMesh& mesh_;
         const pointField& centres_;
-        const labelListList& pointCells_;
-        const labelListList& cellPoints_;
         const baffleSides& baffles_;
         const pointImages& images_;
         const wallsAtVertices& walls_;
         const symmTensorField M_;
 
         //- For one mesh cell and its size [m]
-        label celli_;
-        scalar length_;
+        label celli_ = -1;
+        scalar length_ = 0;
         curvatureFit equations_;
         takenOnce cells_;
         takenOnce faces_;
@@ -176,7 +172,7 @@ namespace Foam
             const label vertexi =
                 image ? pointi : baffles_.vertex(pointi, celli_);
 
-            for (const label other : pointCells_[pointi])
+            for (const label other : mesh_.pointCells()[pointi])
             {
                 const point& x = centres_[other];
                 if
@@ -211,14 +207,10 @@ namespace Foam
             U_(U),
             mesh_(U.mesh()),
             centres_(mesh_.cellCentres()),
-            pointCells_(mesh_.pointCells()),
-            cellPoints_(mesh_.cellPoints()),
             baffles_(baffles),
             images_(images),
             walls_(walls),
             M_(secondMoments(mesh_)),
-            celli_(-1),
-            length_(0),
             cells_(mesh_.nCells()),
             faces_(mesh_.nFaces())
         {}
@@ -233,7 +225,7 @@ namespace Foam
             faces_.start(celli, length_);
             cells_.take(celli, centres_[celli], nullptr);
 
-            for (const label pointi : cellPoints_[celli])
+            for (const label pointi : mesh_.cellPoints()[celli])
             {
                 addAt(pointi, nullptr);
                 for (const pointImage& from : images_.at(pointi))

@@ -215,10 +215,7 @@ void Foam::cellFluxes::solve()
 
 Foam::cellFluxes::cellFluxes(const UList<flowTet>& tets)
 :
-    tets_(tets),
-    first_(0),
-    n_(0),
-    nPairs_(0)
+    tets_(tets)
 {}
 
 
@@ -300,7 +297,7 @@ void Foam::cellFluxes::spread
                 gradientUnit*potential[i]*byCentre[(3 + k)*stride + i];
         }
 
-        scalar* flux = values.excess[first + i].flux;
+        flowTetExcess& flux = values.excess[first + i];
         flux[0] = values.outwards[first + i];
         for (label k = 1; k < 4; ++k)
         {
