@@ -6,84 +6,90 @@
 #include "pointImages.H"
 #include "wallPolyPatch.H"
 
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
-Foam::labelHashSet Foam::baffleSides::bafflePoints() const
+namespace Foam
 {
-    // The faces of walls by their lowest point
-    Map<DynamicList<label>> facesOf;
-    labelHashSet points;
-
-    for (const polyPatch& pp : mesh_.boundaryMesh())
+    //- Points of walls that lie back to back
+    static labelHashSet bafflePoints(const polyMesh& mesh)
     {
-        const label nFaces = isA<wallPolyPatch>(pp) ? pp.size() : 0;
+        // The faces of walls by their lowest point
+        Map<DynamicList<label>> facesOf;
+        labelHashSet points;
 
-        for (label i = 0; i < nFaces; ++i)
+        for (const polyPatch& pp : mesh.boundaryMesh())
         {
-            const face& f = pp[i];
-            DynamicList<label>& others = facesOf(min(f));
+            const label nFaces = isA<wallPolyPatch>(pp) ? pp.size() : 0;
 
-            for (const label other : others)
+            for (label i = 0; i < nFaces; ++i)
             {
-                if (face::sameVertices(mesh_.faces()[other], f))
+                const face& f = pp[i];
+                DynamicList<label>& others = facesOf(min(f));
+
+                for (const label other : others)
                 {
-                    points.insert(f);
+                    if (face::sameVertices(mesh.faces()[other], f))
+                    {
+                        points.insert(f);
+                    }
+                }
+                others.append(pp.start() + i);
+            }
+        }
+
+        return points;
+    }
+
+    //- The group of each mesh cell around points that are one: the lowest that
+    //  it is connected with by faces that have one of them
+    static Map<label> groups(const polyMesh& mesh, const UList<label>& points)
+    {
+        const polyBoundaryMesh& patches = mesh.boundaryMesh();
+        Map<label> group;
+        DynamicList<labelPair> pairs;
+        for (const label pointi : points)
+        {
+            for (const label facei : mesh.pointFaces()[pointi])
+            {
+                const label own = mesh.faceOwner()[facei];
+                const label patchi = patches.whichPatch(facei);
+                group.insert(own, own);
+                if (patchi < 0)
+                {
+                    pairs.append(labelPair(own, mesh.faceNeighbour()[facei]));
+                }
+                else if (points.size() > 1)
+                {
+                    const auto* half = isA<cyclicPolyPatch>(patches[patchi]);
+                    if (half)
+                    {
+                        const polyPatch& other = half->neighbPatch();
+                        const label i = facei - half->start();
+                        pairs.append(labelPair(own, other.faceCells()[i]));
+                    }
                 }
             }
-            others.append(pp.start() + i);
         }
-    }
+        for (bool changed = true; changed;)
+        {
+            changed = false;
 
-    return points;
+            for (const labelPair& pair : pairs)
+            {
+                label& b = group(pair.second(), pair.second());
+                label& a = group[pair.first()];
+
+                changed = changed || a != b;
+                a = b = min(a, b);
+            }
+        }
+
+        return group;
+    }
 }
 
 
-Foam::Map<Foam::label> Foam::baffleSides::groups
-(
-    const UList<label>& points
-) const
-{
-    const polyBoundaryMesh& patches = mesh_.boundaryMesh();
-    Map<label> group;
-    DynamicList<labelPair> pairs;
-    for (const label pointi : points)
-    {
-        for (const label facei : mesh_.pointFaces()[pointi])
-        {
-            const label own = mesh_.faceOwner()[facei];
-            const label patchi = patches.whichPatch(facei);
-            group.insert(own, own);
-            if (patchi < 0)
-            {
-                pairs.append(labelPair(own, mesh_.faceNeighbour()[facei]));
-            }
-            else if (points.size() > 1 && isA<cyclicPolyPatch>(patches[patchi]))
-            {
-                const label i = facei - patches[patchi].start();
-                const polyPatch& other =
-                    refCast<const cyclicPolyPatch>(patches[patchi])
-                   .neighbPatch();
-                pairs.append(labelPair(own, other.faceCells()[i]));
-            }
-        }
-    }
-    for (bool changed = true; changed;)
-    {
-        changed = false;
-
-        for (const labelPair& pair : pairs)
-        {
-            label& b = group(pair.second(), pair.second());
-            label& a = group[pair.first()];
-
-            changed = changed || a != b;
-            a = b = min(a, b);
-        }
-    }
-
-    return group;
-}
-
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::baffleSides::split
 (
@@ -91,7 +97,7 @@ void Foam::baffleSides::split
     pointImages& images
 )
 {
-    const Map<label> group(groups(points));
+    const Map<label> group(groups(mesh_, points));
     Map<DynamicList<label>> verticesOf;
     for (const label celli : group.sortedToc())
     {
@@ -143,7 +149,7 @@ Foam::baffleSides::baffleSides(const polyMesh& mesh, pointImages& images)
     mesh_(mesh)
 {
     labelHashSet done;
-    for (const label pointi : bafflePoints().sortedToc())
+    for (const label pointi : bafflePoints(mesh).sortedToc())
     {
         labelList points(images.with(pointi));
         if (points.empty())

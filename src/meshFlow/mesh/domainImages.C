@@ -32,86 +32,85 @@ namespace Foam
             << " comes there, unreached (" << pp.name() << ");"
             << exit(FatalError);
     }
-}
 
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-Foam::domainImages::seam Foam::domainImages::symmetry(const polyPatch& pp)
-{
-    const pointField& points = pp.boundaryMesh().mesh().points();
-    vector n(sum(vectorField(pp.faceAreas())));
-    n /= max(mag(n), VSMALL);
-
-    // Exactly along an axis if it is so but for rounding
-    for (scalar& component : n.v_)
+    //- A plane of symmetry. Ends the run if it is none.
+    static domainImages::seam symmetry(const polyPatch& pp)
     {
-        component = mag(component) < 1e-9 ? 0 : component;
+        const pointField& points = pp.boundaryMesh().mesh().points();
+        vector n(sum(vectorField(pp.faceAreas())));
+        n /= max(mag(n), VSMALL);
+
+        // Exactly along an axis if it is so but for rounding
+        for (scalar& component : n.v_)
+        {
+            component = mag(component) < 1e-9 ? 0 : component;
+        }
+        n /= mag(n);
+
+        const scalarField heights(pp.localPoints() & n);
+        const scalar size = boundBox(points, false).mag();
+
+        if (max(heights) - min(heights) > offness*size)
+        {
+            refuse
+            (
+                pp,
+                "not plane",
+                "Make each plane a patch of its own, and curved ones walls"
+            );
+        }
+
+        const scalar height = 0.5*(max(heights) + min(heights));
+        if (max(points & n) - height > offness*size)
+        {
+            refuse
+            (
+                pp,
+                "the mesh lies on both sides of its plane",
+                "Mesh the whole, or the part on one side"
+            );
+        }
+
+        const point x(height*n);
+        return domainImages::seam{pp.index(), isometry::mirror(x, n), x, n};
     }
-    n /= mag(n);
 
-    const scalarField heights(pp.localPoints() & n);
-    const scalar size = boundBox(points, false).mag();
-
-    if (max(heights) - min(heights) > offness*size)
+    //- A cyclic patch. Ends the run if it is not moved along.
+    static domainImages::seam translational(const polyPatch& pp)
     {
-        refuse
+        const cyclicPolyPatch& half = refCast<const cyclicPolyPatch>(pp);
+        const cyclicPolyPatch& other = half.neighbPatch();
+
+        const vectorField shifts(other.faceCentres() - half.faceCentres());
+        vector shift(sum(shifts)/scalar(half.size()));
+        const pointField& points = half.boundaryMesh().mesh().points();
+        const scalar size = boundBox(points, false).mag();
+
+        // Halves that lie on one another are a membrane within the device
+        if (mag(shift) < offness*size)
+        {
+            shift = Zero;
+        }
+        if (max(mag(shifts - shift)) > offness*size)
+        {
+            refuse
+            (
+                pp,
+                "its other half is turned against it",
+                "One half has to be the other moved along; mesh the whole"
+            );
+        }
+
+        // Back the same way to the last bit
+        const isometry inward
         (
-            pp,
-            "not plane",
-            "Make each plane a patch of its own, and curved ones walls"
+            half.owner()
+          ? isometry::translation(shift)
+          : translational(other).inward.inverse()
         );
+
+        return domainImages::seam{pp.index(), inward, Zero, Zero};
     }
-
-    const scalar height = 0.5*(max(heights) + min(heights));
-    if (max(points & n) - height > offness*size)
-    {
-        refuse
-        (
-            pp,
-            "the mesh lies on both sides of its plane",
-            "Mesh the whole, or the part on one side"
-        );
-    }
-
-    const point x(height*n);
-    return seam{pp.index(), isometry::mirror(x, n), x, n};
-}
-
-
-Foam::domainImages::seam Foam::domainImages::translational(const polyPatch& pp)
-{
-    const cyclicPolyPatch& half = refCast<const cyclicPolyPatch>(pp);
-    const cyclicPolyPatch& other = half.neighbPatch();
-
-    const vectorField shifts(other.faceCentres() - half.faceCentres());
-    vector shift(sum(shifts)/scalar(half.size()));
-    const pointField& points = half.boundaryMesh().mesh().points();
-    const scalar size = boundBox(points, false).mag();
-
-    // Halves that lie on one another are a membrane within the device
-    if (mag(shift) < offness*size)
-    {
-        shift = Zero;
-    }
-    if (max(mag(shifts - shift)) > offness*size)
-    {
-        refuse
-        (
-            pp,
-            "its other half is turned against it",
-            "One half has to be the other moved along; mesh the whole"
-        );
-    }
-
-    // Back the same way to the last bit
-    if (!half.owner())
-    {
-        const isometry there(translational(other).inward);
-        return seam{pp.index(), there.inverse(), Zero, Zero};
-    }
-
-    return seam{pp.index(), isometry::translation(shift), Zero, Zero};
 }
 
 
