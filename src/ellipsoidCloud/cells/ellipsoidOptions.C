@@ -198,13 +198,11 @@ void Foam::ellipsoidProperties::readOptions()
         }
     }
 
-    const double* d = options_.dipole;
-
     if
     (
         electricField::isNamed(section("forces"))
      && external.empty() && options_.charge == 0
-     && d[0] == 0 && d[1] == 0 && d[2] == 0
+     && pointOf(options_.dipole) == vector::zero
     )
     {
         IOWarningInFunction(section("forces"))

@@ -176,22 +176,19 @@ void Foam::undecomposedFlow::makeAddressing()
     forAll(part_.faces(), facei)
     {
         const label owner = cellAddressing_[part_.faceOwner()[facei]];
-        const label patchi = patches.whichPatch(facei);
+        label other = -1;
 
-        if (patchi < 0)
+        if (part_.isInternalFace(facei))
         {
-            inner.push_back
-            ({
-                owner, cellAddressing_[part_.faceNeighbour()[facei]], facei
-            });
+            other = cellAddressing_[part_.faceNeighbour()[facei]];
         }
-        else if (isA<processorPolyPatch>(patches[patchi]))
+        else if (isA<processorPolyPatch>(patches[patches.whichPatch(facei)]))
         {
-            const label other = across[facei - part_.nInternalFaces()];
-            if (owner < other)
-            {
-                inner.push_back({owner, other, facei});
-            }
+            other = across[facei - part_.nInternalFaces()];
+        }
+        if (owner < other)
+        {
+            inner.push_back({owner, other, facei});
         }
     }
     std::sort(inner.begin(), inner.end());
@@ -215,10 +212,8 @@ void Foam::undecomposedFlow::makeAddressing()
         nBefore += patchFaces.size();
     }
 
-    forAll(across, i)
-    {
-        across[i] = faceAddressing_[part_.nInternalFaces() + i];
-    }
+    across =
+        SubList<label>(faceAddressing_, across.size(), part_.nInternalFaces());
     syncTools::swapBoundaryFaceList(part_, across);
     turned_.resize(part_.nFaces());
     forAll(across, i)
