@@ -85,7 +85,6 @@ void Foam::meshFlow::sampleOf
 
     sample.velocity =
         velocityOf(values, c, derivatives ? &sample.derivatives : nullptr);
-    balance(values, c.vertices[0]);
     sample.gradient = c.back(c.value<tensor>(gradient));
 
     if (derivatives)

@@ -427,10 +427,6 @@ void Foam::meshFlow::balance
     const label celli
 ) const
 {
-    if (scheme_ != stDivergenceFree)
-    {
-        return;
-    }
     direction* balanced = &values.balanced[celli];
     if (__atomic_load_n(balanced, __ATOMIC_ACQUIRE))
     {
