@@ -11,13 +11,16 @@ export BUILD=$source/build/tests/tracers
 # benchmark may build it, too
 builds()
 {
-    mkdir -p "$BUILD/program" && cd "$BUILD/program" || return
+    mkdir -p "$BUILD/program/whole" && cd "$BUILD/program" || return
     (
         flock 9 && cp -au "$source"/tests/benchmarks/tracers/* . || exit
         # Only once, or it is linked again while another test runs it
         if grep -q '\.\./\.\./\.\.' Make/options; then
             # It takes longer to optimise than to run
             sed -i "s|../../..|$source|" Make/options && echo "c++OPT = -O0" >> Make/options || exit
+            # OpenFOAM's headers are most of each file: they are read once
+            sed -n 's|^\(.*\.C\)$|#include "../\1"|p' Make/files > whole/whole.C \
+                && sed -i -e '1i whole/whole.C' -e '/\.C$/d' Make/files || exit
         fi
         wmake
     ) 9>> "$BUILD/lock"
