@@ -13,10 +13,7 @@ static void add_pressure_gradient(const ellipsoid_model *m,
 {
     if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
     {
-        for (int i = 0; i < 3; i++)
-        {
-            force[i] -= m->volume * flow->pressure_gradient[i];
-        }
+        ellipsoid_add_times(force, -m->volume, flow->pressure_gradient);
     }
 }
 
@@ -31,29 +28,24 @@ static void add_pressure_gradient_blocks(const ellipsoid_model *m, int unsteady,
         if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_DUDT)
         {
             const double *g = flow->gradient[i];
-            double of_gradient[3], of_velocity[3];
+            double change[3], of_velocity[3];
 
             ellipsoid_combination(flow->gradient_jacobian[i], u[0], u[1], u[2],
-                                  of_gradient);
+                                  change);
             ellipsoid_combination(flow->velocity_jacobian, g[0], g[1], g[2],
                                   of_velocity);
-            for (int l = 0; l < 3; l++)
+            ellipsoid_add(change, of_velocity);
+            ellipsoid_add_times(b->ux[i], m->fluid_mass, change);
+            if (unsteady)
             {
-                b->ux[i][l] +=
-                    m->fluid_mass * (of_gradient[l] + of_velocity[l]);
-            }
-            for (int l = 0; unsteady && l < 3; l++)
-            {
-                b->ux[i][l] +=
-                    m->fluid_mass * flow->acceleration_jacobian[i][l];
+                ellipsoid_add_times(b->ux[i], m->fluid_mass,
+                                    flow->acceleration_jacobian[i]);
             }
         }
         else if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
         {
-            for (int l = 0; l < 3; l++)
-            {
-                b->ux[i][l] -= m->volume * flow->pressure_jacobian[i][l];
-            }
+            ellipsoid_add_times(b->ux[i], -m->volume,
+                                flow->pressure_jacobian[i]);
         }
     }
 }
