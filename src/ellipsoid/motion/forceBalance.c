@@ -352,9 +352,10 @@ static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
     return status;
 }
 
-ellipsoid_status ellipsoid_friction_balance(ellipsoid_group *g,
-                                            ellipsoid_evaluation *points,
-                                            int with_blocks)
+/* One cell or several whose contacts depend on the velocities that are to be
+   balanced. */
+static ellipsoid_status balance(ellipsoid_group *g,
+                                ellipsoid_evaluation *points, int with_blocks)
 {
     ellipsoid_smoothed_model alone;
     ellipsoid_status status;
@@ -384,6 +385,19 @@ ellipsoid_status ellipsoid_friction_balance(ellipsoid_group *g,
         ellipsoid_set_no_rates(&points[cell].derivative);
     }
     return status;
+}
+
+ellipsoid_status ellipsoid_group_evaluate(ellipsoid_group *g, double t,
+                                          ellipsoid_evaluation *points,
+                                          int balanced, int with_blocks)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        g->cell[cell].surroundings.time = t;
+    }
+    return balanced && g->dissipative
+             ? balance(g, points, with_blocks)
+             : ellipsoid_group_evaluate_once(g, points, balanced, with_blocks);
 }
 
 ellipsoid_status

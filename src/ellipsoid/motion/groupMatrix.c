@@ -2,9 +2,9 @@
    Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
 /*
-    groupMatrix.c - the linear systems of a Rosenbrock step of several cells.
+    groupMatrix.c - the linear systems of a Rosenbrock step of a group.
 
-    x and q of each cell are eliminated as for one alone (stageMatrix.c). What
+    That of a cell alone is in stageMatrix.c. Of several, x and q of each cell are eliminated likewise. What
     is left has a 6x6 block on the diagonal for each cell and two beside it for
     each pair that touches. It is factorised by Gauss without exchange of rows,
     M = L U by blocks, and absent blocks stay absent but for fill-in: contact
@@ -122,11 +122,16 @@ static int factorise(const ellipsoid_group *g, int *used)
     return 1;
 }
 
-int ellipsoid_group_matrix_prepare(ellipsoid_group *g, double per_g)
+int ellipsoid_group_prepare(ellipsoid_group *g, double per_g)
 {
     ellipsoid_pairs *pairs = g->pairs;
     int used = 0;
 
+    if (!pairs)
+    {
+        return ellipsoid_stage_matrix_prepare(
+            g->system, g->start, g->inertial || g->cell[0].fixed, per_g);
+    }
     for (int n = 0; n < g->count * g->count; n++)
     {
         pairs->block[n] = -1;
@@ -194,7 +199,8 @@ static void set_rates(const ellipsoid_group *g, int stage)
     }
 }
 
-void ellipsoid_group_matrix_solve(const ellipsoid_group *g, int stage)
+/* Solves for all cells of several, right-hand sides in place. */
+static void solve(const ellipsoid_group *g, int stage)
 {
     double(*rates)[6] = g->pairs->rates;
 
@@ -226,6 +232,16 @@ void ellipsoid_group_matrix_solve(const ellipsoid_group *g, int stage)
         }
         add_vector(1, block_at(g, row, row), rates[row], solution);
         memcpy(rates[row], solution, sizeof(solution));
-        ellipsoid_stage_matrix_finish(&g->system[row], solution, k, k);
+        ellipsoid_stage_matrix_finish(&g->system[row], solution, k);
     }
+}
+
+void ellipsoid_group_solve(const ellipsoid_group *g, int stage)
+{
+    if (g->pairs)
+    {
+        solve(g, stage);
+        return;
+    }
+    ellipsoid_stage_matrix_solve(g->system, g->stages->k[stage]);
 }

@@ -2,7 +2,8 @@
    Copyright (C) 2026 the ellipsoidTrapFoam authors */
 
 /*
-    groupRhs.c - the equations of several cells, contacts between them included.
+    groupRhs.c - the equations of the cells of a group, contacts between them
+    included.
 */
 #include "motion/motion.h"
 
@@ -12,10 +13,13 @@ static ellipsoid_status evaluate(ellipsoid_group *g,
 {
     for (int cell = 0; cell < g->count; cell++)
     {
-        const ellipsoid_status status = ellipsoid_cell_evaluate(
-            &g->cell[cell], &points[cell], balanced, with_blocks);
+        const ellipsoid_cell *p = &g->cell[cell];
+        const ellipsoid_status status =
+            ellipsoid_evaluate(p, &points[cell], balanced, with_blocks);
 
-        if (status != ELLIPSOID_OK)
+        p->statistics->rhs++;
+        p->statistics->jacobians += with_blocks != 0;
+        if (status != ELLIPSOID_OK || !g->pairs)
         {
             g->failed = cell;
             return status;
@@ -24,15 +28,15 @@ static ellipsoid_status evaluate(ellipsoid_group *g,
     return ellipsoid_add_group_contacts(g, points, balanced, with_blocks);
 }
 
-/* Balanced, the derivatives depend on velocities that all contacts decide:
-   these come first. */
-ellipsoid_status ellipsoid_group_rhs(ellipsoid_group *g,
-                                     ellipsoid_evaluation *points, int balanced,
-                                     int with_blocks)
+/* Balanced, the derivatives of several depend on velocities that all contacts
+   decide: these come first. */
+ellipsoid_status ellipsoid_group_evaluate_once(ellipsoid_group *g,
+                                               ellipsoid_evaluation *points,
+                                               int balanced, int with_blocks)
 {
     ellipsoid_status status;
 
-    if (!balanced || !with_blocks)
+    if (!balanced || !with_blocks || !g->pairs)
     {
         return evaluate(g, points, balanced, with_blocks);
     }

@@ -164,12 +164,12 @@ int ellipsoid_stage_matrix_prepare(ellipsoid_stage_matrix *system,
                                    const ellipsoid_evaluation *start,
                                    int inertial, double per_g);
 
-/* r and k may be the same. */
+/* k is r before. */
 void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *system,
-                                  const double r[UNKNOWNS], double k[UNKNOWNS]);
+                                  double k[UNKNOWNS]);
 
 /* The same by parts, for a group: rows against the unknowns of `column`; what
-   the cell needs for k_x and k_q; k from r and (k_u, k_omega). */
+   the cell needs for k_x and k_q; k from r, in place, and (k_u, k_omega). */
 void ellipsoid_stage_matrix_reduce(const ellipsoid_jacobian_blocks *blocks,
                                    const ellipsoid_state *column, double per_g,
                                    ellipsoid_reduced *reduced);
@@ -177,9 +177,7 @@ void ellipsoid_stage_matrix_kinematics(ellipsoid_stage_matrix *system,
                                        const ellipsoid_state *state,
                                        double per_g);
 void ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *system,
-                                   const double rates[6],
-                                   const double r[UNKNOWNS],
-                                   double k[UNKNOWNS]);
+                                   const double rates[6], double k[UNKNOWNS]);
 
 /* A step as planned. */
 typedef struct ellipsoid_plan
@@ -280,22 +278,6 @@ static inline void ellipsoid_stages_sample(ellipsoid_stages *stages, int stage,
         fmin(fmax(at->contact.gap, 0), 0.5 * fmax(at->contact.cell_gap, 0));
 }
 
-/* ellipsoid_evaluate() for one cell, counted. */
-static inline ellipsoid_status ellipsoid_cell_evaluate(const ellipsoid_cell *p,
-                                                       ellipsoid_evaluation *at,
-                                                       int balanced,
-                                                       int with_blocks)
-{
-    p->statistics->rhs++;
-    p->statistics->jacobians += with_blocks != 0;
-    return ellipsoid_evaluate(p, at, balanced, with_blocks);
-}
-
-/* For several cells, contacts between them included (groupRhs.c). */
-ellipsoid_status ellipsoid_group_rhs(ellipsoid_group *group,
-                                     ellipsoid_evaluation *points, int balanced,
-                                     int with_blocks);
-
 /* For one cell with drag, its velocities set to those that balance. */
 ellipsoid_status
 ellipsoid_force_balance(const ellipsoid_model *model,
@@ -303,45 +285,21 @@ ellipsoid_force_balance(const ellipsoid_model *model,
                         ellipsoid_state *state, ellipsoid_facet_cache *cache,
                         ellipsoid_state *derivative);
 
-/* Likewise, for one cell or several whose contacts depend on the velocities
-   that are to be balanced (forceBalance.c). */
-ellipsoid_status ellipsoid_friction_balance(ellipsoid_group *group,
-                                            ellipsoid_evaluation *points,
-                                            int with_blocks);
-
 /* Expands the drag near walls about the start, or no longer (rosenbrock.c). */
 void ellipsoid_expand_about_start(ellipsoid_group *group, int expanded);
 
-/* As below, for contacts that do not depend on velocities, or not balanced. */
-static inline ellipsoid_status
-ellipsoid_group_evaluate_once(ellipsoid_group *g, ellipsoid_evaluation *points,
-                              int balanced, int with_blocks)
-{
-    if (g->pairs)
-    {
-        return ellipsoid_group_rhs(g, points, balanced, with_blocks);
-    }
-    g->failed = 0;
-    return ellipsoid_cell_evaluate(g->cell, points, balanced, with_blocks);
-}
+/* Evaluates the equations at the time t in the states of all points, contacts
+   between cells included; balanced: u and omega are set first; with_blocks: and
+   the Jacobian, with couplings (forceBalance.c). */
+ellipsoid_status ellipsoid_group_evaluate(ellipsoid_group *group, double t,
+                                          ellipsoid_evaluation *points,
+                                          int balanced, int with_blocks);
 
-/* Evaluates the equations at the time t in the states of all points; balanced: u
-   and omega are set first; with_blocks: and the Jacobian, with couplings. */
-static inline ellipsoid_status
-ellipsoid_group_evaluate(ellipsoid_group *g, double t,
-                         ellipsoid_evaluation *points, int balanced,
-                         int with_blocks)
-{
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        g->cell[cell].surroundings.time = t;
-    }
-    if (balanced && g->dissipative)
-    {
-        return ellipsoid_friction_balance(g, points, with_blocks);
-    }
-    return ellipsoid_group_evaluate_once(g, points, balanced, with_blocks);
-}
+/* Likewise at the time that is set, for contacts that do not depend on velocities,
+   or not balanced (groupRhs.c). */
+ellipsoid_status ellipsoid_group_evaluate_once(ellipsoid_group *group,
+                                               ellipsoid_evaluation *points,
+                                               int balanced, int with_blocks);
 
 /* Where an advance begins no step is short enough for an answer (advance.c). */
 ellipsoid_status ellipsoid_status_at_start(ellipsoid_status status);
@@ -367,37 +325,16 @@ ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *group,
                                               ellipsoid_evaluation *points,
                                               int balanced, int with_blocks);
 
-/* The linear system of several cells: that of each, coupled by contacts. It is
-   solved for stages k_i in place. 0 if it is singular (groupMatrix.c). */
-int ellipsoid_group_matrix_prepare(ellipsoid_group *group, double per_g);
-void ellipsoid_group_matrix_solve(const ellipsoid_group *group, int stage);
+/* The linear system of a step, that of each cell coupled by contacts. It is solved
+   for a stage k_i in place. 0 if it is singular (groupMatrix.c). */
+int ellipsoid_group_prepare(ellipsoid_group *group, double per_g);
+void ellipsoid_group_solve(const ellipsoid_group *group, int stage);
 
 static inline const ellipsoid_rosenbrock_table *
 ellipsoid_rosenbrock_set_of(const ellipsoid_group *g)
 {
     return g->piecewise && !g->inertial ? &ellipsoid_rosenbrock_third
                                         : &ellipsoid_rosenbrock_set;
-}
-
-static inline int ellipsoid_group_prepare(ellipsoid_group *g, double per_g)
-{
-    return g->pairs
-             ? ellipsoid_group_matrix_prepare(g, per_g)
-             : ellipsoid_stage_matrix_prepare(
-                 g->system, g->start, g->inertial || g->cell[0].fixed, per_g);
-}
-
-static inline void ellipsoid_group_solve(const ellipsoid_group *g, int stage)
-{
-    if (g->pairs)
-    {
-        ellipsoid_group_matrix_solve(g, stage);
-        return;
-    }
-
-    double *k = g->stages->k[stage];
-
-    ellipsoid_stage_matrix_solve(g->system, k, k);
 }
 
 /* sum_j<count weight[j] k_j, of the components from `first` on. */

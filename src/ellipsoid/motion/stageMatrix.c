@@ -82,14 +82,16 @@ static inline void reduce_row(const elimination *e, int row,
     to->rates[5][row] = coupling(turned, q, 2, 0, 1) - of_w[2];
 }
 
-static inline void reduce(const elimination *e,
-                          const ellipsoid_jacobian_blocks *b,
-                          ellipsoid_reduced *to)
+void ellipsoid_stage_matrix_reduce(const ellipsoid_jacobian_blocks *b,
+                                   const ellipsoid_state *column, double per_g,
+                                   ellipsoid_reduced *to)
 {
+    const elimination e = of_step(column, per_g);
+
     for (int i = 0; i < 3; i++)
     {
-        reduce_row(e, i, b->uu[i], b->ux[i], b->uw[i], b->uq[i], to);
-        reduce_row(e, i + 3, b->wu[i], b->wx[i], b->ww[i], b->wq[i], to);
+        reduce_row(&e, i, b->uu[i], b->ux[i], b->uw[i], b->uq[i], to);
+        reduce_row(&e, i + 3, b->wu[i], b->wx[i], b->ww[i], b->wq[i], to);
     }
 }
 
@@ -109,26 +111,26 @@ static inline void apply_inverse(double inverse[6][6], const double column[6],
     }
 }
 
-static void fill_quaternion_part(const elimination *e,
-                                 ellipsoid_stage_matrix *s)
+void ellipsoid_stage_matrix_kinematics(ellipsoid_stage_matrix *s,
+                                       const ellipsoid_state *state,
+                                       double per_g)
 {
-    const double *q = e->state->q;
-    const double spin[3][4] = {
-        {0.5 * q[3], 0.5 * q[2], -0.5 * q[1], -0.5 * q[0]},
-        {-0.5 * q[2], 0.5 * q[3], 0.5 * q[0], -0.5 * q[1]},
-        {0.5 * q[1], -0.5 * q[0], 0.5 * q[3], -0.5 * q[2]}};
-    const double *w = e->state->omega;
-    const double c = e->per_square, d = c * e->g;
-    const double a0 = 0.5 * c * w[0], a1 = 0.5 * c * w[1], a2 = 0.5 * c * w[2];
-    const double table[4][4] = {{d, -a2, a1, -a0},
-                                {a2, d, -a0, -a1},
-                                {-a1, a0, d, -a2},
-                                {a0, a1, a2, d}};
+    const elimination e = of_step(state, per_g);
 
-    memcpy(s->q_from_q, table, sizeof(table));
-    for (int i = 0; i < 3; i++)
+    s->per_g = per_g;
+    for (int n = 0; n < 4; n++)
     {
-        turn(e, 1, spin[i], s->q_from_w[i]);
+        const double unit[4] = {n == 0, n == 1, n == 2, n == 3};
+
+        turn(&e, 1, unit, s->q_from_q[n]);
+    }
+    for (int n = 0; n < 3; n++)
+    {
+        const double half[3] = {0.5 * (n == 0), 0.5 * (n == 1), 0.5 * (n == 2)};
+        double spin[4];
+
+        ellipsoid_spin(half, state->q, spin);
+        turn(&e, 1, spin, s->q_from_w[n]);
     }
 }
 
@@ -136,19 +138,18 @@ int ellipsoid_stage_matrix_prepare(ellipsoid_stage_matrix *s,
                                    const ellipsoid_evaluation *start,
                                    int inertial, double per_g)
 {
-    const elimination e = of_step(&start->state, per_g);
     ellipsoid_reduced reduced;
 
-    reduce(&e, &start->blocks, &reduced);
+    ellipsoid_stage_matrix_reduce(&start->blocks, &start->state, per_g,
+                                  &reduced);
     for (int n = 0; inertial && n < 6; n++)
     {
-        reduced.rates[n][n] += e.g;
+        reduced.rates[n][n] += 1 / per_g;
     }
     if (!ellipsoid_invert6(reduced.rates))
     {
         return 0;
     }
-    s->per_g = e.per_g;
     memcpy(s->to_rates[AT_U], reduced.rates[0], sizeof(double[3][6]));
     memcpy(s->to_rates[AT_OMEGA], reduced.rates[3], sizeof(double[3][6]));
     for (int n = 0; n < 3; n++)
@@ -159,35 +160,34 @@ int ellipsoid_stage_matrix_prepare(ellipsoid_stage_matrix *s,
     {
         apply_inverse(reduced.rates, reduced.q[n], s->to_rates[AT_Q + n]);
     }
-    fill_quaternion_part(&e, s);
+    ellipsoid_stage_matrix_kinematics(s, &start->state, per_g);
     return 1;
 }
 
-static inline void kinematics(const ellipsoid_stage_matrix *s,
-                              const double a[6], const double r[UNKNOWNS],
-                              double k[UNKNOWNS])
+void ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *s,
+                                   const double a[6], double k[UNKNOWNS])
 {
     double q[4];
 
     for (int n = 0; n < 4; n++)
     {
-        q[n] = (s->q_from_q[0][n] * r[AT_Q] + s->q_from_q[1][n] * r[AT_Q + 1])
-             + (s->q_from_q[2][n] * r[AT_Q + 2]
-                + s->q_from_q[3][n] * r[AT_Q + 3])
+        q[n] = (s->q_from_q[0][n] * k[AT_Q] + s->q_from_q[1][n] * k[AT_Q + 1])
+             + (s->q_from_q[2][n] * k[AT_Q + 2]
+                + s->q_from_q[3][n] * k[AT_Q + 3])
              + (s->q_from_w[0][n] * a[3] + s->q_from_w[1][n] * a[4]
                 + s->q_from_w[2][n] * a[5]);
     }
     for (int i = 0; i < 3; i++)
     {
         k[AT_U + i] = a[i];
-        k[AT_X + i] = s->per_g * (r[AT_X + i] + a[i]);
+        k[AT_X + i] = s->per_g * (k[AT_X + i] + a[i]);
         k[AT_OMEGA + i] = a[i + 3];
     }
     memcpy(k + AT_Q, q, sizeof(q));
 }
 
 void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *s,
-                                  const double r[UNKNOWNS], double k[UNKNOWNS])
+                                  double k[UNKNOWNS])
 {
     double a[6];
 
@@ -195,39 +195,13 @@ void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *s,
     {
         const double(*t)[6] = s->to_rates;
 
-        a[n] = ((t[0][n] * r[0] + t[1][n] * r[1])
-                + (t[2][n] * r[2] + t[3][n] * r[3]))
-             + ((t[4][n] * r[4] + t[5][n] * r[5])
-                + (t[6][n] * r[6] + t[7][n] * r[7]))
-             + ((t[8][n] * r[8] + t[9][n] * r[9])
-                + (t[10][n] * r[10] + t[11][n] * r[11]))
-             + t[12][n] * r[12];
+        a[n] = ((t[0][n] * k[0] + t[1][n] * k[1])
+                + (t[2][n] * k[2] + t[3][n] * k[3]))
+             + ((t[4][n] * k[4] + t[5][n] * k[5])
+                + (t[6][n] * k[6] + t[7][n] * k[7]))
+             + ((t[8][n] * k[8] + t[9][n] * k[9])
+                + (t[10][n] * k[10] + t[11][n] * k[11]))
+             + t[12][n] * k[12];
     }
-    kinematics(s, a, r, k);
-}
-
-void ellipsoid_stage_matrix_reduce(const ellipsoid_jacobian_blocks *blocks,
-                                   const ellipsoid_state *column, double per_g,
-                                   ellipsoid_reduced *reduced)
-{
-    const elimination e = of_step(column, per_g);
-
-    reduce(&e, blocks, reduced);
-}
-
-void ellipsoid_stage_matrix_kinematics(ellipsoid_stage_matrix *s,
-                                       const ellipsoid_state *state,
-                                       double per_g)
-{
-    const elimination e = of_step(state, per_g);
-
-    s->per_g = e.per_g;
-    fill_quaternion_part(&e, s);
-}
-
-void ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *s,
-                                   const double rates[6],
-                                   const double r[UNKNOWNS], double k[UNKNOWNS])
-{
-    kinematics(s, rates, r, k);
+    ellipsoid_stage_matrix_finish(s, a, k);
 }
