@@ -75,9 +75,8 @@ static int is_one_release_wrong(ellipsoid_group *g, double h)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
-        if (ellipsoid_has_contact(g, cell)
-            && is_release_wrong(&g->cell[cell], &g->start[cell], &g->next[cell],
-                                h))
+        if (is_release_wrong(&g->cell[cell], &g->start[cell], &g->next[cell],
+                             h))
         {
             return 1;
         }
@@ -126,15 +125,16 @@ try_rosenbrock(ellipsoid_group *g, const ellipsoid_plan *planned, double *error)
     {
         status = solve_step(g, planned, error);
     }
-    if (status == ELLIPSOID_OK && *error <= 1)
+    if (status != ELLIPSOID_OK || *error > 1)
     {
-        g->next_has_blocks = !planned->last;
-        status = ellipsoid_group_evaluate(g, planned->end, g->next,
-                                          !g->inertial, g->next_has_blocks);
-        /* there is room for the couplings of one time only */
-        g->has_blocks = g->has_blocks && !(g->pairs && g->next_has_blocks);
+        return status;
     }
-    if (status == ELLIPSOID_OK && *error <= 1)
+    g->next_has_blocks = !planned->last;
+    status = ellipsoid_group_evaluate(g, planned->end, g->next, !g->inertial,
+                                      g->next_has_blocks);
+    /* there is room for the couplings of one time only */
+    g->has_blocks = g->has_blocks && !(g->pairs && g->next_has_blocks);
+    if (status == ELLIPSOID_OK)
     {
         status = ellipsoid_judge_expansions(g, planned->h, error);
     }

@@ -135,7 +135,7 @@ typedef struct ellipsoid_stages
     /* Where contact was evaluated, by time: poses, gap [m] that a bead may cross */
     int sampled;
     const int *in_time;
-    double x[ELLIPSOID_MAX_STAGES][3], q[ELLIPSOID_MAX_STAGES][4];
+    ellipsoid_state pose[ELLIPSOID_MAX_STAGES];
     double gap[ELLIPSOID_MAX_STAGES];
 } ellipsoid_stages;
 
@@ -267,13 +267,29 @@ static inline int ellipsoid_has_contact(const ellipsoid_group *g, int cell)
     return g->pairs != NULL || g->cell[cell].walls;
 }
 
+/* How far a point of the body goes at most from one pose to another [m]: a change
+   of q by d turns the body by 2 d. */
+static inline double ellipsoid_travel(const ellipsoid_model *model,
+                                      const ellipsoid_state *from,
+                                      const ellipsoid_state *to)
+{
+    double moved[3], turned[4];
+
+    ellipsoid_difference(to->x, from->x, moved);
+    for (int n = 0; n < 4; n++)
+    {
+        turned[n] = to->q[n] - from->q[n];
+    }
+    return ellipsoid_length(moved)
+         + 2 * model->reach * sqrt(ellipsoid_square4(turned));
+}
+
 /* A stage's pose and the gap there [m], for the guard against tunnelling: two
    cells may both move, each by half the gap between them. */
 static inline void ellipsoid_stages_sample(ellipsoid_stages *stages, int stage,
                                            const ellipsoid_evaluation *at)
 {
-    memcpy(stages->x[stage], at->state.x, sizeof(at->state.x));
-    memcpy(stages->q[stage], at->state.q, sizeof(at->state.q));
+    stages->pose[stage] = at->state;
     stages->gap[stage] =
         fmin(fmax(at->contact.gap, 0), 0.5 * fmax(at->contact.cell_gap, 0));
 }

@@ -60,17 +60,8 @@ const double *ellipsoid_nearest_image(const ellipsoid_surroundings *around,
 static int has_moved(const ellipsoid_pairs *pairs, const ellipsoid_model *model,
                      const ellipsoid_state *now, int cell)
 {
-    const ellipsoid_state *then = &pairs->listed_at[cell];
-    double move[3], turn[4];
-
-    ellipsoid_difference(now->x, then->x, move);
-    for (int n = 0; n < 4; n++)
-    {
-        turn[n] = now->q[n] - then->q[n];
-    }
-    /* |dR s| <= 2 |dq| |s| and a little for |q| that are not one */
-    return ellipsoid_length(move)
-             + 2.5 * model->reach * sqrt(ellipsoid_square4(turn))
+    /* a quarter more for |q| that are not one */
+    return 1.25 * ellipsoid_travel(model, &pairs->listed_at[cell], now)
          > 0.5 * margin * model->options.bead_radius;
 }
 

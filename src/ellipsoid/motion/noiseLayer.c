@@ -85,8 +85,7 @@ ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *g, double t,
         ellipsoid_state *after = &g->next[cell].state;
 
         if (!g->cell[cell].fixed
-            && (!ellipsoid_has_contact(g, cell)
-                || !ellipsoid_in_contact(&g->next[cell].contact)))
+            && !ellipsoid_in_contact(&g->next[cell].contact))
         {
             double slip[3], spin[3];
 
@@ -164,9 +163,8 @@ static int are_near(const ellipsoid_group *g)
             change[n] = g->next[cell].y[n] - g->start[cell].y[n];
         }
         near = displacement(p, change) <= most_displaced
-            && ellipsoid_length(change + AT_X)
-                       + 2 * p->model->reach
-                             * sqrt(ellipsoid_square4(change + AT_Q))
+            && ellipsoid_travel(p->model, &g->start[cell].state,
+                                &g->next[cell].state)
                    <= safe;
     }
     return near;

@@ -106,10 +106,7 @@ static inline void take_first_stage(ellipsoid_group *g, int count, double h,
         s->sampled = set->stages;
         s->in_time = set->in_time;
         memcpy(s->k[0], g->start[cell].slope, sizeof(s->k[0]));
-        if (ellipsoid_has_contact(g, cell))
-        {
-            ellipsoid_stages_sample(s, 0, &g->start[cell]);
-        }
+        ellipsoid_stages_sample(s, 0, &g->start[cell]);
     }
     if (g->unsteady)
     {
@@ -148,10 +145,7 @@ static inline ellipsoid_status evaluate_stage(ellipsoid_group *g, int count,
     {
         ellipsoid_stages *s = &g->stages[cell];
 
-        if (ellipsoid_has_contact(g, cell))
-        {
-            ellipsoid_stages_sample(s, stage, &at[cell]);
-        }
+        ellipsoid_stages_sample(s, stage, &at[cell]);
         for (int n = 0; n < UNKNOWNS; n++)
         {
             s->k[stage][n] += at[cell].slope[n];

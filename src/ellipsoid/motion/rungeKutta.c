@@ -88,11 +88,6 @@ static inline int set_stage(const method *m, const ellipsoid_evaluation *start,
 {
     double change[UNKNOWNS];
 
-    if (fixed)
-    {
-        memcpy(at->y, start->y, sizeof(at->y));
-        return 1;
-    }
     ellipsoid_weighted_sum(s->k, m->a[stage], stage, AT_X, change);
     for (int n = AT_X; n < UNKNOWNS; n++)
     {
@@ -102,7 +97,7 @@ static inline int set_stage(const method *m, const ellipsoid_evaluation *start,
     {
         return 0;
     }
-    if (stage == m->stages - 1)
+    if (stage == m->stages - 1 && !fixed)
     {
         ellipsoid_normalise(at->state.q);
     }
@@ -126,10 +121,7 @@ static inline ellipsoid_status take(ellipsoid_group *g, const method *m,
         s->sampled = m->stages;
         s->in_time = in_time;
         keep_slopes(&start->state, &start->derivative, s->k[0]);
-        if (ellipsoid_has_contact(g, cell))
-        {
-            ellipsoid_stages_sample(s, 0, start);
-        }
+        ellipsoid_stages_sample(s, 0, start);
     }
 
     for (int i = 1; i < m->stages; i++)
@@ -155,11 +147,8 @@ static inline ellipsoid_status take(ellipsoid_group *g, const method *m,
             const ellipsoid_evaluation *at = &g->next[cell];
             ellipsoid_stages *s = &g->stages[cell];
 
-            if (ellipsoid_has_contact(g, cell))
-            {
-                *touched = *touched || ellipsoid_in_contact(&at->contact);
-                ellipsoid_stages_sample(s, i, at);
-            }
+            *touched = *touched || ellipsoid_in_contact(&at->contact);
+            ellipsoid_stages_sample(s, i, at);
             keep_slopes(&at->state, &at->derivative, s->k[i]);
         }
         if (*touched)
@@ -172,9 +161,9 @@ static inline ellipsoid_status take(ellipsoid_group *g, const method *m,
         ellipsoid_stages *s = &g->stages[cell];
 
         ellipsoid_weighted_sum(s->k, m->error, m->stages, AT_X, s->error);
-        for (int n = 0; n < UNKNOWNS; n++)
+        for (int n = AT_X; n < UNKNOWNS; n++)
         {
-            s->error[n] = ellipsoid_is_rate(n) ? 0 : h * s->error[n];
+            s->error[n] *= h;
         }
         memcpy(s->y, g->next[cell].y, sizeof(s->y));
     }

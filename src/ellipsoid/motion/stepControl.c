@@ -120,20 +120,10 @@ static double unseen_travel(const ellipsoid_cell *p,
         const int i = stages->in_time[n - 1], j = stages->in_time[n];
         const double safe = stages->gap[i] + stages->gap[j]
                           + bare * p->model->options.bead_radius;
-        double move[3], turn[4], travel;
 
-        for (int l = 0; l < 3; l++)
-        {
-            move[l] = stages->x[j][l] - stages->x[i][l];
-        }
-        for (int l = 0; l < 4; l++)
-        {
-            turn[l] = stages->q[j][l] - stages->q[i][l];
-        }
-        /* a change of q by d turns the body by 2 d */
-        travel = ellipsoid_length(move)
-               + 2 * p->model->reach * sqrt(ellipsoid_square4(turn));
-        worst = fmax(worst, travel / safe);
+        worst = fmax(worst, ellipsoid_travel(p->model, &stages->pose[i],
+                                             &stages->pose[j])
+                                / safe);
     }
     return worst;
 }
