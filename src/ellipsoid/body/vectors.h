@@ -163,6 +163,15 @@ static inline void ellipsoid_rotation_inline(const double q[4], double r[3][3])
     r[2][2] = (nn + cc) - (aa + bb);
 }
 
+/* The body axes in the lab, the columns of R(q), which are the rows of R of the
+   opposite turn. */
+static inline void ellipsoid_axes(const double q[4], double axis[3][3])
+{
+    const double opposite[4] = {q[0], q[1], q[2], -q[3]};
+
+    ellipsoid_rotation_inline(opposite, axis);
+}
+
 /* Q(omega) v: dq/dt = 1/2 Q(omega) q, paper eq. (4). Q^2 = -|omega|^2. */
 static inline void ellipsoid_spin(const double w[3], const double v[4],
                                   double result[4])
@@ -173,7 +182,7 @@ static inline void ellipsoid_spin(const double w[3], const double v[4],
     result[3] = -(v[0] * w[0] + v[1] * w[1] + v[2] * w[2]);
 }
 
-/* Derivatives d[n][i] = dr_i/dq_n of the body axes r_i, the columns of R(q). */
+/* Derivatives d[n][i] = dr_i/dq_n of the body axes r_i. */
 static inline void ellipsoid_axis_derivatives(const double q[4],
                                               double d[4][3][3])
 {

@@ -114,14 +114,13 @@ ellipsoid_status ellipsoid_wall_noise_begin(
     const ellipsoid_state *state, ellipsoid_facet_cache *cache, double t,
     const ellipsoid_load *load, ellipsoid_noise *noise)
 {
-    const double *q = state->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
     ellipsoid_frame frame = {.by_q = NULL};
     ellipsoid_planes planes;
     ellipsoid_wall_expansion here;
     ellipsoid_load in_body;
     ellipsoid_status status;
 
-    ellipsoid_rotation_inline(opposite, frame.axis);
+    ellipsoid_axes(state->q, frame.axis);
     ellipsoid_product(frame.axis, load->force, in_body.force);
     ellipsoid_product(frame.axis, load->push, in_body.push);
     status = ellipsoid_find_planes(model, surroundings, state, &frame, cache,

@@ -67,6 +67,10 @@ void ellipsoid_wall_expansion_set(const ellipsoid_model *model,
                                   ellipsoid_wall_expansion *e)
 {
     e->planes = planes->count;
+    if (e->planes == 0)
+    {
+        return;
+    }
     ellipsoid_copy(state->x, e->x);
     memcpy(e->q, state->q, sizeof(e->q));
     memset(e->by, 0, sizeof(e->by));

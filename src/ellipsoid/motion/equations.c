@@ -42,28 +42,22 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
     {
         status = ellipsoid_find_planes(e->model, &cell->surroundings, e->state,
                                        &frame, cell->cache, &planes);
-        at->walls.planes = 0;
+        ellipsoid_wall_expansion_set(e->model, &planes, e->state, &at->walls);
     }
-    *acted = status == ELLIPSOID_OK
-          && (cell->about ? cell->about->planes : planes.count) > 0;
+    *acted = status == ELLIPSOID_OK && about->planes > 0;
     if (!*acted)
     {
         return status;
     }
     ellipsoid_copy(e->force, wrench.force);
     ellipsoid_copy(e->torque, wrench.torque);
-    if (!cell->about)
-    {
-        ellipsoid_wall_expansion_set(e->model, &planes, e->state, &at->walls);
-    }
     if (balanced)
     {
         status = ellipsoid_balance_wall_drag(&near, about, &wrench, &at->state);
     }
     if (status == ELLIPSOID_OK)
     {
-        double stage[ELLIPSOID_WALL_MOTION];
-        double *motion = cell->about ? stage : at->walls.motion;
+        double *motion = at->walls.motion;
 
         ellipsoid_add_wall_drag(&near, about, &at->state, motion, &wrench);
         if (blocks && !cell->about)
@@ -361,10 +355,7 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
         e.flow = &flow;
     }
 
-    /* the columns of R(q) are the rows of R of the opposite turn */
-    const double opposite[4] = {q[0], q[1], q[2], -q[3]};
-
-    ellipsoid_rotation_inline(opposite, e.axis);
+    ellipsoid_axes(q, e.axis);
     if (status == ELLIPSOID_OK && drag)
     {
         status = set_free(&e, cell, d, with_blocks);

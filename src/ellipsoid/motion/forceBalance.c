@@ -100,14 +100,10 @@ static int are_small(const ellipsoid_group *g,
     for (int cell = 0; cell < g->count; cell++)
     {
         const ellipsoid_cell *p = &g->cell[cell];
-        const ellipsoid_state *state = &points[cell].state;
-        const double *change = g->stages[cell].k[CHANGE];
-        const double speed = ellipsoid_length(state->u)
-                           + p->length * ellipsoid_length(state->omega)
+        const double speed = ellipsoid_surface_speed(p, points[cell].y)
                            + 1e-3 * p->model->options.slip_speed;
 
-        if (!(ellipsoid_length(change + AT_U)
-                  + p->length * ellipsoid_length(change + AT_OMEGA)
+        if (!(ellipsoid_surface_speed(p, g->stages[cell].k[CHANGE])
               <= part * speed))
         {
             return 0;

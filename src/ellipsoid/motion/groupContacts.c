@@ -18,7 +18,6 @@ static ellipsoid_status add_wrench(const ellipsoid_cell *p,
     const ellipsoid_contact *c = &at->contact;
     ellipsoid_state *slope = &at->derivative, *state = &at->state;
     ellipsoid_state change = *state;
-    const double *q = state->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
     ellipsoid_frame frame = {.by_q = NULL};
     double push[6], turned[4]; /* body frame */
     ellipsoid_status status = ELLIPSOID_OK;
@@ -33,7 +32,7 @@ static ellipsoid_status add_wrench(const ellipsoid_cell *p,
         return ELLIPSOID_OK;
     }
     ellipsoid_set_no_rates(&change);
-    ellipsoid_rotation_inline(opposite, frame.axis);
+    ellipsoid_axes(state->q, frame.axis);
     ellipsoid_product(frame.axis, c->cell_force, push);
     ellipsoid_copy(c->cell_torque, push + 3);
     if (ellipsoid_has_near_walls(m, &p->surroundings) && at->walls.planes > 0)

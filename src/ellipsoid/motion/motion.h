@@ -267,6 +267,22 @@ static inline int ellipsoid_has_contact(const ellipsoid_group *g, int cell)
     return g->pairs != NULL || g->cell[cell].walls;
 }
 
+/* Of a change or derivative of the unknowns: that of the pose, the larger of x in
+   semi-axes and q; and the most that it adds to the speed of the surface. */
+static inline double ellipsoid_displacement(const ellipsoid_cell *p,
+                                            const double change[])
+{
+    return fmax(ellipsoid_length(change + AT_X) / p->length,
+                sqrt(ellipsoid_square4(change + AT_Q)));
+}
+
+static inline double ellipsoid_surface_speed(const ellipsoid_cell *p,
+                                             const double change[])
+{
+    return ellipsoid_length(change + AT_U)
+         + p->length * ellipsoid_length(change + AT_OMEGA);
+}
+
 /* How far a point of the body goes at most from one pose to another [m]: a change
    of q by d turns the body by 2 d. */
 static inline double ellipsoid_travel(const ellipsoid_model *model,

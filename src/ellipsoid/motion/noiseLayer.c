@@ -33,10 +33,9 @@ static int is_thin(const ellipsoid_cell *p, double t, double until)
 static void displace(const ellipsoid_model *m, const double u[3],
                      const double omega[3], ellipsoid_state *state)
 {
-    const double *q = state->q, opposite[4] = {q[0], q[1], q[2], -q[3]};
     double axis[3][3], angle[3], turn[4];
 
-    ellipsoid_rotation_inline(opposite, axis);
+    ellipsoid_axes(state->q, axis);
     for (int i = 0; i < 3; i++)
     {
         ellipsoid_add_times(
@@ -44,7 +43,7 @@ static void displace(const ellipsoid_model *m, const double u[3],
             axis[i]);
         angle[i] = m->inertia[i] * m->rotation_mobility[i] * omega[i];
     }
-    ellipsoid_spin(angle, q, turn);
+    ellipsoid_spin(angle, state->q, turn);
     for (int n = 0; n < 4; n++)
     {
         state->q[n] += 0.5 * turn[n];
@@ -128,21 +127,11 @@ enum
     CHANGE = 0 /* of the stages */
 };
 
-/* The larger of how far the cell is displaced and turned by a change, in units of
-   the tolerance. */
+/* How far the cell is displaced or turned by a change, in units of the
+   tolerance. */
 static double displacement(const ellipsoid_cell *p, const double change[])
 {
-    return fmax(ellipsoid_length(change + AT_X) / p->length,
-                sqrt(ellipsoid_square4(change + AT_Q)))
-         / p->model->options.tolerance;
-}
-
-/* The speed of its surface by a change, in slip speeds. */
-static double slip_speeds(const ellipsoid_cell *p, const double change[])
-{
-    return (ellipsoid_length(change + AT_U)
-            + p->length * ellipsoid_length(change + AT_OMEGA))
-         / p->model->options.slip_speed;
+    return ellipsoid_displacement(p, change) / p->model->options.tolerance;
 }
 
 /* Is no cell displaced too far, nor past a wall or another cell unseen
@@ -280,7 +269,9 @@ static int change_next(ellipsoid_group *g, double h, double *largest)
         {
             g->next[cell].y[n] += k[n];
         }
-        *largest = fmax(*largest, fmax(displacement(p, k), slip_speeds(p, k)));
+        *largest = fmax(*largest, fmax(displacement(p, k),
+                                       ellipsoid_surface_speed(p, k)
+                                           / p->model->options.slip_speed));
         regular = isfinite(*largest);
     }
     return regular;

@@ -63,8 +63,7 @@ static double slip_error(const ellipsoid_cell *p,
     const double slip = fmin(start->contact.slip, start->contact.cell_slip);
 
     return is_rubbing(p, start)
-             ? (ellipsoid_length(error + AT_U)
-                + p->length * ellipsoid_length(error + AT_OMEGA))
+             ? ellipsoid_surface_speed(p, error)
                    / fmax(p->model->options.slip_speed, sliding_part * slip)
              : 0;
 }
@@ -225,20 +224,17 @@ double ellipsoid_step_factor(const ellipsoid_group *g, double error,
 /* What one cell says to it: `there` is a short way `ahead` along its slopes. */
 static double longest_step(const ellipsoid_cell *p,
                            const ellipsoid_evaluation *start, double ahead,
-                           const ellipsoid_state *there)
+                           const ellipsoid_evaluation *there)
 {
     const double turn = sqrt(ellipsoid_square4(start->derivative.q));
-    double change, bend[3], curve[4];
+    double bend[UNKNOWNS];
 
-    ellipsoid_difference(there->x, start->derivative.x, bend);
-    for (int n = 0; n < 4; n++)
+    for (int n = 0; n < UNKNOWNS; n++)
     {
-        curve[n] = there->q[n] - start->derivative.q[n];
+        bend[n] = there->slope[n] - start->slope[n];
     }
-    change = fmax(ellipsoid_length(bend) / p->length,
-                  sqrt(ellipsoid_square4(curve)));
     return 2 * pow(p->model->options.tolerance, 0.2)
-         / fmax(turn, sqrt(change / ahead));
+         / fmax(turn, sqrt(ellipsoid_displacement(p, bend) / ahead));
 }
 
 /*
@@ -256,15 +252,13 @@ ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double t, double end,
     *step = o->maximum_step;
     for (int cell = 0; cell < g->count; cell++)
     {
-        const ellipsoid_state *slope = &g->start[cell].derivative;
         const ellipsoid_model *m = g->cell[cell].model;
         const double relaxation =
             fmin(m->relaxation_time, m->rotation_relaxation_time);
 
         *step = g->inertial ? fmin(*step, 0.25 * relaxation) : *step;
-        pace =
-            fmax(pace, fmax(sqrt(ellipsoid_square4(slope->q)),
-                            ellipsoid_length(slope->x) / g->cell[cell].length));
+        pace = fmax(
+            pace, ellipsoid_displacement(&g->cell[cell], g->start[cell].slope));
     }
     if (g->inertial || !(pace > 0))
     {
@@ -292,7 +286,7 @@ ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double t, double end,
     for (int cell = 0; cell < g->count; cell++)
     {
         *step = fmin(*step, longest_step(&g->cell[cell], &g->start[cell], ahead,
-                                         &g->next[cell].derivative));
+                                         &g->next[cell]));
     }
     return ELLIPSOID_OK;
 }
