@@ -269,7 +269,7 @@ static void test_coupled_system(void **unused)
 
         overlapping(&c, &g, &pairs, 1e-8, &seed);
         assert_ok(ellipsoid_group_evaluate(&g, 0, g.start, 0, 1));
-        assert_true(ellipsoid_group_prepare(&g, per_g));
+        assert_true(ellipsoid_group_prepare(&g, g.start, per_g));
         for (int cell = 0; cell < 2; cell++)
         {
             memcpy(g.stages[cell].k[0], g.start[cell].slope,

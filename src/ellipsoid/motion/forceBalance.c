@@ -113,9 +113,8 @@ static int are_small(const ellipsoid_group *g,
 }
 
 /* Newton's change of velocities, from points that have their blocks. */
-static int set_changes(ellipsoid_group *g, ellipsoid_evaluation *points)
+static int set_changes(ellipsoid_group *g, const ellipsoid_evaluation *points)
 {
-    ellipsoid_evaluation *const start = g->start;
     const int inertial = g->inertial;
     double shortest = HUGE_VAL;
     int regular;
@@ -130,14 +129,12 @@ static int set_changes(ellipsoid_group *g, ellipsoid_evaluation *points)
         ellipsoid_copy(points[cell].derivative.omega, k + AT_OMEGA);
         shortest = fmin(shortest, 1 / fmax(p->rate, p->rotation_rate));
     }
-    g->start = points;
     g->inertial = 0;
-    regular = ellipsoid_group_prepare(g, vanishing * shortest);
+    regular = ellipsoid_group_prepare(g, points, vanishing * shortest);
     if (regular)
     {
         ellipsoid_group_solve(g, CHANGE);
     }
-    g->start = start;
     g->inertial = inertial;
     return regular;
 }
@@ -416,7 +413,6 @@ ellipsoid_force_balance(const ellipsoid_model *model,
                              model->dissipative
                              || ellipsoid_force_is_dissipative(surroundings),
                          .cell = &cell,
-                         .start = &point,
                          .stages = &stages,
                          .system = &system};
     ellipsoid_status status;

@@ -68,19 +68,14 @@ static void add_vector(double sign, double m[6][6], const double w[6],
     }
 }
 
-static void fill(ellipsoid_group *g, int row, int column,
-                 const ellipsoid_jacobian_blocks *blocks, double per_g,
-                 ellipsoid_reduced *reduced, int *used)
+/* Their transpose is a block. */
+static void transpose(double rates[6][6], double m[6][6])
 {
-    double(*m)[6] = make_block(g, row, column, used);
-
-    ellipsoid_stage_matrix_reduce(blocks, &g->start[column].state, per_g,
-                                  reduced);
     for (int i = 0; i < 6; i++)
     {
         for (int j = 0; j < 6; j++)
         {
-            m[i][j] = reduced->rates[j][i];
+            m[i][j] = rates[j][i];
         }
     }
 }
@@ -122,7 +117,8 @@ static int factorise(const ellipsoid_group *g, int *used)
     return 1;
 }
 
-int ellipsoid_group_prepare(ellipsoid_group *g, double per_g)
+int ellipsoid_group_prepare(ellipsoid_group *g,
+                            const ellipsoid_evaluation *points, double per_g)
 {
     ellipsoid_pairs *pairs = g->pairs;
     int used = 0;
@@ -130,7 +126,7 @@ int ellipsoid_group_prepare(ellipsoid_group *g, double per_g)
     if (!pairs)
     {
         return ellipsoid_stage_matrix_prepare(
-            g->system, g->start, g->inertial || g->cell[0].fixed, per_g);
+            g->system, points, g->inertial || g->cell[0].fixed, per_g);
     }
     for (int n = 0; n < g->count * g->count; n++)
     {
@@ -138,25 +134,29 @@ int ellipsoid_group_prepare(ellipsoid_group *g, double per_g)
     }
     for (int cell = 0; cell < g->count; cell++)
     {
-        const ellipsoid_evaluation *start = &g->start[cell];
+        const ellipsoid_evaluation *at = &points[cell];
         ellipsoid_stage_matrix *s = &g->system[cell];
+        double(*diagonal)[6] = make_block(g, cell, cell, &used);
         ellipsoid_reduced reduced;
 
-        fill(g, cell, cell, &start->blocks, per_g, &reduced, &used);
+        ellipsoid_stage_matrix_reduce(&at->blocks, &at->state, per_g, &reduced);
+        transpose(reduced.rates, diagonal);
         for (int i = 0; i < 6; i++)
         {
-            block_at(g, cell, cell)[i][i] +=
+            diagonal[i][i] +=
                 g->inertial || g->cell[cell].fixed ? 1 / per_g : 0;
         }
         memcpy(s->to_rates[AT_X], reduced.x, sizeof(reduced.x));
         memcpy(s->to_rates[AT_Q], reduced.q, sizeof(reduced.q));
-        ellipsoid_stage_matrix_kinematics(s, &start->state, per_g);
+        ellipsoid_stage_matrix_kinematics(s, &at->state, per_g);
     }
     for (int n = 0; n < pairs->count; n++)
     {
         ellipsoid_coupling *c = &pairs->coupling[n];
 
-        fill(g, c->row, c->column, &c->blocks, per_g, &c->reduced, &used);
+        ellipsoid_stage_matrix_reduce(&c->blocks, &points[c->column].state,
+                                      per_g, &c->reduced);
+        transpose(c->reduced.rates, make_block(g, c->row, c->column, &used));
     }
     return factorise(g, &used);
 }

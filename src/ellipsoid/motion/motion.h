@@ -357,9 +357,11 @@ ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *group,
                                               ellipsoid_evaluation *points,
                                               int balanced, int with_blocks);
 
-/* The linear system of a step, that of each cell coupled by contacts. It is solved
-   for a stage k_i in place. 0 if it is singular (groupMatrix.c). */
-int ellipsoid_group_prepare(ellipsoid_group *group, double per_g);
+/* The linear system of a step from points that have their blocks, that of each cell
+   coupled by contacts. It is solved for a stage k_i in place. 0 if it is singular
+   (groupMatrix.c). */
+int ellipsoid_group_prepare(ellipsoid_group *group,
+                            const ellipsoid_evaluation *points, double per_g);
 void ellipsoid_group_solve(const ellipsoid_group *group, int stage);
 
 static inline const ellipsoid_rosenbrock_table *

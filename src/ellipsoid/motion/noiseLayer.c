@@ -235,7 +235,6 @@ static int may_rest(ellipsoid_group *g, const ellipsoid_plan *interval)
 /* One of Newton's changes to the next states, which have their blocks. */
 static int change_next(ellipsoid_group *g, double h, double *largest)
 {
-    ellipsoid_evaluation *const start = g->start;
     int regular;
 
     for (int cell = 0; cell < g->count; cell++)
@@ -248,13 +247,11 @@ static int change_next(ellipsoid_group *g, double h, double *largest)
             k[n] = at->slope[n] - (at->y[n] - g->start[cell].y[n]) / h;
         }
     }
-    g->start = g->next;
-    regular = ellipsoid_group_prepare(g, h);
+    regular = ellipsoid_group_prepare(g, g->next, h);
     if (regular)
     {
         ellipsoid_group_solve(g, CHANGE);
     }
-    g->start = start;
     *largest = 0;
     for (int cell = 0; regular && cell < g->count; cell++)
     {

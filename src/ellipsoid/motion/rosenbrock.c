@@ -212,8 +212,8 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count,
 ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *g,
                                            const ellipsoid_plan *plan)
 {
-    if (!ellipsoid_group_prepare(g, ellipsoid_rosenbrock_set_of(g)->gamma
-                                        * plan->h))
+    if (!ellipsoid_group_prepare(
+            g, g->start, ellipsoid_rosenbrock_set_of(g)->gamma * plan->h))
     {
         return ELLIPSOID_NON_FINITE;
     }
