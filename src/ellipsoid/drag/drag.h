@@ -11,6 +11,9 @@
 
 #include "walls/walls.h"
 
+/* The position x and the quaternion q: what derivatives are taken by. */
+#define ELLIPSOID_POSE_SIZE 7
+
 /* The motion that the flow would give a body free of other forces, and its
    derivatives; u_q only of FLOW_BODY. */
 typedef struct ellipsoid_free_motion
@@ -21,7 +24,7 @@ typedef struct ellipsoid_free_motion
     double omega_x[3][3], omega_q[3][4];
     /* [b][i], [1/s]: the flow's gradient along the body axis b, lab, averaged over
        the surface, and its derivatives; only of FLOW_BODY */
-    double along[3][3], along_x[3][3][3], along_q[3][3][4];
+    double along[3][3], along_by[ELLIPSOID_POSE_SIZE][3][3];
 } ellipsoid_free_motion;
 
 /* The free motion by FLOW_BODY at x, where the flow is centre_velocity. */
@@ -94,9 +97,6 @@ static inline void ellipsoid_add6(double factor, const double other[6],
 
 /* Walls that act at once; of more, the nearest. */
 #define ELLIPSOID_MAX_PLANES 48
-
-/* The position x and the quaternion q: what derivatives are taken by. */
-#define ELLIPSOID_POSE_SIZE 7
 
 /* The two actions of a plane: that of a table, and squeezing. */
 enum

@@ -158,17 +158,18 @@ static void set_along(const double a[3], const moments *sums,
             free->along[b][i] = scale * sums->u[b][i];
             for (int l = 0; frame->by_q && l < 3; l++)
             {
-                free->along_x[b][i][l] = scale * sums->cg[b][i][l];
+                free->along_by[l][b][i] = scale * sums->cg[b][i][l];
             }
             for (int n = 0; frame->by_q && n < 4; n++)
             {
-                free->along_q[b][i][n] = 0;
+                double *by_q = &free->along_by[3 + n][b][i];
+
+                *by_q = 0;
                 for (int s = 0; s < 3; s++)
                 {
-                    free->along_q[b][i][n] +=
-                        scale
-                        * ellipsoid_dot(sums->ccg[pair[b][s]][i],
-                                        frame->by_q[n][s]);
+                    *by_q += scale
+                           * ellipsoid_dot(sums->ccg[pair[b][s]][i],
+                                           frame->by_q[n][s]);
                 }
             }
         }

@@ -162,6 +162,19 @@ static void add_turned(double g[3][3], double left[3][3], double right[3][3],
     }
 }
 
+/* Adds left_i.along_j, as [3 i + j]; only of FLOW_BODY. */
+static void add_mean(const ellipsoid_model *model, double left[3][3],
+                     const double along[3][3], double sum[9])
+{
+    for (int n = 0; model->flow_points > 0 && n < 9; n++)
+    {
+        for (int i = 0; i < 3; i++)
+        {
+            sum[n] += left[n / 3][i] * along[n % 3][i];
+        }
+    }
+}
+
 static void set_motion(const ellipsoid_near_walls *near,
                        const ellipsoid_state *state, double motion[MOTION])
 {
@@ -171,16 +184,10 @@ static void set_motion(const ellipsoid_near_walls *near,
     ellipsoid_difference(near->free->omega, state->omega, turn);
     to_body(near->frame->axis, outrun, turn, motion);
     to_body(near->frame->axis, state->u, state->omega, motion + VELOCITY);
-    memset(motion + GRADIENT, 0, 9 * sizeof(*motion));
-    for (int n = 0; n < 9; n++)
-    {
-        motion[MEAN + n] = near->model->flow_points > 0
-                             ? ellipsoid_dot(near->frame->axis[n / 3],
-                                             near->free->along[n % 3])
-                             : 0;
-    }
+    memset(motion + GRADIENT, 0, (MOTION - GRADIENT) * sizeof(*motion));
     add_turned(near->flow->gradient, near->frame->axis, near->frame->axis,
                motion + GRADIENT);
+    add_mean(near->model, near->frame->axis, near->free->along, motion + MEAN);
 }
 
 void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
@@ -317,13 +324,7 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
             bent[i / 3][i % 3] = near->flow->gradient_jacobian[i / 3][i % 3][l];
         }
         add_turned(bent, axis, axis, moved + GRADIENT);
-        for (int m = 0; averaged && m < 9; m++)
-        {
-            for (int i = 0; i < 3; i++)
-            {
-                moved[MEAN + m] += axis[m / 3][i] * free->along_x[m % 3][i][l];
-            }
-        }
+        add_mean(near->model, axis, free->along_by[l], moved + MEAN);
         for (int i = 0; i < 3; i++)
         {
             pushed[VELOCITY + i] = axis[i][l];
@@ -353,16 +354,8 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
         }
         add_turned(near->flow->gradient, by_q, axis, moved + GRADIENT);
         add_turned(near->flow->gradient, axis, by_q, moved + GRADIENT);
-        for (int m = 0; averaged && m < 9; m++)
-        {
-            const int j = m % 3;
-
-            moved[MEAN + m] = ellipsoid_dot(by_q[m / 3], free->along[j]);
-            for (int i = 0; i < 3; i++)
-            {
-                moved[MEAN + m] += axis[m / 3][i] * free->along_q[j][i][n];
-            }
-        }
+        add_mean(near->model, by_q, free->along, moved + MEAN);
+        add_mean(near->model, axis, free->along_by[n + 3], moved + MEAN);
         add_column(near, e, moved, e->by_pose[n + 3], &b->uq[0][n],
                    &b->wq[0][n], 4);
         ellipsoid_combination(by_q, action[0], action[1], action[2], turned);
