@@ -56,7 +56,7 @@ void ellipsoid_wall_fit_set(const ellipsoid_model *model,
 {
     const double *a = model->options.semi_axes;
     const double k = model->flow_points > 0 ? towards : 0;
-    double r[3], matrix[3][3];
+    double *r = fit->nearest, matrix[3][3];
 
     fit->towards = k;
     ellipsoid_set(r, a[0] * a[0] * normal[0], a[1] * a[1] * normal[1],
@@ -66,7 +66,6 @@ void ellipsoid_wall_fit_set(const ellipsoid_model *model,
     {
         r[i] /= -fit->support;
     }
-    ellipsoid_copy(r, fit->nearest);
     for (int i = 0; i < 3; i++)
     {
         for (int j = 0; j < 3; j++)

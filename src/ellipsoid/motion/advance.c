@@ -341,24 +341,26 @@ static ellipsoid_status take_rest(ellipsoid_group *g,
 static ellipsoid_status set_start(int moves, const ellipsoid_state *state,
                                   ellipsoid_evaluation *start)
 {
-    double y[UNKNOWNS], sum = 0, square;
+    double sum = 0, square;
 
-    memcpy(y, state, sizeof(y));
+    start->state = *state;
+    if (!moves)
+    {
+        ellipsoid_set_no_rates(&start->state); /* not read */
+    }
     for (int n = 0; n < UNKNOWNS; n++)
     {
-        y[n] = ellipsoid_is_rate(n) && !moves ? 0 : y[n]; /* not read */
-        sum += y[n];
+        sum += start->y[n];
     }
-    square = ellipsoid_square4(y + AT_Q);
+    square = ellipsoid_square4(start->state.q);
     if (!isfinite(sum) || !isfinite(square) || !(square >= DBL_MIN))
     {
         return ELLIPSOID_BAD_STATE;
     }
     if (fabs(square - 1) > 1e-14)
     {
-        ellipsoid_normalise(y + AT_Q);
+        ellipsoid_normalise(start->state.q);
     }
-    memcpy(&start->state, y, sizeof(start->state));
     return ELLIPSOID_OK;
 }
 

@@ -385,12 +385,14 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
     {
         finish_blocks(&e, inertial, blocks);
     }
-    if (!balanced)
+    if (balanced)
+    {
+        ellipsoid_set_no_rates(derivative);
+    }
+    else
     {
         accelerations(&e, inertial, derivative);
-        return finish(state, derivative);
     }
-    ellipsoid_set_no_rates(derivative);
     return finish(state, derivative);
 }
 

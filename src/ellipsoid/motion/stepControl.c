@@ -267,14 +267,11 @@ ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double t, double end,
     ahead = 0.01 / pace;
     for (int cell = 0; cell < g->count; cell++)
     {
-        const ellipsoid_state *slope = &g->start[cell].derivative;
-        ellipsoid_state *at = &g->next[cell].state;
+        const ellipsoid_evaluation *start = &g->start[cell];
 
-        *at = g->start[cell].state;
-        ellipsoid_add_times(at->x, ahead, slope->x);
-        for (int n = 0; n < 4; n++)
+        for (int n = 0; n < UNKNOWNS; n++)
         {
-            at->q[n] += ahead * slope->q[n];
+            g->next[cell].y[n] = start->y[n] + ahead * start->slope[n];
         }
     }
     status = ellipsoid_group_evaluate(g, fmin(t + ahead, end), g->next, 1, 0);
