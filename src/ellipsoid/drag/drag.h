@@ -203,7 +203,7 @@ typedef struct ellipsoid_near_walls
     const ellipsoid_model *model;
     ellipsoid_planes *planes;
     ellipsoid_frame *frame;
-    const ellipsoid_free_motion *free;
+    ellipsoid_free_motion *free;
     ellipsoid_flow_sample *flow;
 } ellipsoid_near_walls;
 

@@ -149,30 +149,32 @@ static void add_lab(double axis[3][3], const double body[3], double lab[3])
     ellipsoid_add(lab, turned);
 }
 
-/* Adds left_i.(G right_j), as [3 i + j]. */
-static void add_turned(double g[3][3], double left[3][3], double right[3][3],
-                       double sum[9])
+/* Adds left_i.right_j, as [3 i + j]. */
+static void add_products(double left[3][3], double right[3][3], double sum[9])
 {
     for (int n = 0; n < 9; n++)
     {
+        double value = sum[n];
+
         for (int i = 0; i < 3; i++)
         {
-            sum[n] += left[n / 3][i] * ellipsoid_dot(g[i], right[n % 3]);
+            value += left[n / 3][i] * right[n % 3][i];
         }
+        sum[n] = value;
     }
 }
 
-/* Adds left_i.along_j, as [3 i + j]; only of FLOW_BODY. */
-static void add_mean(const ellipsoid_model *model, double left[3][3],
-                     const double along[3][3], double sum[9])
+/* Adds left_i.(G right_j), likewise. */
+static void add_turned(double g[3][3], double left[3][3], double right[3][3],
+                       double sum[9])
 {
-    for (int n = 0; model->flow_points > 0 && n < 9; n++)
+    double along[3][3];
+
+    for (int j = 0; j < 3; j++)
     {
-        for (int i = 0; i < 3; i++)
-        {
-            sum[n] += left[n / 3][i] * along[n % 3][i];
-        }
+        ellipsoid_product(g, right[j], along[j]);
     }
+    add_products(left, along, sum);
 }
 
 static void set_motion(const ellipsoid_near_walls *near,
@@ -187,7 +189,10 @@ static void set_motion(const ellipsoid_near_walls *near,
     memset(motion + GRADIENT, 0, (MOTION - GRADIENT) * sizeof(*motion));
     add_turned(near->flow->gradient, near->frame->axis, near->frame->axis,
                motion + GRADIENT);
-    add_mean(near->model, near->frame->axis, near->free->along, motion + MEAN);
+    if (near->model->flow_points > 0)
+    {
+        add_products(near->frame->axis, near->free->along, motion + MEAN);
+    }
 }
 
 void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
@@ -303,7 +308,7 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
                                     ellipsoid_jacobian_blocks *b)
 {
     static const double none[6];
-    const ellipsoid_free_motion *free = near->free;
+    ellipsoid_free_motion *free = near->free;
     const int averaged = near->model->flow_points > 0;
     double(*axis)[3] = near->frame->axis, outrun[3], action[6] = {0};
 
@@ -324,7 +329,10 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
             bent[i / 3][i % 3] = near->flow->gradient_jacobian[i / 3][i % 3][l];
         }
         add_turned(bent, axis, axis, moved + GRADIENT);
-        add_mean(near->model, axis, free->along_by[l], moved + MEAN);
+        if (averaged)
+        {
+            add_products(axis, free->along_by[l], moved + MEAN);
+        }
         for (int i = 0; i < 3; i++)
         {
             pushed[VELOCITY + i] = axis[i][l];
@@ -354,8 +362,11 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
         }
         add_turned(near->flow->gradient, by_q, axis, moved + GRADIENT);
         add_turned(near->flow->gradient, axis, by_q, moved + GRADIENT);
-        add_mean(near->model, by_q, free->along, moved + MEAN);
-        add_mean(near->model, axis, free->along_by[n + 3], moved + MEAN);
+        if (averaged)
+        {
+            add_products(by_q, free->along, moved + MEAN);
+            add_products(axis, free->along_by[n + 3], moved + MEAN);
+        }
         add_column(near, e, moved, e->by_pose[n + 3], &b->uq[0][n],
                    &b->wq[0][n], 4);
         ellipsoid_combination(by_q, action[0], action[1], action[2], turned);

@@ -27,7 +27,7 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
                                       ellipsoid_jacobian_blocks *blocks,
                                       int *acted)
 {
-    const ellipsoid_free_motion free = e->free;
+    ellipsoid_free_motion free = e->free;
     const ellipsoid_wall_expansion *about =
         cell->about ? cell->about : &at->walls;
     ellipsoid_frame frame = {.by_q = blocks ? d : NULL};
