@@ -249,22 +249,22 @@ ellipsoid_status ellipsoid_balance_wall_drag(
     const ellipsoid_body_wrench *wrench, ellipsoid_state *state);
 
 /* Adds the drag to the wrench, in a state near that of the expansion to first
-   order; tells the motion. */
+   order; tells the motion, and force and torque in the body frame. */
 void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
                              const ellipsoid_wall_expansion *about,
                              const ellipsoid_state *state,
                              double motion[ELLIPSOID_WALL_MOTION],
-                             ellipsoid_body_wrench *wrench);
+                             double action[6], ellipsoid_body_wrench *wrench);
 
 /* Sets by_pose of an expansion that has its motion, by its planes. */
 void ellipsoid_wall_expansion_slopes(const ellipsoid_near_walls *near,
                                      ellipsoid_wall_expansion *expansion);
 
-/* Adds it to the blocks, in a state of that motion. */
+/* Adds it to the blocks, in a state of that force and torque. */
 void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
                                     const ellipsoid_state *state,
                                     const ellipsoid_wall_expansion *about,
-                                    const double motion[ELLIPSOID_WALL_MOTION],
+                                    const double action[6],
                                     ellipsoid_jacobian_blocks *blocks);
 
 /* The velocities [m/s, rad/s, body frame] that an expansion is wrong by in the

@@ -198,11 +198,10 @@ static void set_motion(const ellipsoid_near_walls *near,
 void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
                              const ellipsoid_wall_expansion *about,
                              const ellipsoid_state *state,
-                             double motion[MOTION],
+                             double motion[MOTION], double action[6],
                              ellipsoid_body_wrench *wrench)
 {
-    double action[6] = {0};
-
+    memset(action, 0, 6 * sizeof(*action));
     set_motion(near, state, motion);
     add_planes(about, state->x, state->q, motion, action);
     add_free(near->model, motion, action);
@@ -304,17 +303,15 @@ void ellipsoid_wall_expansion_slopes(const ellipsoid_near_walls *near,
 void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
                                     const ellipsoid_state *state,
                                     const ellipsoid_wall_expansion *e,
-                                    const double motion[MOTION],
+                                    const double action[6],
                                     ellipsoid_jacobian_blocks *b)
 {
     static const double none[6];
     ellipsoid_free_motion *free = near->free;
     const int averaged = near->model->flow_points > 0;
-    double(*axis)[3] = near->frame->axis, outrun[3], action[6] = {0};
+    double(*axis)[3] = near->frame->axis, outrun[3];
 
     ellipsoid_difference(free->u, state->u, outrun);
-    add_planes(e, state->x, state->q, motion, action);
-    add_free(near->model, motion, action);
     for (int l = 0; l < 3; l++)
     {
         const double u[3] = {free->u_x[0][l], free->u_x[1][l], free->u_x[2][l]};

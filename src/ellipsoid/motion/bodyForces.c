@@ -6,26 +6,22 @@
 */
 #include "motion/motion.h"
 
-/* F_PG = -V grad p; the other one is in equations.c, where it costs less. */
-static void add_pressure_gradient(const ellipsoid_model *m,
-                                  const ellipsoid_flow_sample *flow,
-                                  double force[3])
+/* F_PG = -V grad p and, if wanted, its derivatives; of the other F_PG these alone:
+   it is in equations.c, where it costs less. */
+static void add_pressure_gradient(const ellipsoid_model *m, int unsteady,
+                                  ellipsoid_flow_sample *flow, double force[3],
+                                  ellipsoid_jacobian_blocks *b)
 {
-    if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
+    const ellipsoid_pressure_gradient kind = m->options.pressure_gradient;
+    const double *u = flow->velocity;
+
+    if (kind == ELLIPSOID_PRESSURE_GRADP)
     {
         ellipsoid_add_times(force, -m->volume, flow->pressure_gradient);
     }
-}
-
-static void add_pressure_gradient_blocks(const ellipsoid_model *m, int unsteady,
-                                         ellipsoid_flow_sample *flow,
-                                         ellipsoid_jacobian_blocks *b)
-{
-    const double *u = flow->velocity;
-
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; b && i < 3; i++)
     {
-        if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_DUDT)
+        if (kind == ELLIPSOID_PRESSURE_DUDT)
         {
             const double *g = flow->gradient[i];
             double change[3], of_velocity[3];
@@ -42,7 +38,7 @@ static void add_pressure_gradient_blocks(const ellipsoid_model *m, int unsteady,
                                     flow->acceleration_jacobian[i]);
             }
         }
-        else if (m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
+        else if (kind == ELLIPSOID_PRESSURE_GRADP)
         {
             ellipsoid_add_times(b->ux[i], -m->volume,
                                 flow->pressure_jacobian[i]);
@@ -148,12 +144,8 @@ ellipsoid_status ellipsoid_add_body_forces(
 
     if (flow)
     {
-        add_pressure_gradient(model, flow, wrench->force);
-        if (blocks)
-        {
-            add_pressure_gradient_blocks(model, surroundings->unsteady, flow,
-                                         blocks);
-        }
+        add_pressure_gradient(model, surroundings->unsteady, flow,
+                              wrench->force, blocks);
     }
     if (model->electric)
     {

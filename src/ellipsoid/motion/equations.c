@@ -57,16 +57,17 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
     }
     if (status == ELLIPSOID_OK)
     {
-        double *motion = at->walls.motion;
+        double action[6];
 
-        ellipsoid_add_wall_drag(&near, about, &at->state, motion, &wrench);
+        ellipsoid_add_wall_drag(&near, about, &at->state, at->walls.motion,
+                                action, &wrench);
         if (blocks && !cell->about)
         {
             ellipsoid_wall_expansion_slopes(&near, &at->walls);
         }
         if (blocks)
         {
-            ellipsoid_add_wall_drag_blocks(&near, &at->state, about, motion,
+            ellipsoid_add_wall_drag_blocks(&near, &at->state, about, action,
                                            blocks);
         }
     }

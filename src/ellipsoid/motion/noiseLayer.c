@@ -138,9 +138,7 @@ static double displacement(const ellipsoid_cell *p, const double change[])
    (unseen_travel() of stepControl.c)? */
 static int are_near(const ellipsoid_group *g)
 {
-    int near = 1;
-
-    for (int cell = 0; near && cell < g->count; cell++)
+    for (int cell = 0; cell < g->count; cell++)
     {
         const ellipsoid_cell *p = &g->cell[cell];
         const double safe =
@@ -151,12 +149,15 @@ static int are_near(const ellipsoid_group *g)
         {
             change[n] = g->next[cell].y[n] - g->start[cell].y[n];
         }
-        near = displacement(p, change) <= most_displaced
-            && ellipsoid_travel(p->model, &g->start[cell].state,
-                                &g->next[cell].state)
-                   <= safe;
+        if (!(displacement(p, change) <= most_displaced
+              && ellipsoid_travel(p->model, &g->start[cell].state,
+                                  &g->next[cell].state)
+                     <= safe))
+        {
+            return 0;
+        }
     }
-    return near;
+    return 1;
 }
 
 /* Is the cell, in a noise interval that begins, too slow to be displaced by more
