@@ -32,6 +32,7 @@ static ellipsoid_status step_of(ellipsoid_group *group, double h)
 
 static ellipsoid_group group_of(ellipsoid_cell *problem, lone_cell *cell)
 {
+    cell->start.contact = cell->next.contact = ellipsoid_no_contact();
     return (ellipsoid_group){.count = 1,
                              .inertial = problem->inertial,
                              .cell = problem,

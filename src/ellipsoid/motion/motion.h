@@ -93,7 +93,8 @@ typedef struct ellipsoid_cell
 ellipsoid_cell ellipsoid_cell_of(const ellipsoid_member *member,
                                  const ellipsoid_noise *noise);
 
-/* The equations in one state; those of a start stay while steps are rejected. */
+/* The equations in one state; those of a start stay while steps are rejected. Who
+   makes one sets its contact to ellipsoid_no_contact(). */
 typedef struct ellipsoid_evaluation
 {
     union
