@@ -131,7 +131,7 @@ def number_folders(root):
     """(value, name) of the folders named by a number, ascending."""
     found = []
     for name in os.listdir(root) if os.path.isdir(root) else []:
-        is_number = re.fullmatch(r"\d+(\.\d*)?(e[+-]?\d+)?", name)
+        is_number = re.fullmatch(r"-?\d+(\.\d*)?(e[+-]?\d+)?", name)
         if is_number and os.path.isdir(os.path.join(root, name)):
             found.append((float(name), name))
     return sorted(found)
