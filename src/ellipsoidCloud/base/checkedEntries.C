@@ -312,7 +312,9 @@ Foam::string Foam::entryRange::text(const bool whole) const
     if (high < VGREAT)
     {
         const string to(whole ? Foam::name(label(high)) : Foam::name(high));
-        return (whole ? "whole numbers from " : "") + from + " to " + to;
+        return
+            open ? "above " + from + ", up to " + to
+          : (whole ? "whole numbers from " : "") + from + " to " + to;
     }
 
     return

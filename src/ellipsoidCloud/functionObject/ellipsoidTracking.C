@@ -294,12 +294,11 @@ bool Foam::functionObjects::ellipsoidTracking::read(const dictionary& dict)
 
     if (steady_)
     {
-        endTime_ = dict.getCheck<scalar>("endTime", scalarMinMax::ge(VSMALL));
-        deltaT_ = dict.getCheck<scalar>("deltaT", scalarMinMax::ge(VSMALL));
-        writeInterval_ = dict.getCheckOrDefault<scalar>
-        (
-            "writeInterval", endTime_, scalarMinMax::ge(VSMALL)
-        );
+        endTime_ = checkedNumber<scalar>(dict, "endTime", above(0));
+        deltaT_ =
+            checkedNumber<scalar>(dict, "deltaT", entryRange{0, endTime_, true});
+        writeInterval_ =
+            checkedNumber<scalar>(dict, "writeInterval", above(0), endTime_);
     }
 
     return true;
