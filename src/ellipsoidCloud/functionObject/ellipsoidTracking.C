@@ -21,6 +21,9 @@ namespace functionObjects
 {
     defineTypeNameAndDebug(ellipsoidTracking, 0);
     addToRunTimeSelectionTable(functionObject, ellipsoidTracking, dictionary);
+
+    //- The one that tracks the cells
+    static const ellipsoidTracking* first = nullptr;
 }
 }
 
@@ -234,13 +237,19 @@ Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
     read(dict);
     caseFiles::checkMesh(runTime, true);
 
-    if (mesh_.foundObject<IOdictionary>("ellipsoidCloudProperties"))
+    // One of the same name takes the place of that which was
+    if
+    (
+        (first && first->name() != name)
+     || mesh_.foundObject<IOdictionary>("ellipsoidCloudProperties")
+    )
     {
         Info<< type() << ' ' << name << " does nothing: the cells of"
             << " ellipsoidCloudProperties are tracked already, by"
             << " ellipsoidTrapFoam or another function object" << endl;
         return;
     }
+    first = this;
     if (outputPrefix == "postProcessing-dry-run")
     {
         checkDryRun();
@@ -267,7 +276,12 @@ Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
 
 
 Foam::functionObjects::ellipsoidTracking::~ellipsoidTracking()
-{}
+{
+    if (first == this)
+    {
+        first = nullptr;
+    }
+}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
