@@ -10,6 +10,8 @@
 #include "OSspecific.H"
 #include "regExp.H"
 
+#include <cfenv>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -59,6 +61,17 @@ static string complaintOf(const std::function<void()>& act)
 
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+bool Foam::isNumber(const std::string& text, scalar& value)
+{
+    std::fenv_t before;
+    std::feholdexcept(&before);
+    const bool is = readScalar(text.c_str(), value) && std::isfinite(value);
+    std::fesetenv(&before);
+
+    return is;
+}
+
 
 const Foam::ITstream& Foam::streamOf
 (

@@ -104,7 +104,7 @@ namespace Foam
                 for (const std::size_t place : places)
                 {
                     scalar value = 0;
-                    if (!readScalar(fields[place].c_str(), value))
+                    if (!isNumber(fields[place], value))
                     {
                         refuse
                         (

@@ -197,7 +197,7 @@ namespace Foam
             scalar t;
             if
             (
-                readScalar(folder, t) && t > latest && t <= time.value()
+                isNumber(folder, t) && t > latest && t <= time.value()
              && isFile(whole/folder/name)
             )
             {

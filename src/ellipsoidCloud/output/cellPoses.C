@@ -3,6 +3,7 @@
 
 #include "cellPoses.H"
 #include "atomicWrite.H"
+#include "checkedEntries.H"
 #include "diagTensor.H"
 #include "masterGate.H"
 #include "OSspecific.H"
@@ -76,7 +77,7 @@ namespace Foam
         for (const fileName& file : readDir(folder, fileName::FILE))
         {
             scalar time;
-            if (file.hasExt("vtp") && readScalar(file.lessExt(), time))
+            if (file.hasExt("vtp") && isNumber(file.lessExt(), time))
             {
                 times[time] = file;
             }
