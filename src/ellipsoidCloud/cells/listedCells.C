@@ -6,6 +6,7 @@
 #include "checkedEntries.H"
 #include "csvFields.H"
 #include "FlatOutput.H"
+#include "stringOps.H"
 
 #include <algorithm>
 #include <fstream>
@@ -48,7 +49,10 @@ namespace Foam
             {
                 refuse(1, "cannot be read, or is empty");
             }
-            head = csvFields(lines.front());
+            for (const std::string& column : csvFields(lines.front()))
+            {
+                head.push_back(stringOps::trim(column));
+            }
             lines.erase(lines.begin());
         }
 
@@ -75,6 +79,10 @@ namespace Foam
                 const auto at = std::find(head.begin(), head.end(), column);
                 if (at != head.end())
                 {
+                    if (std::count(at, head.end(), column) > 1)
+                    {
+                        refuse(1, "two columns are named " + column);
+                    }
                     places.push_back(at - head.begin());
                 }
             }
