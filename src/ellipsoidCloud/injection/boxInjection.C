@@ -22,6 +22,7 @@ Usage
 \*---------------------------------------------------------------------------*/
 
 #include "cellInjection.H"
+#include "polyMesh.H"
 
 // * * * * * * * * * * * * * * * * Declarations * * * * * * * * * * * * * * * //
 
@@ -34,15 +35,14 @@ class boxInjection
 {
     // Private Data
 
-        const point min_;
-        const point max_;
+        boundBox box_;
 
 
     // Private Member Functions
 
         virtual point position(const label, const vector& uniform) const
         {
-            return min_ + cmptMultiply(uniform, max_ - min_);
+            return box_.min() + cmptMultiply(uniform, box_.span());
         }
 
 
@@ -58,15 +58,27 @@ public:
         explicit boxInjection(const setting& from)
         :
             cellInjection(from),
-            min_(from_.dict.get<point>("min")),
-            max_(from_.dict.get<point>("max"))
+            box_(from_.dict.get<point>("min"), from_.dict.get<point>("max"))
         {
-            if (!(cmptMin(max_ - min_) >= 0))
+            if (!(cmptMin(box_.span()) >= 0))
             {
                 refuseEntry
                 (
                     from_.dict, "max", "max", "min or more along each axis"
                 );
+            }
+
+            // No draws where no mesh is. With a margin for rounding, by which a
+            // box that ends at the mesh stays as it is
+            boundBox within(mesh().bounds());
+            within.inflate(1e-6);
+            within = boundBox
+            (
+                max(box_.min(), within.min()), min(box_.max(), within.max())
+            );
+            if (within.valid())
+            {
+                box_ = within;
             }
 
             setTimes(readNumber(0));
