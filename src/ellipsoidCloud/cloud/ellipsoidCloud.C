@@ -120,6 +120,14 @@ void Foam::ellipsoidCloud::checkClock() const
             << " the " << shortText(left).c_str() << " s up to endTime: no cell"
             << " would move" << exit(FatalIOError);
     }
+    const scalar then = earlier_.notes().getOrDefault("deltaT", deltaT);
+    if (flowType_ == OWN && then != deltaT)
+    {
+        Warning
+            << "deltaT is " << deltaT << " s, and was " << then << " s in the"
+            << " run so far: steps end at other times, and cells differ from"
+            << " those of a run without a restart" << nl << endl;
+    }
     if
     (
         Pstream::parRun()

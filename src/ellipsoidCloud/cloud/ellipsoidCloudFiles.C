@@ -238,6 +238,7 @@ void Foam::ellipsoidCloud::writeTime()
 
     dictionary notes;
     notes.add("time", time_);
+    notes.add("deltaT", time.deltaTValue());
     notes.add("folder", string(firstTime_));
     notes.add("mesh", meshText_);
     notes.add("shape", population_.text());

@@ -8,7 +8,9 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "ellipsoidCloud.H"
+#include "checkedEntries.H"
 #include "masterGate.H"
+#include "OSspecific.H"
 #include "SHA1.H"
 #include "volFields.H"
 
@@ -117,8 +119,26 @@ void Foam::ellipsoidCloud::reportCells(const scalar inflow) const
         << "case: " << now.size() << " cells enter in the run from " << time_
         << " to " << end << " s" << endl;
 
+    const fileName tables(statistics_->log.name().path().path());
+    scalar first = time_;
+    for (const fileName& other : readDir(tables, fileName::DIRECTORY))
+    {
+        scalar start;
+        if (isNumber(other, start))
+        {
+            first = min(first, start);
+        }
+    }
+    if (!earlier_.found() && first < time_)
+    {
+        Warning
+            << "There is no state of " << time_ << " s: cells begin anew,"
+            << " without those of the run from " << first << " s, whose tables"
+            << " stay in " << tables.c_str() << nl << endl;
+    }
+
     // Of those that are there and those to come
-    scalar first = min(now);
+    first = min(now);
     for (const cellState& cell : cells_)
     {
         first = min(first, cell.planned);
