@@ -125,7 +125,10 @@ Foam::wordRes Foam::patternsOf(const dictionary& dict, const word& keyword)
 
 void Foam::checkPatterns(const std::string& text, const fileName& file)
 {
-    // What else is wrong is told where the file is read
+    // What else is wrong is told where the file is read, except for a number such
+    // as 1e400: there it raises SIGFPE
+    std::fenv_t before;
+    std::feholdexcept(&before);
     const bool throwing = throwErrors(FatalIOError, true);
     const string complaint
     (
@@ -137,6 +140,11 @@ void Foam::checkPatterns(const std::string& text, const fileName& file)
     throwErrors(FatalIOError, throwing);
 
     const masterGate once;
+    if (std::fetestexcept(FE_OVERFLOW))
+    {
+        dictionaryOf(text, file);
+    }
+    std::fesetenv(&before);
     if (!complaint.empty())
     {
         FatalErrorInFunction
