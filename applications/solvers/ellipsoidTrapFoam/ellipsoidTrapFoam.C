@@ -80,26 +80,6 @@ static void lockCase(const argList& args)
 }
 
 
-//- The clock, from a time that need not be the latest if there is a name of one
-struct startedTime
-:
-    public Time
-{
-    startedTime(const argList& args, const word& start)
-    :
-        Time(Time::controlDictName, args)
-    {
-        if (!start.empty() && readScalar(start) != value())
-        {
-            dictionary& controls = const_cast<dictionary&>(controlDict());
-            controls.set("startFrom", "startTime");
-            controls.set("startTime", readScalar(start));
-            setControls();
-        }
-    }
-};
-
-
 //- The flow, then the cells
 static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
 {
@@ -226,8 +206,12 @@ int main(int argc, char *argv[])
     Info<< "ellipsoidTrapFoam " << ELLIPSOID_VERSION << ", "
         << ELLIPSOID_COMMIT << nl << endl;
 
-    Info<< "Create time\n" << endl;
-    startedTime runTime(args, start);
+    #include "createTime.H"
+
+    if (dryRun && !start.empty())
+    {
+        runTime.setTime(readScalar(start), 0);
+    }
 
     // The digits of writePrecision are for files
     Sout.precision(6);

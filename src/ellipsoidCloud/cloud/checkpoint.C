@@ -117,20 +117,6 @@ namespace Foam
     }
 
 
-    //- Does a time directory hold more than a kill before the first file of a
-    //  state leaves?
-    static bool foreign(const fileName& path)
-    {
-        bool some = readDir(path, fileName::DIRECTORY).size();
-        for (const fileName& file : readDir(path, fileName::FILE))
-        {
-            some = some || !file.hasExt("part");
-        }
-
-        return some;
-    }
-
-
     //- End the run if there is a state of the present time under another name
     static void checkNames(const Time& time)
     {
@@ -280,25 +266,19 @@ Foam::word Foam::checkpoint::setAsideIncomplete
         const bool complete =
             isDir(path) && (isFile(path/stateFile) || !Pstream::master());
 
-        const bool ours = returnReduce(begun(path), orOp<bool>());
-
         // To be looked at when it is read, complete, a flow or mesh to start
         // from, or another program's
         if
         (
             returnReduce(kept, orOp<bool>())
          || returnReduce(complete, andOp<bool>())
-         || (!ours && (!tracked || returnReduce(other, orOp<bool>())))
+         || (
+                !returnReduce(begun(path), orOp<bool>())
+             && (!tracked || returnReduce(other, orOp<bool>()))
+            )
         )
         {
             return name;
-        }
-        if (!ours && returnReduce(foreign(path), orOp<bool>()))
-        {
-            Info<< "ellipsoidCloud: time " << name << " holds no cells, and files"
-                << " of others: left as it is, going on from "
-                << std::next(time)->second << endl;
-            continue;
         }
 
         Info<< "ellipsoidCloud: time " << name
