@@ -57,7 +57,7 @@ int Foam::groupScheduler::advance
     labelList group(n);
     std::copy_n(index, n, group.begin());
 
-    return s.groups_.advance(s.cells_, group, end, mayFail, s.path_);
+    return s.groups_.advance(s.cells_, group, end, mayFail, *s.path_);
 }
 
 
@@ -71,7 +71,7 @@ void Foam::groupScheduler::putBack
 {
     groupScheduler& s = *static_cast<groupScheduler*>(context);
 
-    if (s.path_.empty())
+    if (s.path_->empty())
     {
         return;
     }
@@ -83,14 +83,14 @@ void Foam::groupScheduler::putBack
     }
 
     label nKept = 0;
-    for (const groupAdvance::segment& taken : s.path_)
+    for (const groupAdvance::segment& taken : *s.path_)
     {
         if (taken.step.start < time || !group.found(taken.cell))
         {
-            s.path_[nKept++] = taken;
+            (*s.path_)[nKept++] = taken;
         }
     }
-    s.path_.setSize(nKept);
+    s.path_->setSize(nKept);
 }
 
 
@@ -163,17 +163,17 @@ ellipsoid_world* Foam::groupScheduler::makeWorld
 }
 
 
-Foam::groupScheduler::groupRows Foam::groupScheduler::sample
+void Foam::groupScheduler::sample
 (
     const UList<cellSweep>& before,
-    const labelUList& group
+    const labelUList& group,
+    groupPath& seen
 )
 {
-    groupRows rows;
-
     // Until its end the cells have the fate that they had at the start, or
     // that they entered with
     List<cellSweep> after(UIndirectList<cellSweep>(cells_, group));
+    seen.rows.clear();
 
     forAll(after, k)
     {
@@ -183,13 +183,13 @@ Foam::groupScheduler::groupRows Foam::groupScheduler::sample
         if (cell.waits() && !after[k].state.waits())
         {
             cell.fate = cellState::inFlight;
-            tracks_->start(cell, rows);
+            tracks_->start(cell, seen.rows);
         }
     }
-    for (const groupAdvance::segment& taken : path_)
+    for (const groupAdvance::segment& taken : seen.path)
     {
         cellState& cell = cells_[taken.cell].state;
-        tracks_->add(cell, taken.step, domain_.flow, taken.tet, rows);
+        tracks_->add(cell, taken.step, domain_.flow, taken.tet, seen.rows);
     }
     forAll(after, k)
     {
@@ -200,11 +200,10 @@ Foam::groupScheduler::groupRows Foam::groupScheduler::sample
 
         if (after[k].gone())
         {
-            tracks_->finish(cell, rows);
+            tracks_->finish(cell, seen.rows);
         }
     }
-
-    return rows;
+    seen.path.clear();
 }
 
 
@@ -212,7 +211,7 @@ bool Foam::groupScheduler::advanceGroups
 (
     ellipsoid_world* world,
     const scalar time,
-    List<groupRows>& rows
+    List<groupPath>& seen
 )
 {
     const int* todo;
@@ -235,9 +234,11 @@ bool Foam::groupScheduler::advanceGroups
 
     for (const label k : groupSharing::inMeshOrder(cells_, members))
     {
+        groupPath& of = seen[todo[k]];
+
         if (ranks[k] == Pstream::myProcNo())
         {
-            path_.clear();
+            path_ = &of.path;
             withMemory
             (
                 world,
@@ -245,8 +246,9 @@ bool Foam::groupScheduler::advanceGroups
             );
             if (tracks_)
             {
-                rows[todo[k]] = sample(before, members[k]);
+                sample(before, members[k], of);
             }
+            of.path.clear();
         }
     }
 
@@ -300,9 +302,9 @@ Foam::List<Foam::cellSweep> Foam::groupScheduler::advanceInterval
 
     const ellipsoid_world_cells moved(worldCells());
     ellipsoid_world* world = makeWorld(moved, start, end);
-    List<groupRows> rows(ellipsoid_world_group_count(world));
+    List<groupPath> seen(ellipsoid_world_group_count(world));
 
-    while (advanceGroups(world, end - start, rows))
+    while (advanceGroups(world, end - start, seen))
     {
         withMemory(world, [&]() { return ellipsoid_world_join(world); });
 
@@ -311,22 +313,22 @@ Foam::List<Foam::cellSweep> Foam::groupScheduler::advanceInterval
         const int nTodo = ellipsoid_world_todo(world, &todo);
         for (int k = 0; k < nTodo; ++k)
         {
-            rows[todo[k]].clear();
+            seen[todo[k]].rows.clear();
         }
-        forAll(rows, groupi)
+        forAll(seen, groupi)
         {
             if (!ellipsoid_world_group(world, groupi, nullptr))
             {
-                rows[groupi].clear();
+                seen[groupi].rows.clear();
             }
         }
     }
 
-    for (const groupRows& some : rows)
+    for (const groupPath& of : seen)
     {
         if (tracks_)
         {
-            tracks_->addRows(some);
+            tracks_->addRows(of.rows);
         }
     }
 
