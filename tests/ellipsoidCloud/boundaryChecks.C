@@ -142,6 +142,23 @@ namespace Foam
          && closes(vector(0, 1e-3, 0), gradient)
         );
 
+        // Through the post
+        const auto leaks = [&](const vector& velocity, const bool asItIs)
+        {
+            const layer other(mesh, velocity);
+            const inletFlux flux
+            (
+                other.undecomposed.U(), other.undecomposed.phi()
+            );
+            return refuses([&] { flux.checkWalls(mesh, asItIs); });
+        };
+        holds
+        (
+            "a wall is one that nothing flows through, or the flow is given",
+            !leaks(Zero, false) && leaks(vector(0, 1e-3, 0), false)
+         && !leaks(vector(0, 1e-3, 0), true)
+        );
+
         // Each face is two triangles
         const label front = mesh.boundaryMesh().findPatchID("front");
         const patchInflow inflow

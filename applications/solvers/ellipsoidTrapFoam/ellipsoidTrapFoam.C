@@ -134,7 +134,7 @@ static void runCase(const argList& args, const fvMesh& mesh, Time& runTime)
         return;
     }
 
-    cells->setFlow(flow->fields());
+    cells->setFlow(flow->fields(), solve == flowFields::NO);
     if (dryRun)
     {
         return;

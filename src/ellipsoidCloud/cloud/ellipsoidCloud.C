@@ -339,11 +339,12 @@ Foam::ellipsoidCloud::~ellipsoidCloud() = default;
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::ellipsoidCloud::setFlow(const solverFields& flow)
+void Foam::ellipsoidCloud::setFlow(const solverFields& flow, const bool asItIs)
 {
     undecomposed_->gather(flow);
 
     const inletFlux through(flow.U, flow.phi);
+    through.checkWalls(mesh_, asItIs);
     if (flowType_ != UNSTEADY)
     {
         through.checkOpen(mesh_);
@@ -409,6 +410,7 @@ void Foam::ellipsoidCloud::advance(const solverFields& flow)
     {
         return;
     }
+    inletFlux(flow.U, flow.phi).checkWalls(mesh_, false);
     inertiaTold_ =
         inertiaTold_
      || reportInertia(flow.U, properties_, population_.largest(longestSemiAxis));

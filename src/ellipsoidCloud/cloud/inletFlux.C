@@ -2,6 +2,7 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "inletFlux.H"
+#include "checkedEntries.H"
 #include "foamVersions.H"
 #include "masterGate.H"
 #include "surfaceFields.H"
@@ -49,6 +50,28 @@ Foam::inletFlux::inletFlux
         }
     }
 
+    for (const polyPatch& pp : mesh.boundaryMesh())
+    {
+        if (!isA<wallPolyPatch>(pp))
+        {
+            continue;
+        }
+        const scalar out = gSumMag(phi.boundaryField()[pp.index()]);
+        const fvPatchVectorField& Up = U.boundaryField()[pp.index()];
+
+        // What a wall that slides along itself leaks is the error of its facets
+        if
+        (
+            leaking < 0
+         && out > 1e-3*(inflow > 0 ? inflow : crossing)
+         && out > 0.01*gSum(mag(Up)*Up.patch().magSf())
+        )
+        {
+            leaking = pp.index();
+            leak = out;
+        }
+    }
+
     speed = closed() ? meanSpeed : inflow/inletArea;
     if (!closed())
     {
@@ -88,6 +111,36 @@ Foam::scalar Foam::inletFlux::speedOf(const undecomposedFlow& undecomposed)
     broadcast(speed);
 
     return speed;
+}
+
+
+void Foam::inletFlux::checkWalls
+(
+    const polyMesh& mesh,
+    const bool asItIs
+) const
+{
+    const masterGate once;
+
+    if (leaking >= 0)
+    {
+        const polyPatch& pp = mesh.boundaryMesh()[leaking];
+        const std::string what
+        (
+            "fluid flows through patch " + pp.name() + " of type " + pp.type()
+          + ", " + shortText(leak) + " m3/s\n"
+            "    Cells would be held there. If it is an open end, make it one:"
+            " type patch in " + mesh.meshDir()/"boundary"
+          + "\n    allowed: 1e-3 of the inflow, or a U along the wall"
+        );
+
+        if (asItIs)
+        {
+            Warning << what.c_str() << nl << endl;
+            return;
+        }
+        FatalErrorInFunction << what.c_str() << exit(FatalError);
+    }
 }
 
 
