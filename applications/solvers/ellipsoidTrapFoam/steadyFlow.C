@@ -110,6 +110,8 @@ void Foam::steadyFlow::solveFrom(const flow& kept, const scalar tolerance)
 
 bool Foam::steadyFlow::accept()
 {
+    // What is added later would change a flow that is steady without it
+    checkModels();
     if (solve_ == AUTO)
     {
         // A flux that was not there to be read is not steady
@@ -131,7 +133,6 @@ bool Foam::steadyFlow::accept()
                 << exit(FatalError);
         }
     }
-    checkModels();
     checkRegions();
 
     return false;

@@ -161,8 +161,15 @@ void Foam::steadyFlow::checkModels() const
     {
         const dictionary sources(readIfPresent(mesh_, "fvOptions", folder));
         const masterGate once;
+        bool active = false;
 
-        if (sources.size())
+        // All are in a dictionary of their own, or none
+        for (const entry& e : sources.optionalSubDict("options"))
+        {
+            active =
+                active || (e.isDict() && e.dict().getOrDefault("active", true));
+        }
+        if (active)
         {
             FatalErrorInFunction
                 << "The sources of " << folder << "/fvOptions are not solved"
