@@ -49,14 +49,30 @@ namespace Foam
             digestsOf(path).getOrDefault<string>(name, "") == digest(path/name);
     }
 
+    static void moveAside(const fileName& file, const char* how)
+    {
+        if (!mvBak(file, "bak"))
+        {
+            cannotWrite(file);
+        }
+        Info<< "flow: " << (file.path().name()/file.name()).c_str() << " as it"
+            << " was " << how << " is kept as " << file.name().c_str() << ".bak"
+            << endl;
+    }
+
     //- Move the file of a field away that is neither our own nor a copy of that
-    //  in 0.orig
+    //  in 0.orig, and one that was not read beside it
     static void setAside(const fileName& path, const word& name)
     {
         const fileName plain(path/name);
-        const fileName file(plain + (isFile(plain, false) ? "" : ".gz"));
+        const fileName zipped(plain + ".gz");
+        const bool isPlain = isFile(plain, false);
         const std::string text(textOf(plain));
 
+        if (isPlain && isFile(zipped, false))
+        {
+            moveAside(zipped, "found beside it");
+        }
         if
         (
             text.empty()
@@ -66,12 +82,7 @@ namespace Foam
         {
             return;
         }
-        if (!mvBak(file, "bak"))
-        {
-            cannotWrite(file);
-        }
-        Info<< "flow: " << (path.name()/name).c_str()
-            << " as it was read is kept as " << name << ".bak" << endl;
+        moveAside(isPlain ? plain : zipped, "read");
     }
 
     //- Give what is written in a time its names, and the time its digests
