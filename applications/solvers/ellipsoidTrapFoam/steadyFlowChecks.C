@@ -83,6 +83,27 @@ static void checkControls(const fvMesh& mesh, const dictionary& controls)
 }
 
 
+//- Refuse patches at which a field has no condition, as createBaffles leaves
+//  them, of which OpenFOAM makes a stack trace
+template<class Field>
+static void checkConditions(const Field& field)
+{
+    const masterGate once;
+
+    for (const auto& pf : field.boundaryField())
+    {
+        if (pf.type() == "calculated")
+        {
+            FatalErrorInFunction
+                << field.objectPath() << " is " << pf.type() << " at patch "
+                << pf.patch().name() << " of type " << pf.patch().type() << nl
+                << "    A flow to be solved needs a condition there: noSlip of"
+                << " U and zeroGradient of p at a wall" << exit(FatalError);
+        }
+    }
+}
+
+
 //- Refuse jumps of the pressure, which decomposePar loses
 static void checkJumps(const volScalarField& p)
 {
@@ -111,6 +132,8 @@ static void checkJumps(const volScalarField& p)
 
 Foam::coupledStokes::settings Foam::steadyFlow::readControls() const
 {
+    checkConditions(U_);
+    checkConditions(p_);
     checkJumps(p_);
     checkControls(mesh_, controls_);
 
