@@ -79,6 +79,21 @@ void Foam::cannotWrite(const fileName& file, const int reason)
 }
 
 
+void Foam::checkLinks(const fileName& path)
+{
+    for (fileName part(path); part.size() > 1; part = part.path())
+    {
+        if (part.type(false) == fileName::LINK && !exists(part))
+        {
+            FatalErrorInFunction
+                << part << " is a symbolic link to a folder that is missing"
+                << nl << "    Make that folder, or remove the link"
+                << exit(FatalError);
+        }
+    }
+}
+
+
 void Foam::toDisk(const fileName& file)
 {
     const std::string path(file + (isFile(file, false) ? "" : ".gz"));
@@ -107,6 +122,7 @@ void Foam::writePart
 {
     const fileName part(partOf(file));
 
+    checkLinks(file.path());
     mkDir(file.path());
     {
         #if OPENFOAM >= 2206
@@ -182,6 +198,7 @@ void Foam::atomicWrite
 {
     const fileName part(partOf(file));
 
+    checkLinks(file.path());
     mkDir(file.path());
     errno = 0;
     std::ofstream os(part);

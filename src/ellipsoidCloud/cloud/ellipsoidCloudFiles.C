@@ -38,6 +38,11 @@ void Foam::ellipsoidCloud::makeTables()
         mesh_.time().globalPath()/"postProcessing"/"ellipsoidCloud"/firstTime_
     );
 
+    if (Pstream::master())
+    {
+        checkLinks(folder);
+    }
+
     const tableSet set
     {
         mesh_.boundaryMesh().names(),
