@@ -200,7 +200,11 @@ Foam::steadyCriterion::forceRatios Foam::steadyCriterion::forces
     reduce(shear, sumOp<scalar>());
 
     const scalar pressure = gSum(mag(gradP)*mesh.V());
-    const scalar driving = pressure + shear + VSMALL;
+
+    // Where nothing resists, as between walls that slip, both are of rounding
+    const scalar least =
+        1e-3*nu_*meanSpeed_*cbrt(gSum(mesh.V().field()));
+    const scalar driving = max(pressure + shear, least) + VSMALL;
 
     return {gSum(mag(net)*mesh.V())/driving, pressure/driving};
 }
