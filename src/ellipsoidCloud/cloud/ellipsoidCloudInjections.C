@@ -120,25 +120,25 @@ void Foam::ellipsoidCloud::reportCells(const scalar inflow) const
         << " to " << end << " s" << endl;
 
     const fileName tables(statistics_->log.name().path().path());
-    scalar first = time_;
+    scalar begun = time_;
     for (const fileName& other : readDir(tables, fileName::DIRECTORY))
     {
         scalar start;
         if (isNumber(other, start))
         {
-            first = min(first, start);
+            begun = min(begun, start);
         }
     }
-    if (!earlier_.found() && first < time_)
+    if (!earlier_.found() && begun < time_)
     {
         Warning
             << "There is no state of " << time_ << " s: cells begin anew,"
-            << " without those of the run from " << first << " s, whose tables"
+            << " without those of the run from " << begun << " s, whose tables"
             << " stay in " << tables.c_str() << nl << endl;
     }
 
     // Of those that are there and those to come
-    first = min(now);
+    scalar first = min(now);
     for (const cellState& cell : cells_)
     {
         first = min(first, cell.planned);
