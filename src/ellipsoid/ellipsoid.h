@@ -11,10 +11,8 @@
     given walls. It solves thirteen stiff equations (velocity, position, angular
     velocity, quaternion) by an adaptive Rosenbrock method of fourth order.
     Without inertia only the seven equations of position and quaternion are
-    left. They are solved by an explicit Runge-Kutta method of fifth order
-    (fourth where the velocity is `piecewise`, see ellipsoid_surroundings).
-    Where the body touches, steps are Rosenbrock steps (of third order where the
-    velocity is `piecewise`).
+    left. They are solved by an explicit Runge-Kutta method of fourth order.
+    Where the body touches, steps are Rosenbrock steps of third order.
 
     SI units throughout. Frames:
       lab    x  = (x1, x2, x3)
@@ -156,13 +154,10 @@ typedef struct ellipsoid_surroundings
                                   walls unchanged, as of periodic patches; the
                                   cells of a group touch the nearest images */
     int repeat_count;          /* how many */
-    int fixed;     /* 1: the body stays at rest in its pose whatever acts on it;
-                      other cells of its group touch it */
-    int piecewise; /* 1: the gradient of the velocity jumps, as between the
-                      pieces of an interpolation; then another explicit method
-                      is used */
-    double time;   /* [s] at which functions without a time argument, such as
-                      ellipsoid_rhs(), call the callbacks */
+    int fixed;   /* 1: the body stays at rest in its pose whatever acts on it;
+                    other cells of its group touch it */
+    double time; /* [s] at which functions without a time argument, such as
+                    ellipsoid_rhs(), call the callbacks */
     /* The key of the cell's random numbers for Brownian motion. Noise interval
        n begins at the time n noise_interval. */
     uint64_t seed;
@@ -397,15 +392,14 @@ typedef struct ellipsoid_step
 {
     double start, end; /* [s] */
     ellipsoid_state before, after;
-    double dense[3][ELLIPSOID_STATE_SIZE]; /* continuous extension */
+    double dense[2][ELLIPSOID_STATE_SIZE]; /* continuous extension */
     ellipsoid_contact contact;             /* at the end */
 } ellipsoid_step;
 
-/* The state at time start <= t <= end, interpolated to third order; to fourth
-   order in x and q if the step was explicit and the velocity is not
-   `piecewise`. In INERTIALESS motion u and omega have one order less; if the
-   step was not explicit and the velocity is `piecewise`, they are linear in
-   time. A noise interval that is one step is linear in all. */
+/* The state at time start <= t <= end, interpolated to third order. In
+   INERTIALESS motion u and omega have one order less; if the step was not
+   explicit, they are linear in time. A noise interval that is one step is linear
+   in all. */
 void ellipsoid_step_state(const ellipsoid_step *step, double t,
                           ellipsoid_state *state);
 

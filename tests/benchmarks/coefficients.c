@@ -35,7 +35,7 @@ static struct
 enum
 {
     COUNT = sizeof(set) / sizeof(set[0]),
-    S = ELLIPSOID_ROSENBROCK_STAGES,
+    S = ELLIPSOID_STAGES,
     TREES = 8
 };
 

@@ -242,7 +242,6 @@ static void test_errors_near_walls(void **unused)
         const ellipsoid_group g = group_of(&j);
         double error = 0;
 
-        j.stages.order = 4;
         j.next.walls.planes = 1;
         j.next.walls.motion[0] = 1;
         j.next.walls.by[0][kind ? 4 : 2] =
@@ -272,7 +271,6 @@ static void test_coming_to_rest(void **unused)
         o.friction = n & 8 ? 0 : 0.3;
         model = test_model(&o);
         j.start.contact.bead_contacts = touching;
-        j.stages.order = 4;
         assert_relative(ellipsoid_step_factor(&g, error, before),
                         0.9 * pow(error, rests ? -1 / 4.0 : -0.7 / 4)
                             * (rests ? 1 : pow(before, 0.4 / 4)),

@@ -6,7 +6,10 @@
     another: steps end where they do; and one that two walls let go.
 */
 #include "contactTest.h"
+
 #include "contact/contact.h"
+
+#include <math.h>
 
 /*
     A ball at height h sinks at speed w, and the wall is flat: it is d deep at
@@ -66,23 +69,28 @@ static long roll(double tolerance, ellipsoid_state *state)
 }
 
 /*
-    Its beads land in turn. It takes 669 attempts, and 892 if steps do not end
-    there, with the same error.
+    Its beads land in turn. With six tolerances about 1e-3, as one error alone is a
+    matter of chance, it takes 4022 attempts, and 5449 if steps do not end there,
+    with a mean error of 1.2 and 0.9 nm.
 */
 static void test_rolling(void **unused)
 {
     ellipsoid_state reference, state;
-    long attempts;
-    double error[3];
+    long attempts = 0;
+    double off[3], error = 0;
 
     (void)unused;
     (void)roll(1e-8, &reference);
-    attempts = roll(1e-3, &state);
-    ellipsoid_difference(state.x, reference.x, error);
-    print_message("# rolling: %ld attempts, error %.1e m\n", attempts,
-                  ellipsoid_length(error));
-    assert_true(attempts < 780);
-    assert_true(ellipsoid_length(error) < 1.3e-9);
+    for (int n = 0; n < 6; n++)
+    {
+        attempts += roll(3e-3 * pow(0.7, n), &state);
+        ellipsoid_difference(state.x, reference.x, off);
+        error += ellipsoid_length(off) / 6;
+    }
+    print_message("# rolling: %ld attempts, mean error %.1e m\n", attempts,
+                  error);
+    assert_true(attempts < 6 * 780);
+    assert_true(error < 1.3e-9);
 }
 
 /* A cell askew between two plates, so far from the middle, in a flow that turns

@@ -389,7 +389,6 @@ static void read_flow(fuzz_scene *s, fuzz_input *in)
         s->shore[3] = fuzz_between(in, -1, 3) * s->length;
         s->around.velocities = velocities;
     }
-    s->around.piecewise = fuzz_choice(in, 2);
     s->around.fixed = fuzz_choice(in, 8) == 7;
 }
 

@@ -57,7 +57,7 @@ class Surroundings(Structure):
     _fields_ = [("flow", FlowFunction), ("flow_context", c_void_p), ("walls", c_void_p), ("walls_context", c_void_p),
                 ("velocities", c_void_p), ("field", c_void_p), ("field_context", c_void_p), ("force", c_void_p),
                 ("force_context", c_void_p), ("force_depends_on_velocity", c_int), ("unsteady", c_int),
-                ("repeat", c_void_p), ("repeat_count", c_int), ("fixed", c_int), ("piecewise", c_int),
+                ("repeat", c_void_p), ("repeat_count", c_int), ("fixed", c_int),
                 ("time", c_double), ("seed", c_uint64), ("id", c_uint32)]
 
 

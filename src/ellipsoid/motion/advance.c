@@ -184,7 +184,7 @@ static ellipsoid_status try_step(ellipsoid_group *g,
 
 /* The continuous extension of a step of a cell. */
 typedef void dense_output(const ellipsoid_group *group, int cell,
-                          double dense[3][UNKNOWNS]);
+                          double dense[2][UNKNOWNS]);
 
 /* Tells the accepted step; NULL: it is linear in time. */
 static void describe_step(const ellipsoid_group *g,

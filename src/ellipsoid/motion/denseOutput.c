@@ -23,8 +23,7 @@ void ellipsoid_step_state(const ellipsoid_step *step, double t,
     memcpy(after, &step->after, sizeof(after));
     for (int n = 0; n < UNKNOWNS; n++)
     {
-        const double bend =
-            step->dense[0][n] + s * (step->dense[1][n] + r * step->dense[2][n]);
+        const double bend = step->dense[0][n] + s * step->dense[1][n];
 
         y[n] = r * before[n] + s * (after[n] + r * bend);
     }

@@ -23,8 +23,8 @@ enum
 {
     MOST_ITERATIONS = 60,
     MOST_RELAXATIONS = 400,
-    MOST_HALVINGS = 40,            /* damping turns sharply where it lets go */
-    CHANGE = ELLIPSOID_MAX_STAGES, /* beyond the stages of a step */
+    MOST_HALVINGS = 40,        /* damping turns sharply where it lets go */
+    CHANGE = ELLIPSOID_STAGES, /* beyond the stages of a step */
     BEST
 };
 

@@ -42,7 +42,6 @@ static void set_kind(ellipsoid_group *g, const ellipsoid_model *model,
 {
     g->stiff = g->stiff || model->has_dipole || surroundings->force != NULL;
     g->unsteady = g->unsteady || surroundings->unsteady;
-    g->piecewise = g->piecewise || surroundings->piecewise;
     g->dissipative = g->dissipative || model->dissipative
                   || ellipsoid_force_is_dissipative(surroundings);
 }

@@ -37,26 +37,23 @@ static inline int ellipsoid_is_rate(int n)
     (1/(gamma h) - J) K_i = f(t0 + alpha_i h, y0 + sum a_ij K_j)
                             + sum c_ij/h K_j + gamma_i h df/dt(t0, y0),
     y1 = y0 + sum m_j K_j; the error estimate is the last K, and
-    y(s) = y0 (1-s) + s (y1 + (1-s) (d_0 + s d_1)), d_i = sum_j dense_ij K_j,
-    unless that is Hermite's cubic.
+    y(s) = y0 (1-s) + s (y1 + (1-s) (d_0 + s d_1)), d_i = sum_j dense_ij K_j.
 */
-#define ELLIPSOID_ROSENBROCK_STAGES 6 /* at most */
+#define ELLIPSOID_STAGES 6 /* of a step of any method */
 
 typedef struct ellipsoid_rosenbrock_table
 {
-    int stages, order;
     double gamma;
-    double a[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
-    double c[ELLIPSOID_ROSENBROCK_STAGES][ELLIPSOID_ROSENBROCK_STAGES];
-    double alpha[ELLIPSOID_ROSENBROCK_STAGES];
-    double gamma_sum[ELLIPSOID_ROSENBROCK_STAGES]; /* gamma_i */
-    double dense[2][ELLIPSOID_ROSENBROCK_STAGES];
-    int in_time[ELLIPSOID_ROSENBROCK_STAGES]; /* stages by their time */
+    double a[ELLIPSOID_STAGES][ELLIPSOID_STAGES];
+    double c[ELLIPSOID_STAGES][ELLIPSOID_STAGES];
+    double alpha[ELLIPSOID_STAGES];
+    double gamma_sum[ELLIPSOID_STAGES]; /* gamma_i */
+    double dense[2][ELLIPSOID_STAGES];
+    int in_time[ELLIPSOID_STAGES]; /* stages by their time */
 } ellipsoid_rosenbrock_table;
 
 extern const ellipsoid_rosenbrock_table
-    ellipsoid_rosenbrock_set,   /* rodas4p2.c */
-    ellipsoid_rosenbrock_third; /* rodas3.c */
+    ellipsoid_rosenbrock_set; /* rodas4p2.c */
 
 /* -------------------------------------------------------- the equations */
 
@@ -122,22 +119,19 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
                                     ellipsoid_evaluation *at, int balanced,
                                     int with_blocks);
 
-#define ELLIPSOID_MAX_STAGES 7
-
 /* The stages of one step. */
 typedef struct ellipsoid_stages
 {
     /* two more, for forceBalance.c: a change, and the best velocities so far */
-    double k[ELLIPSOID_MAX_STAGES + 2][UNKNOWNS];
+    double k[ELLIPSOID_STAGES + 2][UNKNOWNS];
     double time_derivative[UNKNOWNS]; /* df/dt at the start, if unsteady */
     double y[UNKNOWNS];               /* result */
     double error[UNKNOWNS];
-    int order; /* of the error estimate in the step */
     /* Where contact was evaluated, by time: poses, gap [m] that a bead may cross */
     int sampled;
     const int *in_time;
-    ellipsoid_state pose[ELLIPSOID_MAX_STAGES];
-    double gap[ELLIPSOID_MAX_STAGES];
+    ellipsoid_state pose[ELLIPSOID_STAGES];
+    double gap[ELLIPSOID_STAGES];
 } ellipsoid_stages;
 
 /* What solves the linear system of a stage (stageMatrix.c). */
@@ -231,7 +225,6 @@ typedef struct ellipsoid_group
     int unsteady;    /* do the surroundings of one depend on time? */
     int dissipative; /* do forces other than drag depend on velocities? */
     int observed;    /* is the whole of ellipsoid_step asked for? */
-    int piecewise;   /* does the gradient of a flow jump? */
     ellipsoid_cell *cell;
     ellipsoid_evaluation *start, *next; /* next serves the stages, too */
     ellipsoid_stages *stages;
@@ -365,13 +358,6 @@ int ellipsoid_group_prepare(ellipsoid_group *group,
                             const ellipsoid_evaluation *points, double per_g);
 void ellipsoid_group_solve(const ellipsoid_group *group, int stage);
 
-static inline const ellipsoid_rosenbrock_table *
-ellipsoid_rosenbrock_set_of(const ellipsoid_group *g)
-{
-    return g->piecewise && !g->inertial ? &ellipsoid_rosenbrock_third
-                                        : &ellipsoid_rosenbrock_set;
-}
-
 /* sum_j<count weight[j] k_j, of the components from `first` on. */
 static inline void ellipsoid_weighted_sum(double k[][UNKNOWNS],
                                           const double *weight, int count,
@@ -413,9 +399,9 @@ ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
 
 /* The continuous extensions of such steps of a cell. */
 void ellipsoid_rosenbrock_dense(const ellipsoid_group *group, int cell,
-                                double dense[3][UNKNOWNS]);
+                                double dense[2][UNKNOWNS]);
 void ellipsoid_explicit_dense(const ellipsoid_group *group, int cell,
-                              double dense[3][UNKNOWNS]);
+                              double dense[2][UNKNOWNS]);
 
 /* At the start of a noise interval that lasts many relaxation times: takes the
    start to where they have passed, in no time; or, if all cells are slow and touch

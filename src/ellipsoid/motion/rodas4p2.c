@@ -12,8 +12,6 @@
 #include "motion/motion.h"
 
 const ellipsoid_rosenbrock_table ellipsoid_rosenbrock_set = {
-    .stages = 6,
-    .order = 4,
     .gamma = 0.25,
     .a = {{0},
           {3},

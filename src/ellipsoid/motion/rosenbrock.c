@@ -14,10 +14,11 @@
 #include <math.h>
 #include <string.h>
 
+static const ellipsoid_rosenbrock_table *const set = &ellipsoid_rosenbrock_set;
+
 /* Sets the state of a stage and, in k, what belongs to its right-hand side
    besides the equations: sum c_ij/h K_j, where there is mass. */
-static inline int set_stage(const ellipsoid_rosenbrock_table *set,
-                            const ellipsoid_evaluation *start, int stage,
+static inline int set_stage(const ellipsoid_evaluation *start, int stage,
                             const double mass[UNKNOWNS], ellipsoid_stages *s,
                             ellipsoid_evaluation *at)
 {
@@ -75,7 +76,7 @@ static ellipsoid_status set_time_derivatives(ellipsoid_group *g,
 
 static void add_time_derivatives(const ellipsoid_group *g, int stage, double h)
 {
-    const double factor = ellipsoid_rosenbrock_set_of(g)->gamma_sum[stage] * h;
+    const double factor = set->gamma_sum[stage] * h;
 
     for (int cell = 0; cell < g->count; cell++)
     {
@@ -92,7 +93,6 @@ static void add_time_derivatives(const ellipsoid_group *g, int stage, double h)
 static inline void take_first_stage(ellipsoid_group *g, int count, double h,
                                     double mass[UNKNOWNS])
 {
-    const ellipsoid_rosenbrock_table *set = ellipsoid_rosenbrock_set_of(g);
 
     for (int n = 0; n < UNKNOWNS; n++)
     {
@@ -102,8 +102,7 @@ static inline void take_first_stage(ellipsoid_group *g, int count, double h,
     {
         ellipsoid_stages *s = &g->stages[cell];
 
-        s->order = set->order;
-        s->sampled = set->stages;
+        s->sampled = ELLIPSOID_STAGES;
         s->in_time = set->in_time;
         memcpy(s->k[0], g->start[cell].slope, sizeof(s->k[0]));
         ellipsoid_stages_sample(s, 0, &g->start[cell]);
@@ -125,30 +124,25 @@ void ellipsoid_expand_about_start(ellipsoid_group *g, int expanded)
     }
 }
 
-/* The slopes of a stage, in its k; those of a stage at the start are known. */
+/* The slopes of a stage, in its k. */
 static inline ellipsoid_status evaluate_stage(ellipsoid_group *g, int count,
                                               int stage,
                                               const ellipsoid_plan *plan)
 {
-    const double part = ellipsoid_rosenbrock_set_of(g)->alpha[stage];
-    const ellipsoid_evaluation *at = part > 0 ? g->next : g->start;
-    ellipsoid_status status = ELLIPSOID_OK;
+    ellipsoid_status status;
 
-    if (part > 0)
-    {
-        ellipsoid_expand_about_start(g, 1);
-        status = ellipsoid_group_evaluate(g, ellipsoid_stage_time(plan, part),
-                                          g->next, 0, 0);
-        ellipsoid_expand_about_start(g, 0);
-    }
+    ellipsoid_expand_about_start(g, 1);
+    status = ellipsoid_group_evaluate(
+        g, ellipsoid_stage_time(plan, set->alpha[stage]), g->next, 0, 0);
+    ellipsoid_expand_about_start(g, 0);
     for (int cell = 0; status == ELLIPSOID_OK && cell < count; cell++)
     {
         ellipsoid_stages *s = &g->stages[cell];
 
-        ellipsoid_stages_sample(s, stage, &at[cell]);
+        ellipsoid_stages_sample(s, stage, &g->next[cell]);
         for (int n = 0; n < UNKNOWNS; n++)
         {
-            s->k[stage][n] += at[cell].slope[n];
+            s->k[stage][n] += g->next[cell].slope[n];
         }
     }
     return status;
@@ -158,7 +152,6 @@ static inline ellipsoid_status evaluate_stage(ellipsoid_group *g, int count,
 static inline ellipsoid_status take(ellipsoid_group *g, int count,
                                     const ellipsoid_plan *plan)
 {
-    const ellipsoid_rosenbrock_table *set = ellipsoid_rosenbrock_set_of(g);
     const double h = plan->h;
     double mass[UNKNOWNS]; /* over h */
 
@@ -172,13 +165,13 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count,
         }
     }
     take_first_stage(g, count, h, mass);
-    for (int i = 1; i < set->stages; i++)
+    for (int i = 1; i < ELLIPSOID_STAGES; i++)
     {
         ellipsoid_status status;
 
         for (int cell = 0; cell < count; cell++)
         {
-            if (!set_stage(set, &g->start[cell], i, mass, &g->stages[cell],
+            if (!set_stage(&g->start[cell], i, mass, &g->stages[cell],
                            &g->next[cell]))
             {
                 return ELLIPSOID_STEP_UNDERFLOW;
@@ -202,7 +195,7 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count,
 
         for (int n = 0; n < UNKNOWNS; n++)
         {
-            s->error[n] = s->k[set->stages - 1][n];
+            s->error[n] = s->k[ELLIPSOID_STAGES - 1][n];
             s->y[n] = g->next[cell].y[n] + s->error[n];
         }
     }
@@ -212,42 +205,19 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count,
 ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *g,
                                            const ellipsoid_plan *plan)
 {
-    if (!ellipsoid_group_prepare(
-            g, g->start, ellipsoid_rosenbrock_set_of(g)->gamma * plan->h))
+    if (!ellipsoid_group_prepare(g, g->start, set->gamma * plan->h))
     {
         return ELLIPSOID_NON_FINITE;
     }
     return g->count == 1 ? take(g, 1, plan) : take(g, g->count, plan);
 }
 
-/* Hermite's cubic for x and q; u and omega are linear. */
-static void hermite(double h, const ellipsoid_evaluation *from,
-                    const ellipsoid_evaluation *to, double dense[3][UNKNOWNS])
-{
-    for (int n = 0; n < UNKNOWNS; n++)
-    {
-        const double change = to->y[n] - from->y[n];
-        const int is_rate = ellipsoid_is_rate(n);
-
-        dense[0][n] = is_rate ? 0 : h * from->slope[n] - change;
-        dense[1][n] = is_rate ? 0 : change - h * to->slope[n] - dense[0][n];
-    }
-}
-
 void ellipsoid_rosenbrock_dense(const ellipsoid_group *g, int cell,
-                                double dense[3][UNKNOWNS])
+                                double dense[2][UNKNOWNS])
 {
-    memset(dense[2], 0, sizeof(dense[2]));
-    if (ellipsoid_rosenbrock_set_of(g) == &ellipsoid_rosenbrock_third)
-    {
-        hermite(g->step[cell].end - g->step[cell].start, &g->start[cell],
-                &g->next[cell], dense);
-        return;
-    }
     for (int i = 0; i < 2; i++)
     {
-        ellipsoid_weighted_sum(g->stages[cell].k,
-                               ellipsoid_rosenbrock_set.dense[i],
-                               ELLIPSOID_ROSENBROCK_STAGES - 1, 0, dense[i]);
+        ellipsoid_weighted_sum(g->stages[cell].k, set->dense[i],
+                               ELLIPSOID_STAGES - 1, 0, dense[i]);
     }
 }

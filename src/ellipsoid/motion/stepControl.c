@@ -9,6 +9,9 @@
 #include <float.h>
 #include <math.h>
 
+/* With which power of the step errors of either method grow. */
+static const double order = 4;
+
 /* m u^2 + omega I omega, of velocities or of their errors */
 static double twice_kinetic(const ellipsoid_model *m, const double y[UNKNOWNS])
 {
@@ -204,7 +207,7 @@ static const double at_rest = 0.1;
 
 /*
     PI control (Hairer & Wanner II, section IV.2): the factor by which the next
-    step differs, where errors grow with the step to the power of the order.
+    step differs.
 */
 double ellipsoid_step_factor(const ellipsoid_group *g, double error,
                              double previous_error)
@@ -218,7 +221,7 @@ double ellipsoid_step_factor(const ellipsoid_group *g, double error,
         alone = is_rubbing(&g->cell[cell], &g->start[cell]);
     }
     exponent = alone ? -e : 0.4 * log(previous_error) - 0.7 * e;
-    return fmin(fmax(0.9 * exp(exponent / g->stages[0].order), 0.2), 5);
+    return fmin(fmax(0.9 * exp(exponent / order), 0.2), 5);
 }
 
 /* What one cell says to it: `there` is a short way `ahead` along its slopes. */
@@ -309,7 +312,7 @@ ellipsoid_status ellipsoid_judge_step(const ellipsoid_group *g, double h,
             const double travel = unseen_travel(p, stages, g->pairs ? 0.5 : 1);
 
             /* travel is proportional to the step */
-            *error = fmax(*error, pow(travel, (double)stages->order));
+            *error = fmax(*error, pow(travel, order));
         }
     }
     return ELLIPSOID_OK;
@@ -343,7 +346,7 @@ ellipsoid_status ellipsoid_judge_expansions(const ellipsoid_group *g, double h,
                     0.5 * ellipsoid_length(wrong + 3))
              / p->model->options.tolerance;
         /* places are wrong by the cube of the step */
-        *error = fmax(*error, pow(made, g->stages[cell].order / 3.0));
+        *error = fmax(*error, pow(made, order / 3));
     }
     return ELLIPSOID_OK;
 }
