@@ -331,7 +331,7 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
 {
     const ellipsoid_model *model = cell->model;
     const ellipsoid_surroundings *surroundings = &cell->surroundings;
-    const int inertial = model->options.motion == ELLIPSOID_MOTION_INERTIAL;
+    const int inertial = cell->inertial;
     const int drag = model->options.drag && surroundings->flow;
     ellipsoid_state *state = &at->state, *derivative = &at->derivative;
     ellipsoid_jacobian_blocks *blocks = with_blocks ? &at->blocks : NULL;

@@ -10,10 +10,9 @@
     begins at rest, so that the result is that of the poses alone. From there,
     where friction holds, towards sliding, its tangents fall short; where one
     goes too far the change is shortened. Where that does not converge, as where
-    many beads slide at speeds far above the slip speed, the slip speed is
-    raised first and lowered to its value in steps. Where Newton's method then
-    repeats the same iterates, as where damping ends at some of many beads, the
-    body's velocities relax from rest as they do in time.
+    many beads slide at speeds far above the slip speed, or where it repeats the
+    same iterates, as where damping ends at some of many beads, the body's
+    velocities first relax from rest as they do in time.
 */
 #include "motion/motion.h"
 
@@ -27,9 +26,6 @@ enum
     CHANGE = ELLIPSOID_STAGES, /* beyond the stages of a step */
     BEST
 };
-
-/* The slip speeds begin at so much of their value, and fall by a factor. */
-static const double smoothest = 1e12, less_smooth = 0.1;
 
 /* Newton has converged when it changes velocities by so much of themselves; or
    by this little more, and goes no further: rounding, where speeds are very
@@ -115,7 +111,6 @@ static int are_small(const ellipsoid_group *g,
 /* Newton's change of velocities, from points that have their blocks. */
 static int set_changes(ellipsoid_group *g, const ellipsoid_evaluation *points)
 {
-    const int inertial = g->inertial;
     double shortest = HUGE_VAL;
     int regular;
 
@@ -129,13 +124,11 @@ static int set_changes(ellipsoid_group *g, const ellipsoid_evaluation *points)
         ellipsoid_copy(points[cell].derivative.omega, k + AT_OMEGA);
         shortest = fmin(shortest, 1 / fmax(p->rate, p->rotation_rate));
     }
-    g->inertial = 0;
     regular = ellipsoid_group_prepare(g, points, vanishing * shortest);
     if (regular)
     {
         ellipsoid_group_solve(g, CHANGE);
     }
-    g->inertial = inertial;
     return regular;
 }
 
@@ -213,27 +206,6 @@ static void be_at_rest(const ellipsoid_group *g, ellipsoid_evaluation *points)
     }
 }
 
-/* With slip speeds that fall to their values. */
-static ellipsoid_status lower_slip_speeds(ellipsoid_group *g,
-                                          ellipsoid_evaluation *points,
-                                          ellipsoid_smoothed_model *smoothed)
-{
-    ellipsoid_status status = ELLIPSOID_OK;
-
-    be_at_rest(g, points);
-    for (double smooth = smoothest; status == ELLIPSOID_OK && smooth > 0.5;
-         smooth *= less_smooth)
-    {
-        for (int cell = 0; cell < g->count; cell++)
-        {
-            smoothed[cell].model.options.slip_speed =
-                smooth * smoothed[cell].own->options.slip_speed;
-        }
-        status = iterate(g, points, 1);
-    }
-    return status;
-}
-
 /* Root of the sum of m a^2 and I alpha^2, of all accelerations. */
 static double unbalanced(const ellipsoid_group *g,
                          const ellipsoid_evaluation *points)
@@ -273,8 +245,7 @@ static ellipsoid_status relax_once(ellipsoid_group *g, double rate,
 
 /* Pseudo-transient continuation (Kelley & Keyes, SIAM J. Numer. Anal. 35, 508,
    1998): steps grow while what is unbalanced falls. */
-static ellipsoid_status relax(ellipsoid_group *g, ellipsoid_evaluation *points,
-                              ellipsoid_smoothed_model *smoothed)
+static ellipsoid_status relax(ellipsoid_group *g, ellipsoid_evaluation *points)
 {
     ellipsoid_status status;
     double rate = 0, left, target;
@@ -282,8 +253,6 @@ static ellipsoid_status relax(ellipsoid_group *g, ellipsoid_evaluation *points,
     be_at_rest(g, points);
     for (int cell = 0; cell < g->count; cell++)
     {
-        smoothed[cell].model.options.slip_speed =
-            smoothed[cell].own->options.slip_speed;
         rate =
             fmax(rate, fmax(g->cell[cell].rate, g->cell[cell].rotation_rate));
     }
@@ -313,35 +282,30 @@ static ellipsoid_status relax(ellipsoid_group *g, ellipsoid_evaluation *points,
     return status == ELLIPSOID_OK ? iterate(g, points, 1) : status;
 }
 
-/* By Newton's method from rest; with slip speeds that fall, if that fails; from
-   relaxed velocities, if that does, too. Always without the gyroscopic torque. */
-static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
-                                         ellipsoid_evaluation *points,
-                                         ellipsoid_smoothed_model *smoothed)
+/* Are all cells with inertia, which have a gyroscopic torque and mass? */
+static void set_inertial(ellipsoid_group *g, int inertial)
 {
-    ellipsoid_status status;
-
+    g->inertial = inertial;
     for (int cell = 0; cell < g->count; cell++)
     {
-        smoothed[cell].own = g->cell[cell].model;
-        smoothed[cell].model = *g->cell[cell].model;
-        smoothed[cell].model.options.motion = ELLIPSOID_MOTION_INERTIALESS;
-        g->cell[cell].model = &smoothed[cell].model;
+        g->cell[cell].inertial = inertial;
     }
+}
+
+/* By Newton's method from rest or, if that fails, from relaxed velocities. */
+static ellipsoid_status solve(ellipsoid_group *g, ellipsoid_evaluation *points)
+{
+    const int inertial = g->inertial;
+    ellipsoid_status status;
+
+    set_inertial(g, 0);
     be_at_rest(g, points);
     status = iterate(g, points, 0);
     if (status == ELLIPSOID_NON_FINITE)
     {
-        status = lower_slip_speeds(g, points, smoothed);
+        status = relax(g, points);
     }
-    if (status == ELLIPSOID_NON_FINITE)
-    {
-        status = relax(g, points, smoothed);
-    }
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        g->cell[cell].model = smoothed[cell].own;
-    }
+    set_inertial(g, inertial);
     return status;
 }
 
@@ -350,7 +314,6 @@ static ellipsoid_status iterate_smoothly(ellipsoid_group *g,
 static ellipsoid_status balance(ellipsoid_group *g,
                                 ellipsoid_evaluation *points, int with_blocks)
 {
-    ellipsoid_smoothed_model alone;
     ellipsoid_status status;
     int depends = 0; /* do forces other than drag depend on velocities? */
 
@@ -367,8 +330,7 @@ static ellipsoid_status balance(ellipsoid_group *g,
         return status;
     }
     g->has_blocks = 0; /* the couplings are no longer those of the start */
-    status =
-        iterate_smoothly(g, points, g->pairs ? g->pairs->smoothed : &alone);
+    status = solve(g, points);
     if (status == ELLIPSOID_OK)
     {
         status = ellipsoid_group_evaluate_once(g, points, 0, with_blocks);

@@ -15,8 +15,10 @@ ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
                                ellipsoid_facet_cache *cache,
                                ellipsoid_state *derivative)
 {
-    const ellipsoid_cell cell = {
-        .model = model, .surroundings = *surroundings, .cache = cache};
+    const ellipsoid_cell cell = {.model = model,
+                                 .surroundings = *surroundings,
+                                 .cache = cache,
+                                 .inertial = 1};
     ellipsoid_evaluation at = {.state = *state};
     ellipsoid_status status;
 
@@ -72,8 +74,11 @@ ellipsoid_jacobian(const ellipsoid_model *model,
                    const ellipsoid_state *state, ellipsoid_facet_cache *cache,
                    double jacobian[ELLIPSOID_STATE_SIZE][ELLIPSOID_STATE_SIZE])
 {
-    const ellipsoid_cell cell = {
-        .model = model, .surroundings = *surroundings, .cache = cache};
+    const ellipsoid_cell cell = {.model = model,
+                                 .surroundings = *surroundings,
+                                 .cache = cache,
+                                 .inertial = model->options.motion
+                                          == ELLIPSOID_MOTION_INERTIAL};
     ellipsoid_evaluation at = {.state = *state};
     const ellipsoid_status status = ellipsoid_evaluate(&cell, &at, 0, 1);
     const ellipsoid_jacobian_blocks b = at.blocks;
