@@ -143,8 +143,9 @@ setup_find_python()
 {
     local python
     while read -r python; do
-        if "$python" -c 'import sys, importlib.util as u
-sys.exit(any(u.find_spec(m) is None for m in ("numpy", "matplotlib", "vtkmodules")))' 2> /dev/null
+        # Not where a case may have scripts named as modules
+        if (cd / && "$python" -c 'import sys, importlib.util as u
+sys.exit(any(u.find_spec(m) is None for m in ("numpy", "matplotlib", "vtkmodules")))' 2> /dev/null)
         then
             echo "$python"
             return

@@ -90,6 +90,16 @@ Foam::flowFields::flowFields(const fvMesh& mesh)
             andOp<bool>()
         )
     ),
+    transportProperties_
+    (
+        IOobject
+        (
+            "transportProperties",
+            mesh.time().constant(),
+            mesh,
+            IOobject::MUST_READ
+        )
+    ),
     U_(fieldIO("U", IOobject::MUST_READ), mesh),
     p_(fieldIO("p", IOobject::MUST_READ), mesh),
     phi_

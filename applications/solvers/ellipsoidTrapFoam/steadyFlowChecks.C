@@ -180,9 +180,17 @@ Foam::coupledStokes::settings Foam::steadyFlow::readControls() const
 
 void Foam::steadyFlow::checkModels() const
 {
-    for (const word& folder : {mesh_.time().constant(), mesh_.time().system()})
+    const word constant(mesh_.time().constant());
+    for
+    (
+        const fileName& file :
+        {
+            constant/"fvOptions", mesh_.time().system()/"fvOptions",
+            constant/"MRFProperties", constant/"porosityProperties"
+        }
+    )
     {
-        const dictionary sources(readIfPresent(mesh_, "fvOptions", folder));
+        const dictionary sources(readIfPresent(mesh_, file.name(), file.path()));
         const masterGate once;
         bool active = false;
 
@@ -195,14 +203,13 @@ void Foam::steadyFlow::checkModels() const
         if (active)
         {
             FatalErrorInFunction
-                << "The sources of " << folder << "/fvOptions are not solved"
+                << "The sources of " << file.c_str() << " are not solved"
                 << " for. Solve the flow with a solver that does, and take it as"
                 << " it is: -frozenFlow, or flow { solve no; } in"
                 << " system/fvSolution" << exit(FatalError);
         }
     }
 
-    const word constant(mesh_.time().constant());
     const dictionary turbulence
     (
         readIfPresent(mesh_, "turbulenceProperties", constant)

@@ -70,6 +70,8 @@ MEASURED = {
     "marker": "D", "markersize": 5, "markeredgecolor": "black", "markeredgewidth": 0.8
 }
 
+# Without what a matplotlibrc of the user or of the case says
+plt.rcdefaults()
 plt.rcParams.update({
     "savefig.dpi": 200,
     "pdf.fonttype": 42,        # letters stay letters, as journals ask for

@@ -121,8 +121,22 @@ namespace Foam
                 return;
 
             case ELLIPSOID_OPTION_WHOLE:
-                value = dict.get<int>(keyword);
+            {
+                // #eval makes a scalar of all, and 1e3 is one
+                const scalar given = dict.get<scalar>(keyword);
+                if (given != std::trunc(given) || mag(given) > labelMax)
+                {
+                    refuseEntry
+                    (
+                        dict,
+                        keyword,
+                        nameOf(option),
+                        "a whole number, " + string(option.range)
+                    );
+                }
+                value = given;
                 break;
+            }
 
             case ELLIPSOID_OPTION_SWITCH:
                 value = dict.get<Switch>(keyword);

@@ -33,7 +33,11 @@ void Foam::ellipsoidProperties::readUnreached(const polyBoundaryMesh& patches)
 
         constrained.insert(pp.index());
 
-        if (!unreached_.found(pp.index()) && !domainImages::isSeam(pp))
+        if
+        (
+            !unreached_.found(pp.index()) && !domainImages::isSeam(pp)
+         && returnReduce(pp.size(), sumOp<label>()) > 0
+        )
         {
             FatalIOErrorInFunction(*this)
                 << "patch " << pp.name() << " of "
@@ -125,6 +129,6 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     (
         "interpolation", *this, meshFlow::stDivergenceFree
     );
-    seed_ = getOrDefault<label>("seed", 1);
+    seed_ = checkedNumber<label>(*this, "seed", within(-labelMax, labelMax), 1);
     readUnreached(mesh.boundaryMesh());
 }
