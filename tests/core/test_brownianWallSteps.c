@@ -191,10 +191,10 @@ static void test_stiff_wall(void **unused)
 }
 
 /* A cell with friction that a load presses to the wall. */
-static ellipsoid_options pressed(double tolerance, double load)
+static ellipsoid_options pressed(ellipsoid_motion motion, double tolerance,
+                                 double load)
 {
-    ellipsoid_options o =
-        over_wall(ELLIPSOID_MOTION_INERTIAL, 32, 1e6, scale, 5e-3);
+    ellipsoid_options o = over_wall(motion, 32, 1e6, scale, 5e-3);
 
     o.buoyancy = 0;
     o.density = 1040;
@@ -207,18 +207,20 @@ static ellipsoid_options pressed(double tolerance, double load)
 }
 
 /* And that is pulled along the wall, by half of what friction bears. */
-static test_walk held_cell(double tolerance, double load)
+static test_walk held_cell(ellipsoid_motion motion, double tolerance,
+                           double load)
 {
-    ellipsoid_options o = pressed(tolerance, load);
+    ellipsoid_options o = pressed(motion, tolerance, load);
 
     o.external_force[0] = 0.15 * load;
     o.external_force[1] = 0.05 * load;
     return walk_over_wall(&o, 77, 3, 0.5 * micron);
 }
 
-static test_walk held_by_friction(double tolerance, double load, long count)
+static test_walk held_by_friction(ellipsoid_motion motion, double tolerance,
+                                  double load, long count)
 {
-    test_walk w = held_cell(tolerance, load);
+    test_walk w = held_cell(motion, tolerance, load);
 
     for (long n = 0; n < count; n++)
     {
@@ -245,17 +247,16 @@ static double turned(const ellipsoid_state *one, const ellipsoid_state *other)
     step in most cases, or a few, where small tolerances take a dozen and more; and
     the cell is where they lead, to the tolerance.
 */
-static void test_rests(void **unused)
+static void check_rests(ellipsoid_motion motion)
 {
     const double load = 32e-12, tolerance = 1e-3, length = 2 * micron;
     const long count = test_count(100, 400, 400);
-    const test_walk rough = held_by_friction(tolerance, load, count);
-    const test_walk fine = held_by_friction(1e-6, load, count);
+    const test_walk rough = held_by_friction(motion, tolerance, load, count);
+    const test_walk fine = held_by_friction(motion, 1e-6, load, count);
     const long attempts = rough.statistics.accepted + rough.statistics.rejected;
     const double turn = turned(&rough.state, &fine.state);
     double apart[3];
 
-    (void)unused;
     ellipsoid_difference(rough.state.x, fine.state.x, apart);
     print_message(
         "# held by friction: %.1f attempted steps an interval in place "
@@ -269,13 +270,20 @@ static void test_rests(void **unused)
     assert_true(turn < tolerance);
 }
 
+static void test_rests(void **unused)
+{
+    (void)unused;
+    check_rests(ELLIPSOID_MOTION_INERTIAL);
+    check_rests(ELLIPSOID_MOTION_INERTIALESS);
+}
+
 /* What depends on time is followed; and one step of an interval counts as one of
    those allowed. */
 static void test_rests_are_limited(void **unused)
 {
     const double load = 32e-12;
     const long count = 40;
-    test_walk w = held_cell(1e-3, load);
+    test_walk w = held_cell(ELLIPSOID_MOTION_INERTIAL, 1e-3, load);
 
     (void)unused;
     w.around.unsteady = 1;
@@ -285,7 +293,7 @@ static void test_rests_are_limited(void **unused)
     }
     assert_true(w.statistics.accepted > 8 * count);
 
-    w = held_cell(1e-3, load);
+    w = held_cell(ELLIPSOID_MOTION_INERTIAL, 1e-3, load);
     w.model.options.maximum_steps = 30;
     assert_int_equal(test_walk_to(&w, 1), ELLIPSOID_TOO_MANY_STEPS);
     assert_int_equal(w.statistics.accepted + w.statistics.rejected, 30);
@@ -299,7 +307,7 @@ static void test_rests_are_limited(void **unused)
 static void test_upright_falls(void **unused)
 {
     const double load = 100e-12, tolerance = 1e-3;
-    ellipsoid_options o = pressed(1e-5, load);
+    ellipsoid_options o = pressed(ELLIPSOID_MOTION_INERTIAL, 1e-5, load);
     static ellipsoid_facet_cache own;
     double worst = 0, axis[3];
     test_walk w, fine;

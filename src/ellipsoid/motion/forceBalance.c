@@ -282,8 +282,7 @@ static ellipsoid_status relax(ellipsoid_group *g, ellipsoid_evaluation *points)
     return status == ELLIPSOID_OK ? iterate(g, points, 1) : status;
 }
 
-/* Are all cells with inertia, which have a gyroscopic torque and mass? */
-static void set_inertial(ellipsoid_group *g, int inertial)
+void ellipsoid_group_set_inertial(ellipsoid_group *g, int inertial)
 {
     g->inertial = inertial;
     for (int cell = 0; cell < g->count; cell++)
@@ -298,14 +297,16 @@ static ellipsoid_status solve(ellipsoid_group *g, ellipsoid_evaluation *points)
     const int inertial = g->inertial;
     ellipsoid_status status;
 
-    set_inertial(g, 0);
+    ellipsoid_group_set_inertial(g, 0);
+    ellipsoid_expand_about(g, points); /* poses stay */
     be_at_rest(g, points);
     status = iterate(g, points, 0);
     if (status == ELLIPSOID_NON_FINITE)
     {
         status = relax(g, points);
     }
-    set_inertial(g, inertial);
+    ellipsoid_expand_about(g, NULL);
+    ellipsoid_group_set_inertial(g, inertial);
     return status;
 }
 

@@ -303,8 +303,14 @@ ellipsoid_force_balance(const ellipsoid_model *model,
                         ellipsoid_state *state, ellipsoid_facet_cache *cache,
                         ellipsoid_state *derivative);
 
-/* Expands the drag near walls about the start, or no longer (rosenbrock.c). */
-void ellipsoid_expand_about_start(ellipsoid_group *group, int expanded);
+/* Are all cells with inertia, which have mass and a gyroscopic torque, for a time
+   (forceBalance.c)? */
+void ellipsoid_group_set_inertial(ellipsoid_group *group, int inertial);
+
+/* Expands the drag near walls about these points, or no longer: NULL
+   (rosenbrock.c). */
+void ellipsoid_expand_about(ellipsoid_group *group,
+                            const ellipsoid_evaluation *points);
 
 /* Evaluates the equations at the time t in the states of all points, contacts
    between cells included; balanced: u and omega are set first; with_blocks: and

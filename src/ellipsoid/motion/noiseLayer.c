@@ -212,7 +212,7 @@ static int is_stable(const ellipsoid_evaluation *start, double h)
    stable? Sets what the start has. */
 static int may_rest(ellipsoid_group *g, const ellipsoid_plan *interval)
 {
-    int may = g->inertial && !g->unsteady, moving = 0;
+    int may = !g->unsteady, moving = 0;
 
     for (int cell = 0; may && cell < g->count; cell++)
     {
@@ -281,7 +281,7 @@ static int solve(ellipsoid_group *g, const ellipsoid_plan *interval)
     double largest;
     int goes_on = change_next(g, interval->h, &largest);
 
-    ellipsoid_expand_about_start(g, 1);
+    ellipsoid_expand_about(g, g->start);
     for (int n = 1; goes_on && largest > converged; n++)
     {
         goes_on = n < MOST_ITERATIONS
@@ -289,14 +289,17 @@ static int solve(ellipsoid_group *g, const ellipsoid_plan *interval)
                       == ELLIPSOID_OK
                && change_next(g, interval->h, &largest);
     }
-    ellipsoid_expand_about_start(g, 0);
+    ellipsoid_expand_about(g, NULL);
     return goes_on;
 }
 
 int ellipsoid_rest(ellipsoid_group *g, const ellipsoid_plan *interval)
 {
-    int rests = may_rest(g, interval);
+    const int inertial = g->inertial;
+    int rests;
 
+    ellipsoid_group_set_inertial(g, 1);
+    rests = may_rest(g, interval);
     if (rests)
     {
         memcpy(g->next, g->start, (size_t)g->count * sizeof(*g->start));
@@ -312,6 +315,7 @@ int ellipsoid_rest(ellipsoid_group *g, const ellipsoid_plan *interval)
     rests = rests
          && ellipsoid_group_evaluate(g, interval->end, g->next, 0, 0)
                 == ELLIPSOID_OK;
+    ellipsoid_group_set_inertial(g, inertial);
     g->failed = -1;
     return rests;
 }

@@ -116,11 +116,12 @@ static inline void take_first_stage(ellipsoid_group *g, int count, double h,
 
 /* The drag near walls is what costs most, and its derivatives are exact, so that a
    method is of its order in the rest. */
-void ellipsoid_expand_about_start(ellipsoid_group *g, int expanded)
+void ellipsoid_expand_about(ellipsoid_group *g,
+                            const ellipsoid_evaluation *points)
 {
     for (int cell = 0; cell < g->count; cell++)
     {
-        g->cell[cell].about = expanded ? &g->start[cell].walls : NULL;
+        g->cell[cell].about = points ? &points[cell].walls : NULL;
     }
 }
 
@@ -131,10 +132,10 @@ static inline ellipsoid_status evaluate_stage(ellipsoid_group *g, int count,
 {
     ellipsoid_status status;
 
-    ellipsoid_expand_about_start(g, 1);
+    ellipsoid_expand_about(g, g->start);
     status = ellipsoid_group_evaluate(
         g, ellipsoid_stage_time(plan, set->alpha[stage]), g->next, 0, 0);
-    ellipsoid_expand_about_start(g, 0);
+    ellipsoid_expand_about(g, NULL);
     for (int cell = 0; status == ELLIPSOID_OK && cell < count; cell++)
     {
         ellipsoid_stages *s = &g->stages[cell];
