@@ -282,15 +282,6 @@ static ellipsoid_status relax(ellipsoid_group *g, ellipsoid_evaluation *points)
     return status == ELLIPSOID_OK ? iterate(g, points, 1) : status;
 }
 
-void ellipsoid_group_set_inertial(ellipsoid_group *g, int inertial)
-{
-    g->inertial = inertial;
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        g->cell[cell].inertial = inertial;
-    }
-}
-
 /* By Newton's method from rest or, if that fails, from relaxed velocities. */
 static ellipsoid_status solve(ellipsoid_group *g, ellipsoid_evaluation *points)
 {

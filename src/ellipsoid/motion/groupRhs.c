@@ -7,6 +7,26 @@
 */
 #include "motion/motion.h"
 
+/* The drag near walls is what costs most, and its derivatives are exact, so that a
+   method is of its order in the rest. */
+void ellipsoid_expand_about(ellipsoid_group *g,
+                            const ellipsoid_evaluation *points)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        g->cell[cell].about = points ? &points[cell].walls : NULL;
+    }
+}
+
+void ellipsoid_group_set_inertial(ellipsoid_group *g, int inertial)
+{
+    g->inertial = inertial;
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        g->cell[cell].inertial = inertial;
+    }
+}
+
 static ellipsoid_status evaluate(ellipsoid_group *g,
                                  ellipsoid_evaluation *points, int balanced,
                                  int with_blocks)

@@ -304,11 +304,11 @@ ellipsoid_force_balance(const ellipsoid_model *model,
                         ellipsoid_state *derivative);
 
 /* Are all cells with inertia, which have mass and a gyroscopic torque, for a time
-   (forceBalance.c)? */
+   (groupRhs.c)? */
 void ellipsoid_group_set_inertial(ellipsoid_group *group, int inertial);
 
 /* Expands the drag near walls about these points, or no longer: NULL
-   (rosenbrock.c). */
+   (groupRhs.c). */
 void ellipsoid_expand_about(ellipsoid_group *group,
                             const ellipsoid_evaluation *points);
 

@@ -114,17 +114,6 @@ static inline void take_first_stage(ellipsoid_group *g, int count, double h,
     ellipsoid_group_solve(g, 0);
 }
 
-/* The drag near walls is what costs most, and its derivatives are exact, so that a
-   method is of its order in the rest. */
-void ellipsoid_expand_about(ellipsoid_group *g,
-                            const ellipsoid_evaluation *points)
-{
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        g->cell[cell].about = points ? &points[cell].walls : NULL;
-    }
-}
-
 /* The slopes of a stage, in its k. */
 static inline ellipsoid_status evaluate_stage(ellipsoid_group *g, int count,
                                               int stage,
