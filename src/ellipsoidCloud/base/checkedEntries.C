@@ -156,7 +156,7 @@ void Foam::checkPatterns(const std::string& text, const fileName& file)
 const Foam::dictionary& Foam::subDictOf
 (
     const dictionary& dict,
-    const word& keyword
+    const char* keyword
 )
 {
     const entry* e = dict.findEntry(keyword, keyType::LITERAL);

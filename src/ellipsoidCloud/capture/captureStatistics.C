@@ -21,10 +21,11 @@ void Foam::captureStatistics::record::update(const cellState& now)
 void Foam::captureStatistics::count(const cellEvent& event)
 {
     const cellState& now = event.cell;
-    const auto known = cells_.emplace(now.id, record());
-    record& cell = known.first->second;
+    const auto known = cells_.size();
+    record& cell = cells_[now.id];
+    const bool isNew = cells_.size() > known;
 
-    if (known.second)
+    if (isNew)
     {
         cell.planned = now.time;
     }
@@ -32,7 +33,7 @@ void Foam::captureStatistics::count(const cellEvent& event)
     {
         --counts_[cell.fate];
     }
-    if (known.second || event.type == "injected")
+    if (isNew || event.type == "injected")
     {
         cell.injected = now.time;
         cell.start = now.centre();

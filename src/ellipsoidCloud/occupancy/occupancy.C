@@ -106,7 +106,7 @@ Foam::occupancy::setting::setting
         {
             continue;
         }
-        const dictionary& of = subDictOf(sections, e.keyword());
+        const dictionary& of = subDictOf(sections, e.keyword().c_str());
         checkKeywords(of, {"min", "max", "normal", "area"});
 
         const boundBox box(of.get<point>("min"), of.get<point>("max"));
