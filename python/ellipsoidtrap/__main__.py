@@ -38,7 +38,7 @@ def main():
     except OSError as error:
         sys.exit(f"{name}: {error.filename}: {error.strerror}" if error.filename else f"{name}: {error}")
     except ModuleNotFoundError as error:
-        sys.exit(f"{name}: {sys.executable} has no module {error.name}; what Python needs is in docs/guide/setUp.md")
+        sys.exit(f"{name}: {sys.executable} has no module {error.name}; what Python needs is at the end of README.md")
 
 
 if __name__ == "__main__":

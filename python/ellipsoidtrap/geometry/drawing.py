@@ -57,9 +57,9 @@ class Plan:
                 from . import gds
                 found = gds.read(self.file, unit, self.d.path("cell") if "cell" in self.d else None)
         except ModuleNotFoundError as error:
-            package = {"shapely": "python3-shapely", "ezdxf": "python3-ezdxf", "gdspy": "python3-gdspy"}.get(error.name, error.name)
+            reader = {"dxf": "python3-ezdxf", "gds": "python3-gdspy"}[kind]
             self.d.fail(f"'drawing.file': Python has no module {error.name}, which reads {self.file}: install it (Debian: "
-                        f"apt-get install {package})")
+                        f"apt-get install python3-shapely {reader})")
         except Exception as error:      # whatever a reader says of a file that is none
             if getattr(error, "strerror", None):
                 self.d.fail(f"'drawing.file': cannot read {self.file}: {error.strerror}")
