@@ -128,9 +128,9 @@ def summary(rows):
     """The line of the README."""
     kinds = ", ".join(f"{sum(row['kind'] == k for row in rows)} {k} ({name})" for k, name in KINDS.items())
     agree = [row for row in rows if error(row) <= 1]
-    worst = max(agree, key=error)
     return (f"The [validation table](docs/validation.md#the-table) has {len(rows)} rows: {kinds}. "
-            f"Worst error over bound {error(worst):.2g} ({worst['quantity']}); {len(rows) - len(agree)} above 1, with the reason.\n")
+            f"{len(agree)} agree, with errors of at most {max(map(error, agree)):.2g} of their bounds; {len(rows) - len(agree)} do not, with "
+            "the reason.\n")
 
 
 def draw(rows, group):
