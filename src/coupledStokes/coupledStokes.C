@@ -143,7 +143,7 @@ Foam::coupledStokes::coupledStokes
     nu_(nu),
     momentum_(momentum),
     how_(how),
-    criterion_(new steadyCriterion(U, phi, nu.value(), how))
+    criterion_(new steadyCriterion(U, p, phi, nu.value(), how))
 {
     U.mesh().setFluxRequired(p.name());
 }
@@ -309,6 +309,12 @@ Foam::coupledStokes::outcome Foam::coupledStokes::solve(const bool scaled)
                 Info<< nLinear << " of GMRES, ";
             }
             Info<< word::printf("%.6g", clock.elapsedTime()) << " s" << endl;
+            if (criterion_->atRest())
+            {
+                Info<< "flow: at rest" << endl;
+                U_ == dimensionedVector(dimVelocity, Zero);
+                phi_ == dimensionedScalar(phi_.dimensions(), Zero);
+            }
             return STEADY;
         }
     }

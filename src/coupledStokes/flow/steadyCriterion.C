@@ -136,12 +136,14 @@ Foam::scalar Foam::steadyCriterion::fluxChange(const scalarField& scales) const
 Foam::steadyCriterion::steadyCriterion
 (
     const volVectorField& U,
+    const volScalarField& p,
     const surfaceScalarField& phi,
     const scalar nu,
     const coupledStokes::settings& how
 )
 :
     U_(U),
+    p_(p),
     phi_(phi),
     nu_(nu),
     fluxTolerance_(how.fluxTolerance),
@@ -227,6 +229,23 @@ void Foam::steadyCriterion::update
         gSum(mag(fvc::surfaceIntegrate(phi_)().primitiveField())*U_.mesh().V())
        /(crossing_ + VSMALL);
     measures_[FLUX_CHANGE].value = fluxChange(scales);
+
+    if (atRest())
+    {
+        for (measure& m : measures_)
+        {
+            m.value = 0;
+        }
+    }
+}
+
+
+bool Foam::steadyCriterion::atRest() const
+{
+    const scalar length = cbrt(gSum(U_.mesh().V().field()));
+    const scalar rounding = 1e-12*gMax(mag(p_.primitiveField())());
+
+    return meanSpeed_ < rounding*length/nu_;
 }
 
 

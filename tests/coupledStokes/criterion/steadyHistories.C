@@ -31,6 +31,7 @@ static void holds(const char* name, const bool does, const string& found)
 struct history
 {
     volVectorField U;
+    volScalarField p;
     surfaceScalarField phi;
     coupledStokes::settings how;
     autoPtr<steadyCriterion> criterion;
@@ -47,6 +48,12 @@ struct history
             dimensionedVector(dimVelocity),
             fixedValueFvPatchVectorField::typeName
         ),
+        p
+        (
+            IOobject("p", mesh.time().timeName(), mesh),
+            mesh,
+            dimensionedScalar(sqr(dimVelocity))
+        ),
         phi
         (
             IOobject("phi", mesh.time().timeName(), mesh),
@@ -61,7 +68,7 @@ struct history
         how.pResidual = how.UResidual = how.fluxTolerance = 1e-4;
         how.fluxWindow = window;
         flow(1, 1, 1);
-        criterion.reset(new steadyCriterion(U, phi, 2, how));
+        criterion.reset(new steadyCriterion(U, p, phi, 2, how));
     }
 
     //- These fluxes, and fluid at one velocity; in between no flux, so that all
