@@ -6,7 +6,7 @@
 from functools import cached_property
 
 import numpy as np
-from PIL import Image, ImageDraw
+from PIL import Image, ImageDraw, ImageFilter
 
 SMOOTH = 50000   # triangles that make a smooth picture
 RASTER = 4000    # pixels along the longer side of where there is fluid
@@ -49,6 +49,7 @@ class Plane:
         """Where there is fluid, a pixel more about it; its first corner, and pixels for each unit."""
         low, high = np.transpose(self.bounds)
         scale = RASTER / (high - low).max()
+        low, high = low - 1 / scale, high + 1 / scale
         size = np.ceil(scale * (high - low)).astype(int) + 1
         image = Image.new("1", tuple(size.tolist()))
         pen = ImageDraw.Draw(image)
@@ -56,7 +57,8 @@ class Plane:
         corners = np.round(scale * (self.points - low)).astype(int)
         for polygon in np.split(corners[self.connectivity], self.offsets[1:-1]):
             pen.polygon([tuple(corner) for corner in polygon.tolist()], fill=1, outline=1)
-        return np.asarray(image), low, scale
+        # A point on a slanting side is rounded to a pixel beside it
+        return np.asarray(image.convert("L").filter(ImageFilter.MaxFilter(3))) > 0, low, scale
 
     def has_fluid(self, points):
         """Which of (n, 2) points are in the fluid, to a pixel."""
