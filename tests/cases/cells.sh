@@ -126,12 +126,16 @@ make_sieve()    # CASE
 }
 
 # The mesh of blockMesh with a baffle of two walls, plateOne and plateTwo
-make_baffle()   # 'MIN MAX' of the middles of its faces
+make_baffle()   # 'MIN MAX' of the middles of the faces of each of its parts
 {
+    local action=new box
     {
         dictionary_head topoSetDict
         echo 'actions ('
-        echo "{ name plate; type faceSet; action new; source boxToFace; box $1; }"
+        for box; do
+            echo "{ name plate; type faceSet; action $action; source boxToFace; box $box; }"
+            action=add
+        done
         echo '{ name plate; type faceZoneSet; action new; source setToFaceZone; faceSet plate; } );'
     } > system/topoSetDict
     {

@@ -7,7 +7,6 @@
 #include "gaussGrad.H"
 #include "inletFlux.H"
 #include "narrowestGaps.H"
-#include "primitivePatch.H"
 #include "surfaceFields.H"
 #include "volFields.H"
 
@@ -66,34 +65,6 @@ static scalar bareSurface(const ellipsoid_options& options)
     return bare/whole;
 }
 
-
-//- The patches with a rim of a baffle: an edge of two faces that lie back to
-//  back, and of no others
-static labelHashSet patchesWithRims(const polyMesh& mesh)
-{
-    const label start = mesh.nInternalFaces();
-    const primitivePatch boundary
-    (
-        SubList<face>(mesh.faces(), mesh.nFaces() - start, start), mesh.points()
-    );
-    labelHashSet patches;
-
-    for (const labelList& at : boundary.edgeFaces())
-    {
-        if
-        (
-            at.size() == 2
-         && face::sameVertices(boundary[at[0]], boundary[at[1]])
-        )
-        {
-            patches.insert(mesh.boundaryMesh().whichPatch(start + at[0]));
-            patches.insert(mesh.boundaryMesh().whichPatch(start + at[1]));
-        }
-    }
-
-    return patches;
-}
-
 } // End namespace Foam
 
 
@@ -107,7 +78,6 @@ void Foam::ellipsoidCloud::reportCapture(const domainImages& images) const
     const fvMesh& mesh = undecomposed_->mesh();
     const labelList& sieves = criterion_.sieves();
     const List<narrowGap> gaps(narrowestGaps(mesh, images, sieves));
-    const labelHashSet baffles(patchesWithRims(mesh));
     const scalar width = 2*shortestSemiAxis(properties_.options());
 
     if (sieves.empty())
@@ -120,13 +90,6 @@ void Foam::ellipsoidCloud::reportCapture(const domainImages& images) const
         const word& name = mesh.boundaryMesh()[sieves[i]].name();
         const narrowGap& gap = gaps[i];
 
-        if (baffles.found(sieves[i]))
-        {
-            Warning
-                << name << " is a baffle, and gaps at its rim are not measured:"
-                << " the flow through one of fewer than " << fewest
-                << " mesh cells is not resolved" << nl << endl;
-        }
         if (gap.width >= GREAT)
         {
             continue;

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 the ellipsoidTrapFoam authors
 
 #include "narrowestGaps.H"
+#include "baffleSides.H"
 #include "cyclicPolyPatch.H"
 #include "domainImages.H"
 #include "polyMesh.H"
@@ -106,40 +107,121 @@ struct meshLine
 };
 
 
-//- The passage along the normal of a face of a wall. If it is not narrower than
-//  the narrowest so far, that
-static narrowGap narrower
+//- Make a gap that from a point on, along a line that begins there or a mesh
+//  cell before, if it is narrower: to a wall that faces it, or as wide as known
+static void narrow
 (
-    const polyMesh& mesh,
     const domainImages& images,
-    const label facei,
-    const narrowGap& narrowest
+    meshLine line,
+    const point& from,
+    const scalar known,
+    narrowGap& gap
 )
 {
-    const point from(mesh.faceCentres()[facei]);
-    const vector n(mesh.faceAreas()[facei]/mag(mesh.faceAreas()[facei]));
-    meshLine line{mesh, from, -n, mesh.faceOwner()[facei], facei};
-    scalar width = 0;
+    const vector along(line.along);
+    const scalar before = (from - line.x) & along;
+    scalar width = -before;
 
-    for (label nMeshCells = 1; nMeshCells < 10000; ++nMeshCells)
+    // Beyond a period of the device walls come again
+    const scalar longest = 4*line.mesh.bounds().mag();
+    const scalar most = min(min(known, gap.width), longest);
+
+    for (label n = before > 0 ? 0 : 1; n < 10000; ++n)
     {
         width += line.leave();
 
-        // Beyond a period of the device walls come again
-        if (width >= min(narrowest.width, 4*mesh.bounds().mag()))
+        const bool passed = width >= (1 - 1e-6)*most;
+        if (!passed && line.enter(images))
         {
-            break;
+            continue;
         }
-        if (!line.enter(images))
+        if (passed ? known < gap.width : line.meetsWall())
         {
-            return
-                line.meetsWall()
-              ? narrowGap{width, from - 0.5*width*n, nMeshCells}
-              : narrowest;
+            width = min(width, most);
+            gap = narrowGap{width, from + 0.5*width*along, n};
+        }
+        return;
+    }
+}
+
+
+//- Where a face of a baffle has an edge, and no others of the boundary do but
+//  that on its back: its ends, and the unit vector in the face to the outside
+struct baffleRim
+{
+    label facei;
+    point ends[2];
+    vector out;
+
+    linePointRef line() const
+    {
+        return linePointRef(ends[0], ends[1]);
+    }
+};
+
+
+static DynamicList<baffleRim> baffleRims(const polyMesh& mesh)
+{
+    DynamicList<baffleRim> rims;
+    for (const labelPair& pair : baffleFaces(mesh))
+    {
+        for (const edge& e : mesh.faces()[pair.first()].edges())
+        {
+            label nFaces = 0;
+            for (const label i : mesh.pointFaces()[e.start()])
+            {
+                nFaces += !mesh.isInternalFace(i)
+                 && mesh.faces()[i].edgeDirection(e) != 0;
+            }
+            const linePointRef line(e.line(mesh.points()));
+            vector out(line.centre() - mesh.faceCentres()[pair.first()]);
+            out -= (out & line.vec())*line.vec()/magSqr(line.vec());
+            for (label i = 0; i < 2 && nFaces == 2; ++i)
+            {
+                rims.append
+                (
+                    {pair[i], {line.start(), line.end()}, out/mag(out)}
+                );
+            }
         }
     }
+    return rims;
+}
 
-    return narrowest;
+
+//- Make a gap that from a rim to a wall or to another rim, if it is narrower
+static void narrow
+(
+    const polyMesh& mesh,
+    const domainImages& images,
+    const baffleRim& rim,
+    const UList<baffleRim>& others,
+    narrowGap& gap
+)
+{
+    const label celli = mesh.faceOwner()[rim.facei];
+    const point from(rim.line().centre());
+    meshLine line{mesh, mesh.cellCentres()[celli], rim.out, celli, -1};
+    narrow(images, line, from, GREAT, gap);
+
+    const boundBox& bounds = mesh.bounds();
+    for (const isometry& image : images.near(bounds, bounds.mag()))
+    {
+        for (const baffleRim& other : others)
+        {
+            const point a(image(other.ends[0])), b(image(other.ends[1]));
+            point x, y;
+            const scalar way = rim.line().nearestDist(linePointRef(a, b), x, y);
+            line.along = (y - x)/max(way, VSMALL);
+
+            // Within 40 degrees: the sides of a corner do not face each other
+            const vector in(-(image.turn() & other.out));
+            if (min(line.along & rim.out, line.along & in) > 0.76)
+            {
+                narrow(images, line, from, way, gap);
+            }
+        }
+    }
 }
 
 } // End namespace Foam
@@ -155,13 +237,26 @@ Foam::List<Foam::narrowGap> Foam::narrowestGaps
 )
 {
     List<narrowGap> gaps(patches.size(), narrowGap{GREAT, Zero, 0});
+    const DynamicList<baffleRim> rims(baffleRims(mesh));
 
     forAll(patches, k)
     {
         const polyPatch& patch = mesh.boundaryMesh()[patches[k]];
         forAll(patch, i)
         {
-            gaps[k] = narrower(mesh, images, patch.start() + i, gaps[k]);
+            const label facei = patch.start() + i;
+            const point& x = mesh.faceCentres()[facei];
+            const vector& area = mesh.faceAreas()[facei];
+            const label celli = mesh.faceOwner()[facei];
+            const meshLine line{mesh, x, -area/mag(area), celli, facei};
+            narrow(images, line, x, GREAT, gaps[k]);
+        }
+        for (const baffleRim& rim : rims)
+        {
+            if (patch.range().found(rim.facei))
+            {
+                narrow(mesh, images, rim, rims, gaps[k]);
+            }
         }
     }
 

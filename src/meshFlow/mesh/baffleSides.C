@@ -10,36 +10,6 @@
 
 namespace Foam
 {
-    //- Points of walls that lie back to back
-    static labelHashSet bafflePoints(const polyMesh& mesh)
-    {
-        // The faces of walls by their lowest point
-        Map<DynamicList<label>> facesOf;
-        labelHashSet points;
-
-        for (const polyPatch& pp : mesh.boundaryMesh())
-        {
-            const label nFaces = isA<wallPolyPatch>(pp) ? pp.size() : 0;
-
-            for (label i = 0; i < nFaces; ++i)
-            {
-                const face& f = pp[i];
-                DynamicList<label>& others = facesOf(min(f));
-
-                for (const label other : others)
-                {
-                    if (face::sameVertices(mesh.faces()[other], f))
-                    {
-                        points.insert(f);
-                    }
-                }
-                others.append(pp.start() + i);
-            }
-        }
-
-        return points;
-    }
-
     //- The group of each mesh cell around points that are one: the lowest that
     //  it is connected with by faces that have one of them
     static Map<label> groups(const polyMesh& mesh, const UList<label>& points)
@@ -148,8 +118,14 @@ Foam::baffleSides::baffleSides(const polyMesh& mesh, pointImages& images)
 :
     mesh_(mesh)
 {
+    labelHashSet bafflePoints;
+    for (const labelPair& pair : baffleFaces(mesh))
+    {
+        bafflePoints.insert(mesh.faces()[pair.first()]);
+    }
+
     labelHashSet done;
-    for (const label pointi : bafflePoints(mesh).sortedToc())
+    for (const label pointi : bafflePoints.sortedToc())
     {
         labelList points(images.with(pointi));
         if (points.empty())
@@ -162,4 +138,36 @@ Foam::baffleSides::baffleSides(const polyMesh& mesh, pointImages& images)
             done.insert(points);
         }
     }
+}
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+Foam::DynamicList<Foam::labelPair> Foam::baffleFaces(const polyMesh& mesh)
+{
+    // The faces of walls by their lowest point
+    Map<DynamicList<label>> facesOf;
+    DynamicList<labelPair> pairs;
+
+    for (const polyPatch& pp : mesh.boundaryMesh())
+    {
+        const label nFaces = isA<wallPolyPatch>(pp) ? pp.size() : 0;
+
+        for (label i = 0; i < nFaces; ++i)
+        {
+            const label facei = pp.start() + i;
+            DynamicList<label>& others = facesOf(min(pp[i]));
+
+            for (const label other : others)
+            {
+                if (face::sameVertices(mesh.faces()[other], pp[i]))
+                {
+                    pairs.append(labelPair(other, facei));
+                }
+            }
+            others.append(facei);
+        }
+    }
+
+    return pairs;
 }
