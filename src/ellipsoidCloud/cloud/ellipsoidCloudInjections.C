@@ -143,7 +143,11 @@ void Foam::ellipsoidCloud::reportCells(const scalar inflow) const
     {
         first = min(first, cell.planned);
     }
-    if (first < end && criterion_.holdTime() > end - first)
+    if
+    (
+        first < end && criterion_.holdTime() > end - first
+     && criterion_.sieves().size()
+    )
     {
         Warning
             << "holdTime " << criterion_.holdTime() << " s is longer than from"
