@@ -249,7 +249,7 @@ void Foam::coupledStokes::setTolerance(const scalar fluxTolerance)
 
 Foam::coupledStokes::outcome Foam::coupledStokes::solve(const bool scaled)
 {
-    // A flow that diverges is told, not ended by a signal
+    // A flow that diverges is reported, not ended by a signal
     const sigFpe::ignore noTrap;
 
     criterion_->restart();

@@ -117,7 +117,7 @@ bool Foam::steadyFlow::accept()
         // A flux that was not there to be read is not steady
         if (hasFlux_ && converged())
         {
-            tellOfClocks();
+            reportClocks();
             return true;
         }
         if (foreign())
@@ -139,17 +139,17 @@ bool Foam::steadyFlow::accept()
 }
 
 
-void Foam::steadyFlow::tellOfClocks() const
+void Foam::steadyFlow::reportClocks() const
 {
-    tellOfClock(U_, clock_);
-    tellOfClock(p_, clock_);
+    reportClock(U_, clock_);
+    reportClock(p_, clock_);
 }
 
 
 void Foam::steadyFlow::solve()
 {
     clock_ = mesh_.time().value();
-    tellOfClocks();
+    reportClocks();
     solve(true);
 }
 

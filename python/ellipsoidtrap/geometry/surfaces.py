@@ -49,7 +49,7 @@ def slab(bounds, base):
 
 def aperture_entry(name, low, high, axis, area):
     """Of occupancy in ellipsoidCloudProperties: the section across an axis in the middle of a box
-    with these corners, through which the flux is told."""
+    with these corners, through which the flux is reported."""
     corners = ("({:.9g} {:.9g} {:.9g})".format(*(1e-6*v for v in corner)) for corner in (low, high))
     normal = ("(1 0 0)", "(0 1 0)")[axis]
     return "{} {{ min {}; max {}; normal {}; area {:.9g}; }}\n".format(name, *corners, normal, 1e-12*area)

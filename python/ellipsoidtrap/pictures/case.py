@@ -341,7 +341,7 @@ class Case:
             if not (os.path.isfile(stem) or os.path.isfile(stem + ".gz")):
                 raise CaseError(f"{stem}: not there; make the mesh first")
 
-        # What VTK would print is told by the checks below in one line
+        # What VTK would print the checks below say in one line
         vtkObject.GlobalWarningDisplayOff()
         reader = vtkPOpenFOAMReader()
         controller = vtkDummyController()

@@ -129,7 +129,7 @@ def draw(case, measured=None, against=None):
             case.last_injection, color="black", linewidth=0.8, linestyle=(0, (5, 3))
         )
         for t, low, high in seen.get(name, ()):
-            # Of 'several' the upper end is not told
+            # Of 'several' the upper end is not known
             marks[whose] = ax.errorbar(
                 t, low, [[0], [0.4 * most if np.isnan(high) else high - low]],
                 lolims=np.isnan(high), color=style.VERMILLION, linewidth=1.8, capsize=4,

@@ -254,7 +254,7 @@ void ellipsoid_wall_add(view *s, const ellipsoid_facet *facet, wall *w)
             const int seen = !(facet->within & 1 << i) && side[m][i] < most;
             int on_left = side[m][i] > 0;
 
-            /* where rounding might tell, side_of() does */
+            /* where rounding might decide, side_of() does */
             if (seen || fabs(side[m][i]) <= 1e-6 * k->reach)
             {
                 const double *v1 = facet->vertex[i];

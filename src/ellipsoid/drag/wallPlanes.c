@@ -4,7 +4,7 @@
 /*
     wallPlanes.c - the walls near a body as planes.
 
-    Facets of one plane are one wall; its part of that is told in wallParts.c.
+    Facets of one plane are one wall; its part of that is computed in wallParts.c.
     Where a wall ends the pressure of squeezing does, too, and so it counts by the
     square of its part s: over a half-plane Reynolds' equation gives 0.29, 0.53
     and 0.84 of the force where s is 0.5, 0.72 and 0.92, and s^2 0.25, 0.52 and
@@ -340,7 +340,7 @@ ellipsoid_status ellipsoid_find_planes(
         {
             continue;
         }
-        /* which facets are listed must not tell whose plane it is */
+        /* whose plane it is must not depend on which facets are listed */
         begun = is_unseen(w);
         if (!begun)
         {

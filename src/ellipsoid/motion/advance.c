@@ -236,7 +236,7 @@ static void count_attempt(const ellipsoid_group *g, int accepted)
     }
 }
 
-/* Sets what is told of an accepted step, if it is observed, and the
+/* Sets what is reported of an accepted step, if it is observed, and the
    controller. largest: the factor by which the next may be longer. */
 static void accept_step(ellipsoid_group *g, const ellipsoid_plan *planned,
                         int explicitly, double error, double largest,

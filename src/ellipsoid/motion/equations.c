@@ -323,7 +323,7 @@ INLINED void add_free_drag(evaluation *e, ellipsoid_state *state, int balanced,
     }
 }
 
-/* Inlined below, with constants that tell the compiler what to leave
+/* Inlined below, with constants that show the compiler what to leave
    out; e has no address taken, so that it stays in registers. */
 INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
                                   ellipsoid_evaluation *at, int balanced,

@@ -103,7 +103,7 @@ static int *take_group(ellipsoid_world *world, const ellipsoid_span *s,
     return index;
 }
 
-/* index NULL: nobody is told. */
+/* index NULL: not reported. */
 static void put_back(ellipsoid_world *world, const ellipsoid_span *s, int group,
                      const int *index, int count)
 {

@@ -125,7 +125,7 @@ Foam::wordRes Foam::patternsOf(const dictionary& dict, const word& keyword)
 
 void Foam::checkPatterns(const std::string& text, const fileName& file)
 {
-    // What else is wrong is told where the file is read, except for a number such
+    // What else is wrong is reported where the file is read, except for a number such
     // as 1e400: there it raises SIGFPE
     std::fenv_t before;
     std::feholdexcept(&before);

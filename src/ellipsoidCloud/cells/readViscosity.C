@@ -60,11 +60,11 @@ Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
     }
 
     // Liquids that carry cells have 3e-7 to 1e-4. Several read it: once is enough
-    static bool told = false;
+    static bool reported = false;
 
-    if (!told && (nu.value() < 1e-7 || nu.value() > 1e-4))
+    if (!reported && (nu.value() < 1e-7 || nu.value() > 1e-4))
     {
-        told = true;
+        reported = true;
         Warning
             << "nu " << shortText(nu.value()).c_str() << " m2/s of"
             << " transportProperties is not that of a liquid that carries"

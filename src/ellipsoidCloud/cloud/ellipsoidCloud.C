@@ -312,7 +312,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
 
             checkImages(images);
 
-            // The function object has told it before the solver began
+            // The function object has reported it before the solver began
             if (flowType_ != STEADY)
             {
                 reportSize(whole.nCells(), whole.bounds(), population_);
@@ -364,7 +364,7 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow, const bool asItIs)
     planEntries();
     checkTimes();
     reportCells(through.inflow);
-    inertiaTold_ =
+    inertiaReported_ =
         reportInertia(flow.U, properties_, population_.largest(longestSemiAxis));
 
     localCells_ = undecomposed_->localCells();
@@ -411,8 +411,8 @@ void Foam::ellipsoidCloud::advance(const solverFields& flow)
         return;
     }
     inletFlux(flow.U, flow.phi).checkWalls(mesh_, false);
-    inertiaTold_ =
-        inertiaTold_
+    inertiaReported_ =
+        inertiaReported_
      || reportInertia(flow.U, properties_, population_.largest(longestSemiAxis));
 
     undecomposed_->gather(flow);

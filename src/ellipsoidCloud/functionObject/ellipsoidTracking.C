@@ -257,7 +257,7 @@ Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
     }
     idle_ = false;
 
-    // Mistakes are told before the solver takes its time
+    // Mistakes are reported before the solver takes its time
     if (steady_)
     {
         if (hasFlow())
