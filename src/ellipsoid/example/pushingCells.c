@@ -13,8 +13,8 @@
 
 #define CELLS 100
 
-/* Above the floor in rows, turned at random; each looks for walls by itself. */
-/* Each has surroundings of its own, whose id names it. */
+/* Above the floor in rows, turned at random. Each looks for walls by itself, and
+   has surroundings of its own, whose id names it. */
 static void set_cells(ellipsoid_world_body body[CELLS],
                       const ellipsoid_model *model,
                       const ellipsoid_surroundings *around, char *caches)
