@@ -3,8 +3,8 @@
 # This file is part of ellipsoidTrapFoam; see COPYING at the top of the source tree.
 """STL files as CAD programs write them, of the walls that makeGeometry wrote, and their sizes.
 
-usage: chipFiles.py cad FROM TO         in millimetres, with floor and ceiling, in any order and sense
-       chipFiles.py body FROM TO        the same as one body in a binary file
+usage: chipFiles.py cad FROM TO         in millimetres, with floor and ceiling, in any order and sense, and capitals
+       chipFiles.py body FROM TO        the same as one body in a binary file, with some bytes behind
        chipFiles.py apart FROM FOLDER   a file for each region, named by it
        chipFiles.py areas               of the patches of the mesh in the present folder [um2]
 """
@@ -42,12 +42,12 @@ def drawn_out(points):
 def write(file, name, triangles):
     """Add a region to an ASCII file."""
     with open(file, "a", encoding="ascii") as out:
-        out.write(f"solid {name}\n")
+        out.write(f"SOLID {name}\n")
         for one in triangles:
-            out.write("facet normal 0 0 1\nouter loop\n")
-            out.writelines("vertex {:.9e} {:.9e} {:.9e}\n".format(*point) for point in one)
-            out.write("endloop\nendfacet\n")
-        out.write(f"endsolid {name}\n")
+            out.write("FACET NORMAL 0 0 1\nOUTER LOOP\n")
+            out.writelines("VERTEX {:.9E} {:.9E} {:.9E}\n".format(*point) for point in one)
+            out.write("ENDLOOP\nENDFACET\n")
+        out.write(f"ENDSOLID {name}\n")
 
 
 def areas():
@@ -81,3 +81,4 @@ else:
         out.write(b"solid of no name".ljust(80) + struct.pack("<I", len(body)))
         for one in body:
             out.write(struct.pack("<12fH", 0, 0, 1, *(v for point in one for v in point), 0))
+        out.write(b"\0"*12)

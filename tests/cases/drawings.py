@@ -71,9 +71,17 @@ def curves(file):
 
 
 def blocks(file):
-    """Blocks in blocks, turned, mirrored, scaled, and an array; entities of layer 0 are of the insert's layer."""
+    """Blocks in blocks, turned, mirrored, scaled, and an array; entities of layer 0 are of the insert's layer. Names that are
+    centred, underlined and mirrored, and what has no extent."""
     document, space = dxf()
-    channel(space)
+    closed(space, "FLUID", [(-10, -20), (10, -20), (10, 20), (-10, 20)])
+    space.add_text("%%uinlet", dxfattribs={
+        "layer": "NAMES", "insert": (0, 0), "halign": 1, "valign": 2, "align_point": (0, -20)})
+    text(space, "outlet", (1, 20.5))
+    text(space, "left", (-10, 9))
+    space.add_text("right", dxfattribs={"layer": "NAMES", "insert": (-10, 9), "extrusion": (0, 0, -1)})
+    space.add_circle((0, 0), 0, dxfattribs={"layer": "FLUID"})
+    space.add_lwpolyline([(5, 5)], dxfattribs={"layer": "FLUID"})
     post = document.blocks.new("POST")
     closed(post, "0", [(0, 0), (2, 0), (2, 1)])
     pair = document.blocks.new("PAIR")

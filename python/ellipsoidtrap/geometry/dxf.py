@@ -43,7 +43,9 @@ def lines_of(entity, tolerance):
     kind = entity.dxftype()
     if kind == "CIRCLE":
         center, radius = entity.ocs().to_wcs(entity.dxf.center), entity.dxf.radius
-        points = rings.circle(center.x, center.y, radius, sides_of(radius, tolerance)) if radius > 0 else []
+        if not radius > 0:
+            return []
+        points = rings.circle(center.x, center.y, radius, sides_of(radius, tolerance))
         return [[Vec3(point) for point in points + points[:1]]]
     if kind in ("SOLID", "TRACE", "3DFACE"):
         return [entity.wcs_vertices(close=True)]
@@ -52,6 +54,14 @@ def lines_of(entity, tolerance):
     except TypeError:
         return None
     return [list(one.flattening(tolerance, 4)) for one in paths if len(one)]
+
+
+def place_of(text):
+    """Where a text stands, in the coordinates of the drawing or of its block: if it is centred, say, its second point."""
+    if text.dxftype() == "MTEXT":
+        return text.dxf.insert
+    second = text.dxf.hasattr("align_point") and (text.dxf.halign in (1, 2, 4) or text.dxf.valign)
+    return text.ocs().to_wcs(text.dxf.align_point if second else text.dxf.insert)
 
 
 def read(file, unit, tolerance):
@@ -69,9 +79,8 @@ def read(file, unit, tolerance):
     for entity, matrix, layer in entities(document.modelspace(), Matrix44.scale(unit)):
         kind = entity.dxftype()
         if kind in ("TEXT", "MTEXT"):
-            place = matrix.transform(entity.dxf.insert)
-            words = entity.plain_text() if kind == "MTEXT" else entity.dxf.text
-            texts.append(Text((layer,), words.strip(), (place.x, place.y)))
+            place = matrix.transform(place_of(entity))
+            texts.append(Text((layer,), entity.plain_text().strip(), (place.x, place.y)))
         elif kind not in PASSED_OVER:
             stretch = max(matrix.transform_direction(axis).magnitude for axis in (X_AXIS, Y_AXIS))
             lines = lines_of(entity, tolerance/stretch)
@@ -79,5 +88,5 @@ def read(file, unit, tolerance):
             if getattr(entity, "has_width", False):
                 trouble = f"a {kind} has a width: draw its outline"
             shapes += [Shape((layer,), [tuple(p.vec2) for p in matrix.transform_vertices(points)], trouble)
-                       for points in lines or [[]]]
+                       for points in lines or ([[]] if trouble else [])]
     return Drawing(shapes, texts, sorted({one.layers[0] for one in shapes + texts}), True)

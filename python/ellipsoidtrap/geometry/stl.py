@@ -13,7 +13,7 @@ from .rings import TOUCH
 from .surfaces import SURFACES
 
 WALLS = "walls.stl"
-VERTEX = re.compile(r"vertex\s+" + r"\s+".join([r"([-+.\deE]+)"]*3))
+VERTEX = re.compile(r"(?i)vertex\s+" + r"\s+".join([r"([-+.\deE]+)"]*3))
 
 
 def triangles(top, file):
@@ -25,15 +25,17 @@ def triangles(top, file):
             data = source.read()
     except OSError as error:
         top.fail(f"'stl': cannot read {file}: {error.strerror or error}")
-    # Header, number, 50 bytes each: normal, three corners, attribute
-    if len(data) > 84 and len(data) == 84 + 50*struct.unpack_from("<I", data, 80)[0]:
-        for numbers in struct.iter_unpack("<12fH", data[84:]):
+    # Header, number, 50 bytes each: normal, three corners, attribute. Some programs write more; of a text
+    # the number would be above 5e8
+    end = 84 + 50*struct.unpack_from("<I", data, 80)[0] if len(data) > 84 else 0
+    if 84 < end <= len(data):
+        for numbers in struct.iter_unpack("<12fH", data[84:end]):
             yield None, [numbers[3:6], numbers[6:9], numbers[9:12]]
         return
     text = data.decode("latin-1")
-    if not re.match(r"\s*solid\b", text) or "vertex" not in text:
+    if not re.match(r"(?i)\s*solid\b", text) or not VERTEX.search(text):
         top.fail(f"'stl': {file} is no STL")
-    for part in re.split(r"(?m)^\s*solid\b", text)[1:]:
+    for part in re.split(r"(?mi)^\s*solid\b", text)[1:]:
         region = part.split("\n", 1)[0].strip() or None
         points = [tuple(map(float, found)) for found in VERTEX.findall(part)]
         for i in range(0, len(points) - 2, 3):
