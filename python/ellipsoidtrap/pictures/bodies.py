@@ -113,8 +113,10 @@ def _draw(body, view, corner, fine, colour, depth):
 
 
 def show(ax, bodies, view, scale, **options):
-    """The bodies within the limits of axes."""
+    """The bodies within the limits of axes; scale in pixels a micrometre, but for bodies that would be blurred, or
+    larger than any paper."""
     xlim, ylim = ax.get_xlim(), ax.get_ylim()
+    scale = np.clip(scale, 500/(xlim[1] - xlim[0]), 2000/(xlim[1] - xlim[0]))
     ax.imshow(
         picture(bodies, view, xlim, ylim, scale), extent=(*xlim, *ylim),
         interpolation="bilinear", **options,

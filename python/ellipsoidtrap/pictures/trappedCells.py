@@ -39,13 +39,19 @@ def shadow(x, q, semi_axes, across):
 
 
 def in_view(case, name):
-    """(low, high) corners of a sieve that holds cells or, if it is long, of where they are."""
+    """(low, high) corners of what is shown of a sieve that holds cells or, if it is long, of where they are."""
     low, high = case.box(name)
-    held = [case.tracks[cell].x[-1, :2] for cell, fate in case.fates.items()
+    held = [cell for cell, fate in case.fates.items()
             if fate.name == "caught" and fate.patch == name and cell in case.tracks]
-    if held and (high - low).max() > LONG:
-        low, high = np.maximum(low, np.min(held, axis=0) - ABOUT), np.minimum(high, np.max(held, axis=0) + ABOUT)
-    return low, high
+    if held:
+        places = np.array([case.tracks[cell].x[-1, :2] for cell in held])
+        first, last = places.min(axis=0), places.max(axis=0)
+        reach = max(case.semi_axes_of(cell).max() for cell in held)
+        if (high - low).max() > LONG + reach:
+            low, high = np.maximum(low, first - ABOUT - reach), np.minimum(high, last + ABOUT + reach)
+        # Large cells lie far beside a wall
+        low, high = np.minimum(low, first - reach), np.maximum(high, last + reach)
+    return low - MARGIN, high + MARGIN
 
 
 def draw_cells(ax, case, cells, across, colour_of):
@@ -107,13 +113,12 @@ def draw(case):
     rows = math.ceil(len(holding) / columns)
     windows = {}
     for name in holding:
-        low, high = in_view(case, name)
-        windows[name] = np.transpose([low - MARGIN, high + MARGIN])
+        windows[name] = np.transpose(in_view(case, name))
 
     fastest = 0
     for (x0, x1), (y0, y1) in windows.values():
         x, y, _, speed = plane.speed_in((x0, x1), (y0, y1))
-        fastest = max(fastest, speed[(x >= x0) & (x <= x1) & (y >= y0) & (y <= y1)].max())
+        fastest = max(fastest, speed[(x >= x0) & (x <= x1) & (y >= y0) & (y <= y1)].max(initial=1e-9))
     # In a pocket the flow is slow, outside it is fast
     scale = PowerNorm(0.5, 0, fastest)
     heights = ScalarMappable(Normalize(*case.depth), HEIGHT_MAP)

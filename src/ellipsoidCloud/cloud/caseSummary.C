@@ -212,7 +212,7 @@ void Foam::reportSize
     {
         Warning
             << "The " << options.bead_count << " beads of contact leave "
-            << word::printf("%.2g", 100*bare) << " % of a cell's surface bare,"
+            << word::printf("%.0f", 100*bare) << " % of a cell's surface bare,"
             << " where edges of walls come into it: contact { shape ellipsoid; }"
             << " has no gaps" << nl << endl;
     }
