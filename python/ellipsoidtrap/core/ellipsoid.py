@@ -8,7 +8,7 @@ from ctypes import POINTER, Structure, byref, c_double, cast
 
 import numpy as np
 
-from .library import Contact, Controller, FlowFunction, Member, State, Statistics, Surroundings, check, core, vector
+from .library import Contact, Controller, FlowFunction, Member, State, Statistics, Surroundings, check, checked_end, core, vector
 from .options import Options, make
 
 
@@ -123,7 +123,7 @@ class Ellipsoid:
     def advance(self, end):
         """Move on to the time `end` [s]. On a CoreError, or one of the flow's own, the state is that of the last step."""
         t = c_double(self.t)
-        status = core.ellipsoid_advance(byref(self._member), byref(t), float(end), None)
+        status = core.ellipsoid_advance(byref(self._member), byref(t), checked_end(end, self.t), None)
         self.t = t.value
         self.finish(status)
 

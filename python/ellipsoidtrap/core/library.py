@@ -149,3 +149,10 @@ def check(status, where=""):
     """Raises a CoreError unless a call succeeded."""
     if status != 0:
         raise CoreError(core.ellipsoid_status_name(status).decode(), core.ellipsoid_status_text(status).decode() + where)
+
+
+def checked_end(end, t):
+    """The time to which a cell is to go on from the time t."""
+    if not t <= float(end) < float("inf"):
+        raise ValueError(f"end = {float(end)} s: allowed is {t:g} s or later")
+    return float(end)

@@ -66,6 +66,8 @@ class Walls:
     @classmethod
     def box(cls, low, high):
         """The inside of a box [m]."""
+        if not all(below < above for below, above in zip(low, high)):
+            raise ValueError(f"low = {low} and high = {high} of a box: allowed is low below high along every axis")
         point, corner = (vector * 8)(), (c_int * 3 * 12)()
         core.ellipsoid_box(vector(*low), vector(*high), point, corner)
         return cls(np.array(point), np.array(corner))

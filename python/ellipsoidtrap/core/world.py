@@ -8,7 +8,7 @@ from ctypes import POINTER, Structure, byref, c_double, c_int, c_size_t, c_void_
 
 import numpy as np
 
-from .library import Contact, Controller, Member, State, Statistics, Surroundings, check, core, vector
+from .library import Contact, Controller, Member, State, Statistics, Surroundings, check, checked_end, core, vector
 
 GONE = 2
 
@@ -75,11 +75,12 @@ class World:
     def advance(self, end):
         """Move on to the time `end` [s], as one interval: best one in which cells move by a fraction of their length. A cell
         that the core cannot go on with is gone from then on; the error names it."""
+        end = checked_end(end, self.t)
         for body, cell in zip(self._body, self.cells):
             body.state, body.controller, body.time = *cell.parts(), self.t
-        status = core.ellipsoid_world_advance(self._memory, self._size, byref(self._world_cells), self.t, float(end))
+        status = core.ellipsoid_world_advance(self._memory, self._size, byref(self._world_cells), self.t, end)
         if status == 0:
-            self.t = float(end)
+            self.t = end
         for body, cell in zip(self._body, self.cells):
             cell.set_parts(body.state, body.controller, self.t)
         for body, cell in zip(self._body, self.cells):
