@@ -88,11 +88,21 @@ def read_csv(file, types):
     return rows
 
 
+def finite(word):
+    """A word as a finite number."""
+    number = float(word)
+    if not np.isfinite(number):
+        raise ValueError(word)
+    return number
+
+
 def read_measured(file, names, words=()):
     """A user's CSV file: the named columns it has, to arrays; NaN where there is no number."""
     try:
         with open(file, newline="", encoding="utf-8-sig") as f:
-            rows = list(csv.DictReader(f))
+            table = csv.DictReader(f, skipinitialspace=True)
+            table.fieldnames = [name.strip() for name in table.fieldnames or ()]
+            rows = list(table)
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise CaseError(f"{file}: {getattr(error, 'strerror', None) or error}") from None
     if not rows:
@@ -108,7 +118,8 @@ def read_measured(file, names, words=()):
         for i, row in enumerate(rows):
             word = (row[name] or "").strip()
             try:
-                columns[name][i] = float(word) if word else np.nan
+                if word:
+                    columns[name][i] = finite(word)
             except ValueError:
                 raise CaseError(f"{file}: line {i + 2}: {name} is no number: {word}") from None
     return columns

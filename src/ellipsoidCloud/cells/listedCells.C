@@ -96,6 +96,12 @@ namespace Foam
         {
             for (std::size_t i = 0; i < lines.size(); ++i)
             {
+                // Kept for the numbers of the lines after it
+                if (stringOps::trim(lines[i]).empty())
+                {
+                    continue;
+                }
+
                 const std::vector<std::string> fields(csvFields(lines[i]));
                 if (fields.size() != head.size())
                 {
