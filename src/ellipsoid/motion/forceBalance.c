@@ -289,7 +289,12 @@ static ellipsoid_status solve(ellipsoid_group *g, ellipsoid_evaluation *points)
     ellipsoid_status status;
 
     ellipsoid_group_set_inertial(g, 0);
-    ellipsoid_expand_about(g, points); /* poses stay */
+    /* poses stay, and whether derivatives were asked for must change nothing */
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        memset(points[cell].walls.by_pose, 0, sizeof(points->walls.by_pose));
+    }
+    ellipsoid_expand_about(g, points);
     be_at_rest(g, points);
     status = iterate(g, points, 0);
     if (status == ELLIPSOID_NON_FINITE)
