@@ -450,10 +450,14 @@ ellipsoid_status ellipsoid_group_advance(ellipsoid_group *g,
 {
     ellipsoid_controller controller = common(g, members);
     const ellipsoid_plan whole = {end - *t, *t, end, 1, 1, controller.step};
+    ellipsoid_status status = ellipsoid_rest(g, &whole);
     const int rests =
-        ellipsoid_rest(g, &whole) && !is_one_release_wrong(g, whole.h);
-    ellipsoid_status status = rests ? ELLIPSOID_OK : begin(g, *t, end);
+        status == ELLIPSOID_OK && !is_one_release_wrong(g, whole.h);
 
+    if (!rests && (status == ELLIPSOID_OK || ellipsoid_may_recover(status)))
+    {
+        status = begin(g, *t, end);
+    }
     while (status == ELLIPSOID_OK && *t < end)
     {
         status = rests ? take_rest(g, &whole, t, attempts)

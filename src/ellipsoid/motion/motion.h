@@ -403,10 +403,11 @@ void ellipsoid_explicit_dense(const ellipsoid_group *group, int cell,
 
 /* At the start of a noise interval that lasts many relaxation times: takes the
    start to where they have passed, in no time; or, if all cells are slow and touch
-   with friction, `next` to its end, else returns 0 (noiseLayer.c). */
+   with friction, `next` to its end, else STEP_UNDERFLOW (noiseLayer.c). */
 ellipsoid_status ellipsoid_noise_layer(ellipsoid_group *group, double t,
                                        double until);
-int ellipsoid_rest(ellipsoid_group *group, const ellipsoid_plan *interval);
+ellipsoid_status ellipsoid_rest(ellipsoid_group *group,
+                                const ellipsoid_plan *interval);
 
 /* -------------------------------------------------------- step control */
 

@@ -210,8 +210,10 @@ static int is_stable(const ellipsoid_evaluation *start, double h)
 
 /* Are there cells that are not fixed, and all of these slow, in contact, and
    stable? Sets what the start has. */
-static int may_rest(ellipsoid_group *g, const ellipsoid_plan *interval)
+static ellipsoid_status may_rest(ellipsoid_group *g,
+                                 const ellipsoid_plan *interval)
 {
+    ellipsoid_status status;
     int may = !g->unsteady, moving = 0;
 
     for (int cell = 0; may && cell < g->count; cell++)
@@ -221,16 +223,17 @@ static int may_rest(ellipsoid_group *g, const ellipsoid_plan *interval)
            || (ellipsoid_has_contact(g, cell)
                && is_slow(&g->cell[cell], &g->start[cell], interval));
     }
-    may = may && moving > 0
-       && ellipsoid_group_evaluate(g, interval->end, g->start, 0, 1)
-              == ELLIPSOID_OK;
+    status = may && moving > 0
+               ? ellipsoid_group_evaluate(g, interval->end, g->start, 0, 1)
+               : ELLIPSOID_STEP_UNDERFLOW;
+    may = status == ELLIPSOID_OK;
     for (int cell = 0; may && cell < g->count; cell++)
     {
         may = g->cell[cell].fixed
            || (ellipsoid_in_contact(&g->start[cell].contact)
                && is_stable(&g->start[cell], interval->h));
     }
-    return may;
+    return status == ELLIPSOID_OK && !may ? ELLIPSOID_STEP_UNDERFLOW : status;
 }
 
 /* One of Newton's changes to the next states, which have their blocks. */
@@ -275,47 +278,50 @@ static int change_next(ellipsoid_group *g, double h, double *largest)
     return regular;
 }
 
-/* The implicit step, from where the next states are those of the start. */
-static int solve(ellipsoid_group *g, const ellipsoid_plan *interval)
+/* The implicit step, to the next states. */
+static ellipsoid_status solve(ellipsoid_group *g,
+                              const ellipsoid_plan *interval)
 {
+    ellipsoid_status status = ELLIPSOID_OK;
     double largest;
-    int goes_on = change_next(g, interval->h, &largest);
+    int goes_on;
 
+    memcpy(g->next, g->start, (size_t)g->count * sizeof(*g->start));
+    goes_on = change_next(g, interval->h, &largest);
     ellipsoid_expand_about(g, g->start);
-    for (int n = 1; goes_on && largest > converged; n++)
+    for (int n = 1; goes_on && largest > converged && n < MOST_ITERATIONS; n++)
     {
-        goes_on = n < MOST_ITERATIONS
-               && ellipsoid_group_evaluate(g, interval->end, g->next, 0, 1)
-                      == ELLIPSOID_OK
-               && change_next(g, interval->h, &largest);
+        status = ellipsoid_group_evaluate(g, interval->end, g->next, 0, 1);
+        goes_on =
+            status == ELLIPSOID_OK && change_next(g, interval->h, &largest);
     }
     ellipsoid_expand_about(g, NULL);
-    return goes_on;
-}
-
-int ellipsoid_rest(ellipsoid_group *g, const ellipsoid_plan *interval)
-{
-    const int inertial = g->inertial;
-    int rests;
-
-    ellipsoid_group_set_inertial(g, 1);
-    rests = may_rest(g, interval);
-    if (rests)
+    if (!goes_on || largest > converged || !are_near(g))
     {
-        memcpy(g->next, g->start, (size_t)g->count * sizeof(*g->start));
-        rests = solve(g, interval) && are_near(g);
+        return status == ELLIPSOID_OK ? ELLIPSOID_STEP_UNDERFLOW : status;
     }
-    for (int cell = 0; rests && cell < g->count; cell++)
+    for (int cell = 0; cell < g->count; cell++)
     {
         if (!g->cell[cell].fixed)
         {
             ellipsoid_normalise(g->next[cell].state.q);
         }
     }
-    rests = rests
-         && ellipsoid_group_evaluate(g, interval->end, g->next, 0, 0)
-                == ELLIPSOID_OK;
+    return ellipsoid_group_evaluate(g, interval->end, g->next, 0, 0);
+}
+
+ellipsoid_status ellipsoid_rest(ellipsoid_group *g,
+                                const ellipsoid_plan *interval)
+{
+    const int inertial = g->inertial;
+    ellipsoid_status status;
+
+    ellipsoid_group_set_inertial(g, 1);
+    status = may_rest(g, interval);
+    if (status == ELLIPSOID_OK)
+    {
+        status = solve(g, interval);
+    }
     ellipsoid_group_set_inertial(g, inertial);
-    g->failed = -1;
-    return rests;
+    return status;
 }
