@@ -58,8 +58,15 @@ namespace Foam
 
         if (!there)
         {
+            const bool headless = !Pstream::parRun() && isFile(path);
+
             FatalErrorInFunction
-                << path << " is missing"
+                << path
+                << (
+                       headless
+                     ? " is empty, or does not begin with FoamFile { ... }"
+                     : " is missing"
+                   )
                 << (Pstream::parRun() ? ", or that of another processor" : "")
                 << nl << "    " << step.c_str() << exit(FatalError);
         }
