@@ -126,7 +126,10 @@ def contact_of(case):
         return None
     layout = contact.get("beadLayout", "staggered")
     count = int(case.number(32, "contact", "beads"))
-    return layout, count, case.number(0.285e-6, "contact", "beadRadius") * MICRO
+    # As the solver has it for cells that are thinner than its default
+    shortest = case.semi_axes.min() / MICRO
+    default = 0.285e-6 if shortest > 0.285e-6 else 0.57 * shortest
+    return layout, count, case.number(default, "contact", "beadRadius") * MICRO
 
 
 def draw_surface(ax, case, scale):
