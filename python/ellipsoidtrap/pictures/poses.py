@@ -72,8 +72,9 @@ def at_most(tangent, chord, factor):
 
 
 def beads(layout, count, radius, semi_axes):
-    """Centres of the beads in the body's frame, as in src/ellipsoid/beads.c; the longest
-    axis lies along x2."""
+    """Centres of the beads in the body's frame, as in src/ellipsoid/body/beads.c."""
+    if count == 1:
+        return np.zeros((1, 3))
     if layout == "paper":
         s, v = np.meshgrid(np.arange(4) * np.pi / 4, np.arange(8) * np.pi / 4)
         sphere = np.column_stack([
@@ -89,4 +90,10 @@ def beads(layout, count, radius, semi_axes):
             angle = (2 * k + ring % 2) * np.pi / 3
             around = np.sqrt(1 - y * y)
             sphere.append((around * np.sin(angle), y, around * np.cos(angle)))
-    return np.array(sphere) * axes
+    # Poles on the longest axis, a bead of every ring on the plane of the two longer ones
+    along = max((1, 0, 2), key=lambda i: semi_axes[i])
+    after, last = (along + 1) % 3, (along + 2) % 3
+    across, rim = (after, last) if semi_axes[last] > semi_axes[after] else (last, after)
+    centres = np.empty((len(sphere), 3))
+    centres[:, [across, along, rim]] = sphere
+    return centres * axes
