@@ -199,13 +199,10 @@ static void describe_step(const ellipsoid_group *g,
         step->before = g->start[cell].state;
         step->after = g->next[cell].state;
         step->contact = g->next[cell].contact;
+        memset(step->dense, 0, sizeof(step->dense));
         if (dense)
         {
             dense(g, cell, step->dense);
-        }
-        else
-        {
-            memset(step->dense, 0, sizeof(step->dense));
         }
     }
 }

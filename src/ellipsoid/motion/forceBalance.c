@@ -10,9 +10,10 @@
     begins at rest, so that the result is that of the poses alone. From there,
     where friction holds, towards sliding, its tangents fall short; where one
     goes too far the change is shortened. Where that does not converge, as where
-    many beads slide at speeds far above the slip speed, or where it repeats the
-    same iterates, as where damping ends at some of many beads, the body's
-    velocities first relax from rest as they do in time.
+    many beads slide at speeds far above the slip speed, the slip speed is
+    raised first and lowered to its value in steps. Where Newton's method then
+    repeats the same iterates, as where damping ends at some of many beads, the
+    body's velocities relax from rest as they do in time.
 */
 #include "motion/motion.h"
 
@@ -26,6 +27,9 @@ enum
     CHANGE = ELLIPSOID_STAGES, /* beyond the stages of a step */
     BEST
 };
+
+/* The slip speeds begin at so much of their value, and fall by a factor. */
+static const double smoothest = 1e12, less_smooth = 0.1;
 
 /* Newton has converged when it changes velocities by so much of themselves; or
    by this little more, and goes no further: rounding, where speeds are very
@@ -206,6 +210,38 @@ static void be_at_rest(const ellipsoid_group *g, ellipsoid_evaluation *points)
     }
 }
 
+/* With slip speeds that fall to their values. */
+static ellipsoid_status lower_slip_speeds(ellipsoid_group *g,
+                                          ellipsoid_evaluation *points)
+{
+    ellipsoid_smoothed_model alone;
+    ellipsoid_smoothed_model *smoothed = g->pairs ? g->pairs->smoothed : &alone;
+    ellipsoid_status status = ELLIPSOID_OK;
+
+    be_at_rest(g, points);
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        smoothed[cell].own = g->cell[cell].model;
+        smoothed[cell].model = *g->cell[cell].model;
+        g->cell[cell].model = &smoothed[cell].model;
+    }
+    for (double smooth = smoothest; status == ELLIPSOID_OK && smooth > 0.5;
+         smooth *= less_smooth)
+    {
+        for (int cell = 0; cell < g->count; cell++)
+        {
+            smoothed[cell].model.options.slip_speed =
+                smooth * smoothed[cell].own->options.slip_speed;
+        }
+        status = iterate(g, points, 1);
+    }
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        g->cell[cell].model = smoothed[cell].own;
+    }
+    return status;
+}
+
 /* Root of the sum of m a^2 and I alpha^2, of all accelerations. */
 static double unbalanced(const ellipsoid_group *g,
                          const ellipsoid_evaluation *points)
@@ -282,7 +318,8 @@ static ellipsoid_status relax(ellipsoid_group *g, ellipsoid_evaluation *points)
     return status == ELLIPSOID_OK ? iterate(g, points, 1) : status;
 }
 
-/* By Newton's method from rest or, if that fails, from relaxed velocities. */
+/* By Newton's method from rest; with slip speeds that fall, if that fails; from
+   relaxed velocities, if that does, too. */
 static ellipsoid_status solve(ellipsoid_group *g, ellipsoid_evaluation *points)
 {
     const int inertial = g->inertial;
@@ -297,6 +334,10 @@ static ellipsoid_status solve(ellipsoid_group *g, ellipsoid_evaluation *points)
     ellipsoid_expand_about(g, points);
     be_at_rest(g, points);
     status = iterate(g, points, 0);
+    if (status == ELLIPSOID_NON_FINITE)
+    {
+        status = lower_slip_speeds(g, points);
+    }
     if (status == ELLIPSOID_NON_FINITE)
     {
         status = relax(g, points);

@@ -274,6 +274,7 @@ size_t ellipsoid_group_lay_out(int count, void *memory, ellipsoid_group *g,
         take(memory, &used, sizeof(*pairs->near), pairs->near_capacity + 1);
     pairs->listed_at = take(memory, &used, sizeof(*pairs->listed_at), count);
     pairs->body = take(memory, &used, sizeof(*pairs->body), count);
+    pairs->smoothed = take(memory, &used, sizeof(*pairs->smoothed), count);
     bead = take(memory, &used, sizeof(*bead), count);
     for (int cell = 0; memory && cell < count; cell++)
     {

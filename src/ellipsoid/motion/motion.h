@@ -193,6 +193,13 @@ typedef struct ellipsoid_coupling
     ellipsoid_reduced reduced;
 } ellipsoid_coupling;
 
+/* A model that differs, for a time, from that of a cell (forceBalance.c). */
+typedef struct ellipsoid_smoothed_model
+{
+    const ellipsoid_model *own;
+    ellipsoid_model model;
+} ellipsoid_smoothed_model;
+
 /* What a group of several needs; arrays in the caller's memory. */
 typedef struct ellipsoid_pairs
 {
@@ -201,8 +208,9 @@ typedef struct ellipsoid_pairs
     int near_capacity, near_count;
     ellipsoid_near_pair *near;
     int is_listed;
-    ellipsoid_state *listed_at; /* where the near pairs were listed */
-    ellipsoid_body *body;       /* in the poses of an evaluation */
+    ellipsoid_state *listed_at;         /* where the near pairs were listed */
+    ellipsoid_body *body;               /* in the poses of an evaluation */
+    ellipsoid_smoothed_model *smoothed; /* for each cell */
     int *block;             /* [count][count]: number of a 6x6 block, or -1 */
     double (*blocks)[6][6]; /* of the factorised matrix */
     double (*rates)[6];     /* right-hand sides, solutions */
