@@ -214,7 +214,7 @@ static void be_at_rest(const ellipsoid_group *g, ellipsoid_evaluation *points)
 static ellipsoid_status lower_slip_speeds(ellipsoid_group *g,
                                           ellipsoid_evaluation *points)
 {
-    ellipsoid_smoothed_model alone;
+    ellipsoid_smoothed_model alone = {.own = NULL};
     ellipsoid_smoothed_model *smoothed = g->pairs ? g->pairs->smoothed : &alone;
     ellipsoid_status status = ELLIPSOID_OK;
 

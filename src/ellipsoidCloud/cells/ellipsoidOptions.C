@@ -6,6 +6,7 @@
 #include "electricField.H"
 #include "Switch.H"
 
+#include <climits>
 #include <vector>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -124,7 +125,7 @@ namespace Foam
             {
                 // #eval makes a scalar of all, and 1e3 is one
                 const scalar given = dict.get<scalar>(keyword);
-                if (given != std::trunc(given) || mag(given) > labelMax)
+                if (given != std::trunc(given) || mag(given) > INT_MAX)
                 {
                     refuseEntry
                     (

@@ -129,6 +129,7 @@ Foam::ellipsoidProperties::ellipsoidProperties(const polyMesh& mesh)
     (
         "interpolation", *this, meshFlow::stDivergenceFree
     );
-    seed_ = checkedNumber<label>(*this, "seed", within(-labelMax, labelMax), 1);
+    const auto most = scalar(labelMax);
+    seed_ = checkedNumber<label>(*this, "seed", within(-most, most), 1);
     readUnreached(mesh.boundaryMesh());
 }
