@@ -12,7 +12,7 @@
     velocity, quaternion) by an adaptive Rosenbrock method of fourth order.
     Without inertia only the seven equations of position and quaternion are
     left. They are solved by an explicit Runge-Kutta method of fourth order.
-    Where the body touches, steps are Rosenbrock steps of third order.
+    Where the body touches, steps are Rosenbrock steps, too.
 
     SI units throughout. Frames:
       lab    x  = (x1, x2, x3)
@@ -397,9 +397,8 @@ typedef struct ellipsoid_step
 } ellipsoid_step;
 
 /* The state at time start <= t <= end, interpolated to third order. In
-   INERTIALESS motion u and omega have one order less; if the step was not
-   explicit, they are linear in time. A noise interval that is one step is linear
-   in all. */
+   INERTIALESS motion u and omega have one order less. A noise interval that is
+   one step is linear in all. */
 void ellipsoid_step_state(const ellipsoid_step *step, double t,
                           ellipsoid_state *state);
 

@@ -38,10 +38,9 @@ Foam::scalar Foam::steadyCriterion::largestResidual
 Foam::scalarField Foam::steadyCriterion::record()
 {
     const fvMesh& mesh = U_.mesh();
-    const scalar volume = gSum(mesh.V().field());
 
-    meanSpeed_ = gSum(mag(U_.primitiveField())*mesh.V())/volume;
-    crossing_ = meanSpeed_*pow(volume, 2.0/3.0);
+    meanSpeed_ = gSum(mag(U_.primitiveField())*mesh.V())/volume_;
+    crossing_ = meanSpeed_*pow(volume_, 2.0/3.0);
     inflow_ = 0;
 
     // Below this a flux is the rounding of a velocity along an open patch
@@ -146,6 +145,7 @@ Foam::steadyCriterion::steadyCriterion
     p_(p),
     phi_(phi),
     nu_(nu),
+    volume_(gSum(U.mesh().V().field())),
     fluxTolerance_(how.fluxTolerance),
     fluxWindow_(how.fluxWindow > 0 ? how.fluxWindow : how.coupled ? 1 : 10),
     measures_
@@ -204,8 +204,7 @@ Foam::steadyCriterion::forceRatios Foam::steadyCriterion::forces
     const scalar pressure = gSum(mag(gradP)*mesh.V());
 
     // Where nothing resists, as between walls that slip, both are of rounding
-    const scalar least =
-        1e-3*nu_*meanSpeed_*cbrt(gSum(mesh.V().field()));
+    const scalar least = 1e-3*nu_*meanSpeed_*cbrt(volume_);
     const scalar driving = max(pressure + shear, least) + VSMALL;
 
     return {gSum(mag(net)*mesh.V())/driving, pressure/driving};
@@ -242,10 +241,9 @@ void Foam::steadyCriterion::update
 
 bool Foam::steadyCriterion::atRest() const
 {
-    const scalar length = cbrt(gSum(U_.mesh().V().field()));
     const scalar rounding = 1e-12*gMax(mag(p_.primitiveField())());
 
-    return meanSpeed_ < rounding*length/nu_;
+    return meanSpeed_ < rounding*cbrt(volume_)/nu_;
 }
 
 

@@ -6,7 +6,6 @@
 #include "electricField.H"
 #include "Switch.H"
 
-#include <climits>
 #include <vector>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -123,9 +122,8 @@ namespace Foam
 
             case ELLIPSOID_OPTION_WHOLE:
             {
-                // #eval makes a scalar of all, and 1e3 is one
                 const scalar given = dict.get<scalar>(keyword);
-                if (given != std::trunc(given) || mag(given) > INT_MAX)
+                if (!isWhole<int>(given))
                 {
                     refuseEntry
                     (
