@@ -34,8 +34,7 @@ typedef struct evaluation
     ellipsoid_free_motion free;
     double axis[3][3];    /* r_i: body axes in the lab, the columns of R(q) */
     double stretch[3][3]; /* G r_i; of FLOW_CENTRE */
-    double force[3];      /* lab */
-    double torque[3];     /* body */
+    ellipsoid_body_wrench wrench;
 } evaluation;
 
 /* ----------------------------------------------------- flow at the centre */
@@ -126,14 +125,15 @@ INLINED void balance(evaluation *e, double u[3], double omega[3])
     const double *m = e->model->mobility, *w = e->model->rotation_mobility;
     double slip[3];
 
-    ellipsoid_combination(e->axis, m[0] * ellipsoid_dot(e->axis[0], e->force),
-                          m[1] * ellipsoid_dot(e->axis[1], e->force),
-                          m[2] * ellipsoid_dot(e->axis[2], e->force), slip);
+    ellipsoid_combination(
+        e->axis, m[0] * ellipsoid_dot(e->axis[0], e->wrench.force),
+        m[1] * ellipsoid_dot(e->axis[1], e->wrench.force),
+        m[2] * ellipsoid_dot(e->axis[2], e->wrench.force), slip);
     ellipsoid_set(u, e->free.u[0] + slip[0], e->free.u[1] + slip[1],
                   e->free.u[2] + slip[2]);
-    ellipsoid_set(omega, e->free.omega[0] + w[0] * e->torque[0],
-                  e->free.omega[1] + w[1] * e->torque[1],
-                  e->free.omega[2] + w[2] * e->torque[2]);
+    ellipsoid_set(omega, e->free.omega[0] + w[0] * e->wrench.torque[0],
+                  e->free.omega[1] + w[1] * e->wrench.torque[1],
+                  e->free.omega[2] + w[2] * e->wrench.torque[2]);
 }
 
 /* Oberbeck (1876), Jeffery (1922), Brenner (1964): see above. */
@@ -151,10 +151,10 @@ INLINED void add_drag(evaluation *e, double slip[3], double resisted[3])
                   mu * k[2] * ellipsoid_dot(e->axis[2], slip));
     ellipsoid_combination(e->axis, resisted[0], resisted[1], resisted[2],
                           force);
-    ellipsoid_add(e->force, force);
-    e->torque[0] += mu * c[0] * (free_w[0] - w[0]);
-    e->torque[1] += mu * c[1] * (free_w[1] - w[1]);
-    e->torque[2] += mu * c[2] * (free_w[2] - w[2]);
+    ellipsoid_add(e->wrench.force, force);
+    e->wrench.torque[0] += mu * c[0] * (free_w[0] - w[0]);
+    e->wrench.torque[1] += mu * c[1] * (free_w[1] - w[1]);
+    e->wrench.torque[2] += mu * c[2] * (free_w[2] - w[2]);
 }
 
 /* Derivatives of F = sum_i r_i mu K^_i (r_i . slip) and of T^. */

@@ -182,13 +182,11 @@ static ellipsoid_status try_step(ellipsoid_group *g,
     return try_rosenbrock(g, planned, error);
 }
 
-/* The continuous extension of a step of a cell. */
-typedef void dense_output(const ellipsoid_group *group, int cell,
-                          double dense[2][UNKNOWNS]);
-
-/* Tells the accepted step; NULL: it is linear in time. */
-static void describe_step(const ellipsoid_group *g,
-                          const ellipsoid_plan *planned, dense_output *dense)
+/* Sets what is reported of the accepted step, by the continuous extension of its
+   method; NULL: it is linear in time. */
+static void
+describe_step(const ellipsoid_group *g, const ellipsoid_plan *planned,
+              void (*dense)(const ellipsoid_group *, int, double[2][UNKNOWNS]))
 {
     for (int cell = 0; cell < g->count; cell++)
     {

@@ -34,7 +34,7 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
     ellipsoid_planes planes;
     const ellipsoid_near_walls near = {e->model, &planes, &frame, &free,
                                        e->flow};
-    ellipsoid_body_wrench wrench;
+    ellipsoid_body_wrench wrench = e->wrench;
     ellipsoid_status status = ELLIPSOID_OK;
 
     memcpy(frame.axis, e->axis, sizeof(frame.axis));
@@ -49,8 +49,6 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
     {
         return status;
     }
-    ellipsoid_copy(e->force, wrench.force);
-    ellipsoid_copy(e->torque, wrench.torque);
     if (balanced)
     {
         status = ellipsoid_balance_wall_drag(&near, about, &wrench, &at->state);
@@ -71,8 +69,7 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
                                            blocks);
         }
     }
-    ellipsoid_copy(wrench.force, e->force);
-    ellipsoid_copy(wrench.torque, e->torque);
+    e->wrench = wrench;
     return status;
 }
 
@@ -92,8 +89,8 @@ INLINED ellipsoid_status add_contact(evaluation *e, const ellipsoid_cell *cell,
     {
         return status;
     }
-    ellipsoid_add(e->force, contact->force);
-    ellipsoid_add(e->torque, contact->torque);
+    ellipsoid_add(e->wrench.force, contact->force);
+    ellipsoid_add(e->wrench.torque, contact->torque);
     if (b && contact->bead_contacts > 0)
     {
         static const double ones[3] = {1, 1, 1};
@@ -116,7 +113,8 @@ INLINED double gyroscopic(const double inertia[3], const double w[3], int j,
 INLINED void accelerations(const evaluation *e, int inertial,
                            ellipsoid_state *derivative)
 {
-    const double *inertia = e->model->inertia, *f = e->force, *t = e->torque;
+    const double *inertia = e->model->inertia, *f = e->wrench.force,
+                 *t = e->wrench.torque;
     const double *w = e->state->omega;
     const double per_mass = 1 / e->model->mass;
     double torque[3] = {t[0], t[1], t[2]};
@@ -127,10 +125,11 @@ INLINED void accelerations(const evaluation *e, int inertial,
         torque[1] += gyroscopic(inertia, w, 2, 0);
         torque[2] += gyroscopic(inertia, w, 0, 1);
     }
-    ellipsoid_set(derivative->u, f[0] * per_mass, f[1] * per_mass,
-                  f[2] * per_mass);
-    ellipsoid_set(derivative->omega, torque[0] / inertia[0],
-                  torque[1] / inertia[1], torque[2] / inertia[2]);
+    for (int i = 0; i < 3; i++)
+    {
+        derivative->u[i] = f[i] * per_mass;
+        derivative->omega[i] = torque[i] / inertia[i];
+    }
 }
 
 static void finish_blocks(const evaluation *e, int inertial,
@@ -222,19 +221,17 @@ INLINED ellipsoid_status set_forces(evaluation *e,
 {
     const ellipsoid_model *m = e->model;
 
-    ellipsoid_set(e->force, m->constant_force[0], m->constant_force[1],
-                  m->constant_force[2]);
-    ellipsoid_set(e->torque, m->options.external_torque[0],
-                  m->options.external_torque[1], m->options.external_torque[2]);
+    ellipsoid_copy(m->constant_force, e->wrench.force);
+    ellipsoid_copy(m->options.external_torque, e->wrench.torque);
     if (e->flow && m->options.pressure_gradient == ELLIPSOID_PRESSURE_DUDT)
     {
         double convected[3];
 
         ellipsoid_product(e->flow->gradient, e->flow->velocity, convected);
-        ellipsoid_add_times(e->force, m->fluid_mass, convected);
+        ellipsoid_add_times(e->wrench.force, m->fluid_mass, convected);
         if (surroundings->unsteady)
         {
-            ellipsoid_add_times(e->force, m->fluid_mass,
+            ellipsoid_add_times(e->wrench.force, m->fluid_mass,
                                 e->flow->local_acceleration);
         }
     }
@@ -242,20 +239,17 @@ INLINED ellipsoid_status set_forces(evaluation *e,
         || m->options.pressure_gradient == ELLIPSOID_PRESSURE_GRADP)
     {
         ellipsoid_frame frame = {.by_q = blocks ? d : NULL};
-        ellipsoid_body_wrench wrench;
+        ellipsoid_body_wrench wrench = e->wrench;
         ellipsoid_status status;
 
         memcpy(frame.axis, e->axis, sizeof(frame.axis));
-        ellipsoid_copy(e->force, wrench.force);
-        ellipsoid_copy(e->torque, wrench.torque);
         status = ellipsoid_add_body_forces(m, surroundings, e->state, &frame,
                                            e->flow, &wrench, blocks);
         if (noise)
         {
             ellipsoid_add_noise(noise, &frame, &wrench, blocks);
         }
-        ellipsoid_copy(wrench.force, e->force);
-        ellipsoid_copy(wrench.torque, e->torque);
+        e->wrench = wrench;
         return status;
     }
     return ELLIPSOID_OK;
@@ -331,7 +325,6 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
 {
     const ellipsoid_model *model = cell->model;
     const ellipsoid_surroundings *surroundings = &cell->surroundings;
-    const int inertial = cell->inertial;
     const int drag = model->options.drag && surroundings->flow;
     ellipsoid_state *state = &at->state, *derivative = &at->derivative;
     ellipsoid_jacobian_blocks *blocks = with_blocks ? &at->blocks : NULL;
@@ -384,7 +377,7 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
     }
     if (blocks)
     {
-        finish_blocks(&e, inertial, blocks);
+        finish_blocks(&e, cell->inertial, blocks);
     }
     if (balanced)
     {
@@ -392,7 +385,7 @@ INLINED ellipsoid_status evaluate(const ellipsoid_cell *cell,
     }
     else
     {
-        accelerations(&e, inertial, derivative);
+        accelerations(&e, cell->inertial, derivative);
     }
     return finish(state, derivative);
 }

@@ -420,7 +420,10 @@ ellipsoid_force_balance(const ellipsoid_model *model,
     point.state = *state;
     point.contact = ellipsoid_no_contact();
     status = ellipsoid_group_evaluate(&g, surroundings->time, &point, 1, 0);
-    *state = point.state;
-    *derivative = point.derivative;
+    if (status == ELLIPSOID_OK)
+    {
+        *state = point.state;
+        *derivative = point.derivative;
+    }
     return status;
 }

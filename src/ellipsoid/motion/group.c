@@ -157,7 +157,6 @@ static ellipsoid_status advance(ellipsoid_group *g,
                                 const ellipsoid_member members[], double *t,
                                 double end, ellipsoid_observer observer)
 {
-    const ellipsoid_contact nothing = ellipsoid_no_contact();
     ellipsoid_status status;
     long attempts = 0;
 
@@ -182,7 +181,7 @@ static ellipsoid_status advance(ellipsoid_group *g,
     {
         g->cell[cell] = ellipsoid_cell_of(&members[cell], &g->noise[cell]);
         set_kind(g, members[cell].model, members[cell].surroundings);
-        g->start[cell].contact = g->next[cell].contact = nothing;
+        g->start[cell].contact = g->next[cell].contact = ellipsoid_no_contact();
     }
     g->inertial = g->cell[0].inertial;
     status = check(g);

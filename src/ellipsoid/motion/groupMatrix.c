@@ -6,9 +6,10 @@
 
     That of a cell alone is in stageMatrix.c. Of several, x and q of each cell are
     eliminated likewise. What is left has a 6x6 block on the diagonal for each
-    cell and two beside it for each pair that touches. It is factorised by Gauss without exchange of rows,
-    M = L U by blocks, and absent blocks stay absent but for fill-in: contact
-    adds what is nearly positive definite to a diagonal of drag and inertia.
+    cell and two beside it for each pair that touches. It is factorised by Gauss
+    without exchange of rows, M = L U by blocks, and absent blocks stay absent but
+    for fill-in: contact adds what is nearly positive definite to a diagonal of
+    drag and inertia.
 */
 #include "motion/motion.h"
 

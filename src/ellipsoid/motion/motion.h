@@ -304,7 +304,8 @@ static inline void ellipsoid_stages_sample(ellipsoid_stages *stages, int stage,
         fmin(fmax(at->contact.gap, 0), 0.5 * fmax(at->contact.cell_gap, 0));
 }
 
-/* For one cell with drag, its velocities set to those that balance. */
+/* For one cell with drag, its velocities set to those that balance; all stays if
+   there are none. */
 ellipsoid_status
 ellipsoid_force_balance(const ellipsoid_model *model,
                         const ellipsoid_surroundings *surroundings,

@@ -127,13 +127,6 @@ enum
     CHANGE = 0 /* of the stages */
 };
 
-/* How far the cell is displaced or turned by a change, in units of the
-   tolerance. */
-static double displacement(const ellipsoid_cell *p, const double change[])
-{
-    return ellipsoid_displacement(p, change) / p->model->options.tolerance;
-}
-
 /* Is no cell displaced too far, nor past a wall or another cell unseen
    (unseen_travel() of stepControl.c)? */
 static int are_near(const ellipsoid_group *g)
@@ -141,15 +134,15 @@ static int are_near(const ellipsoid_group *g)
     for (int cell = 0; cell < g->count; cell++)
     {
         const ellipsoid_cell *p = &g->cell[cell];
-        const double safe =
-            (g->pairs ? 0.5 : 1) * p->model->options.bead_radius;
+        const ellipsoid_options *o = &p->model->options;
+        const double safe = (g->pairs ? 0.5 : 1) * o->bead_radius;
         double change[UNKNOWNS];
 
         for (int n = 0; n < UNKNOWNS; n++)
         {
             change[n] = g->next[cell].y[n] - g->start[cell].y[n];
         }
-        if (!(displacement(p, change) <= most_displaced
+        if (!(ellipsoid_displacement(p, change) / o->tolerance <= most_displaced
               && ellipsoid_travel(p->model, &g->start[cell].state,
                                   &g->next[cell].state)
                      <= safe))
@@ -270,9 +263,10 @@ static int change_next(ellipsoid_group *g, double h, double *largest)
         {
             g->next[cell].y[n] += k[n];
         }
-        *largest = fmax(*largest, fmax(displacement(p, k),
-                                       ellipsoid_surface_speed(p, k)
-                                           / p->model->options.slip_speed));
+        *largest = fmax(
+            *largest,
+            fmax(ellipsoid_displacement(p, k) / p->model->options.tolerance,
+                 ellipsoid_surface_speed(p, k) / p->model->options.slip_speed));
         regular = isfinite(*largest);
     }
     return regular;

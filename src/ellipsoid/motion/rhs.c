@@ -9,27 +9,45 @@
 
 #include <string.h>
 
+/* The equations, without noise; only what is read of the evaluation is set. */
+static ellipsoid_status evaluate(const ellipsoid_model *model,
+                                 const ellipsoid_surroundings *surroundings,
+                                 const ellipsoid_state *state,
+                                 ellipsoid_facet_cache *cache, int with_blocks,
+                                 ellipsoid_evaluation *at)
+{
+    const ellipsoid_cell cell = {.model = model,
+                                 .surroundings = *surroundings,
+                                 .cache = cache,
+                                 .inertial = model->options.motion
+                                          == ELLIPSOID_MOTION_INERTIAL};
+
+    at->state = *state;
+    at->contact = ellipsoid_no_contact();
+    return ellipsoid_evaluate(&cell, at, 0, with_blocks);
+}
+
 ellipsoid_status ellipsoid_rhs(const ellipsoid_model *model,
                                const ellipsoid_surroundings *surroundings,
                                const ellipsoid_state *state,
                                ellipsoid_facet_cache *cache,
                                ellipsoid_state *derivative)
 {
-    const ellipsoid_cell cell = {.model = model,
-                                 .surroundings = *surroundings,
-                                 .cache = cache,
-                                 .inertial = 1};
-    ellipsoid_evaluation at = {.state = *state};
+    ellipsoid_state balanced = *state;
+    ellipsoid_evaluation at;
     ellipsoid_status status;
 
     if (model->options.motion == ELLIPSOID_MOTION_INERTIALESS)
     {
         return surroundings->flow ? ellipsoid_force_balance(
-                   model, surroundings, &at.state, cache, derivative)
+                   model, surroundings, &balanced, cache, derivative)
                                   : ELLIPSOID_BAD_OPTION;
     }
-    status = ellipsoid_evaluate(&cell, &at, 0, 0);
-    *derivative = at.derivative;
+    status = evaluate(model, surroundings, state, cache, 0, &at);
+    if (status == ELLIPSOID_OK)
+    {
+        *derivative = at.derivative;
+    }
     return status;
 }
 
@@ -38,20 +56,11 @@ ellipsoid_status ellipsoid_balance(const ellipsoid_model *model,
                                    ellipsoid_state *state,
                                    ellipsoid_facet_cache *cache)
 {
-    ellipsoid_state at = *state, derivative;
-    ellipsoid_status status;
+    ellipsoid_state derivative;
 
-    if (!surroundings->flow || !model->options.drag)
-    {
-        return ELLIPSOID_BAD_OPTION;
-    }
-    status =
-        ellipsoid_force_balance(model, surroundings, &at, cache, &derivative);
-    if (status == ELLIPSOID_OK)
-    {
-        *state = at;
-    }
-    return status;
+    return surroundings->flow && model->options.drag ? ellipsoid_force_balance(
+               model, surroundings, state, cache, &derivative)
+                                                     : ELLIPSOID_BAD_OPTION;
 }
 
 void ellipsoid_drag_at_rest(const ellipsoid_model *model, const double q[4],
@@ -74,14 +83,10 @@ ellipsoid_jacobian(const ellipsoid_model *model,
                    const ellipsoid_state *state, ellipsoid_facet_cache *cache,
                    double jacobian[ELLIPSOID_STATE_SIZE][ELLIPSOID_STATE_SIZE])
 {
-    const ellipsoid_cell cell = {.model = model,
-                                 .surroundings = *surroundings,
-                                 .cache = cache,
-                                 .inertial = model->options.motion
-                                          == ELLIPSOID_MOTION_INERTIAL};
-    ellipsoid_evaluation at = {.state = *state};
-    const ellipsoid_status status = ellipsoid_evaluate(&cell, &at, 0, 1);
-    const ellipsoid_jacobian_blocks b = at.blocks;
+    ellipsoid_evaluation at;
+    const ellipsoid_jacobian_blocks *b = &at.blocks;
+    const ellipsoid_status status =
+        evaluate(model, surroundings, state, cache, 1, &at);
 
     if (status != ELLIPSOID_OK)
     {
@@ -91,15 +96,15 @@ ellipsoid_jacobian(const ellipsoid_model *model,
            sizeof(double[ELLIPSOID_STATE_SIZE][ELLIPSOID_STATE_SIZE]));
     for (int i = 0; i < 3; i++)
     {
-        memcpy(&jacobian[AT_U + i][AT_U], b.uu[i], sizeof(b.uu[i]));
-        memcpy(&jacobian[AT_U + i][AT_X], b.ux[i], sizeof(b.ux[i]));
-        memcpy(&jacobian[AT_U + i][AT_OMEGA], b.uw[i], sizeof(b.uw[i]));
-        memcpy(&jacobian[AT_U + i][AT_Q], b.uq[i], sizeof(b.uq[i]));
+        memcpy(&jacobian[AT_U + i][AT_U], b->uu[i], sizeof(b->uu[i]));
+        memcpy(&jacobian[AT_U + i][AT_X], b->ux[i], sizeof(b->ux[i]));
+        memcpy(&jacobian[AT_U + i][AT_OMEGA], b->uw[i], sizeof(b->uw[i]));
+        memcpy(&jacobian[AT_U + i][AT_Q], b->uq[i], sizeof(b->uq[i]));
         jacobian[AT_X + i][AT_U + i] = 1;
-        memcpy(&jacobian[AT_OMEGA + i][AT_U], b.wu[i], sizeof(b.wu[i]));
-        memcpy(&jacobian[AT_OMEGA + i][AT_X], b.wx[i], sizeof(b.wx[i]));
-        memcpy(&jacobian[AT_OMEGA + i][AT_OMEGA], b.ww[i], sizeof(b.ww[i]));
-        memcpy(&jacobian[AT_OMEGA + i][AT_Q], b.wq[i], sizeof(b.wq[i]));
+        memcpy(&jacobian[AT_OMEGA + i][AT_U], b->wu[i], sizeof(b->wu[i]));
+        memcpy(&jacobian[AT_OMEGA + i][AT_X], b->wx[i], sizeof(b->wx[i]));
+        memcpy(&jacobian[AT_OMEGA + i][AT_OMEGA], b->ww[i], sizeof(b->ww[i]));
+        memcpy(&jacobian[AT_OMEGA + i][AT_Q], b->wq[i], sizeof(b->wq[i]));
     }
     for (int l = 0; l < 4; l++) /* of 1/2 Q(omega) q */
     {

@@ -93,7 +93,6 @@ static void add_time_derivatives(const ellipsoid_group *g, int stage, double h)
 static inline void take_first_stage(ellipsoid_group *g, int count, double h,
                                     double mass[UNKNOWNS])
 {
-
     for (int n = 0; n < UNKNOWNS; n++)
     {
         mass[n] = ellipsoid_is_rate(n) && !g->inertial ? 0 : 1 / h;
@@ -119,12 +118,9 @@ static inline ellipsoid_status evaluate_stage(ellipsoid_group *g, int count,
                                               int stage,
                                               const ellipsoid_plan *plan)
 {
-    ellipsoid_status status;
-
-    ellipsoid_expand_about(g, g->start);
-    status = ellipsoid_group_evaluate(
+    const ellipsoid_status status = ellipsoid_group_evaluate(
         g, ellipsoid_stage_time(plan, set->alpha[stage]), g->next, 0, 0);
-    ellipsoid_expand_about(g, NULL);
+
     for (int cell = 0; status == ELLIPSOID_OK && cell < count; cell++)
     {
         ellipsoid_stages *s = &g->stages[cell];
@@ -145,15 +141,6 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count,
     const double h = plan->h;
     double mass[UNKNOWNS]; /* over h */
 
-    if (g->unsteady)
-    {
-        const ellipsoid_status status = set_time_derivatives(g, plan);
-
-        if (status != ELLIPSOID_OK)
-        {
-            return status;
-        }
-    }
     take_first_stage(g, count, h, mass);
     for (int i = 1; i < ELLIPSOID_STAGES; i++)
     {
@@ -195,11 +182,23 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count,
 ellipsoid_status ellipsoid_rosenbrock_step(ellipsoid_group *g,
                                            const ellipsoid_plan *plan)
 {
+    ellipsoid_status status = ELLIPSOID_OK;
+
     if (!ellipsoid_group_prepare(g, g->start, set->gamma * plan->h))
     {
         return ELLIPSOID_NON_FINITE;
     }
-    return g->count == 1 ? take(g, 1, plan) : take(g, g->count, plan);
+    if (g->unsteady)
+    {
+        status = set_time_derivatives(g, plan);
+    }
+    if (status == ELLIPSOID_OK)
+    {
+        ellipsoid_expand_about(g, g->start);
+        status = g->count == 1 ? take(g, 1, plan) : take(g, g->count, plan);
+        ellipsoid_expand_about(g, NULL);
+    }
+    return status;
 }
 
 void ellipsoid_rosenbrock_dense(const ellipsoid_group *g, int cell,

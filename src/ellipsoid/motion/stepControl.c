@@ -248,11 +248,10 @@ static double longest_step(const ellipsoid_cell *p,
 ellipsoid_status ellipsoid_first_step(ellipsoid_group *g, double t, double end,
                                       double *step)
 {
-    const ellipsoid_options *o = &g->cell[0].model->options;
     double pace = 0, ahead;
     ellipsoid_status status;
 
-    *step = o->maximum_step;
+    *step = g->cell[0].model->options.maximum_step;
     for (int cell = 0; cell < g->count; cell++)
     {
         const ellipsoid_model *m = g->cell[cell].model;
