@@ -19,12 +19,14 @@ static const double flat_angle = 1e-8;
 /* A triangle's height over its longest edge at the least. */
 static const double thinnest = 1e-3;
 
-/* More triangles than this at a point would make a hub. */
-static const int most_triangles = 24;
-
-/* A collapse appends to the queue at most twice the triangles of its point,
-   which has no more than most_triangles + 4 - 1, and one. */
-#define QUEUED_BY_COLLAPSE 55
+enum
+{
+    MOST_TRIANGLES = 24, /* more at a point would make a hub */
+    MOST_SHARED = 4,     /* at an edge that is merged: both sides of a baffle */
+    /* A collapse appends to the queue at most twice the triangles of its point,
+       and one. Its target has as many at least as they share. */
+    QUEUED_BY_COLLAPSE = 2 * (MOST_TRIANGLES + MOST_SHARED) + 1
+};
 
 /* Corner k of triangle t is the node 3 t + k of the list of its point. */
 typedef struct merging
@@ -179,6 +181,31 @@ static int is_straight(const merging *m, int point)
     return ellipsoid_dot(a, b) < 0 && ellipsoid_length(turn) < flat_angle;
 }
 
+/* Is the surface flat at the edge from a point to another: is each triangle there
+   continued by one other? Both sides of a baffle have two. */
+static int is_flat_edge(const merging *m, int point, int other)
+{
+    for (int a = m->first[point]; a >= 0; a = m->next[a])
+    {
+        int continuing = 0;
+
+        if (!has_corner(m->s->corner[a / 3], other))
+        {
+            continue;
+        }
+        for (int b = m->first[point]; b >= 0; b = m->next[b])
+        {
+            continuing += b != a && has_corner(m->s->corner[b / 3], other)
+                       && are_flat(m, a / 3, b / 3);
+        }
+        if (continuing != 1)
+        {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 /* The points around a point, and those that it may be moved to by what the
    surface is like around it; none at corners. */
 static void set_targets(merging *m, int point)
@@ -187,22 +214,7 @@ static void set_targets(merging *m, int point)
     m->target_count = 0;
     for (int n = 0; n < m->around_count; n++)
     {
-        int sharing[2] = {-1, -1}, count = 0;
-
-        for (int node = m->first[point]; node >= 0; node = m->next[node])
-        {
-            if (has_corner(m->s->corner[node / 3], m->around[n]))
-            {
-                sharing[count > 0] = node / 3;
-                count++;
-            }
-        }
-        if (count > 2)
-        {
-            m->target_count = 0;
-            return;
-        }
-        if (count == 1 || !are_flat(m, sharing[0], sharing[1]))
+        if (!is_flat_edge(m, point, m->around[n]))
         {
             m->targets[m->target_count++] = m->around[n];
         }
@@ -251,12 +263,26 @@ static double moved_edge(const merging *m, int triangle, int point, int target)
              : HUGE_VAL;
 }
 
+/* Is there a triangle of these three points? */
+static int is_triangle(const merging *m, int point, int second, int third)
+{
+    for (int node = m->first[point]; node >= 0; node = m->next[node])
+    {
+        if (has_corner(m->s->corner[node / 3], second)
+            && has_corner(m->s->corner[node / 3], third))
+        {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* Longest edge [m] if the point is moved to another; HUGE_VAL if the surface
    would not stay what it is or that is not below another cost. */
 static double cost_of(merging *m, int point, int target, double other)
 {
     double longest = 0;
-    int shared = 0, common = 0;
+    int shared = 0;
 
     for (int node = m->first[point]; node >= 0; node = m->next[node])
     {
@@ -279,10 +305,15 @@ static double cost_of(merging *m, int point, int target, double other)
     m->beyond_count = list_around(m, target, m->beyond);
     for (int n = 0; n < m->around_count; n++)
     {
-        common += is_listed(m->beyond, m->beyond_count, m->around[n]);
+        if (is_listed(m->beyond, m->beyond_count, m->around[n])
+            && !is_triangle(m, point, target, m->around[n]))
+        {
+            return HUGE_VAL;
+        }
     }
-    return m->degree[point] + m->degree[target] > most_triangles + 2 * shared
-                || common != shared
+    return shared > MOST_SHARED
+                || m->degree[point] + m->degree[target]
+                       > MOST_TRIANGLES + 2 * shared
              ? HUGE_VAL
              : longest;
 }
