@@ -34,9 +34,9 @@ namespace Foam
             const cellState& cell, const scalar time, DynamicList<row>& rows
         )
         {
-            row r(Zero);
-            r[0] = cell.id;
-            r[1] = time;
+            row r = row();
+            r.id = cell.id;
+            r.time = time;
             rows.append(r);
         }
 
@@ -64,7 +64,7 @@ namespace Foam
         {
             for (const row& r : rows)
             {
-                (r[1] < 0 ? starts : times)[label(r[0])] += mag(r[1]);
+                (r.time < 0 ? starts : times)[r.id] += mag(r.time);
             }
         }
 

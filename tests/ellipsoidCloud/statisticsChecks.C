@@ -62,7 +62,7 @@ namespace Foam
         scalarList times(rows.size());
         forAll(rows, i)
         {
-            times[i] = rows[i][0];
+            times[i] = rows[i].time;
         }
         return times;
     }

@@ -37,6 +37,7 @@ namespace Foam
             {"Float64", "omega", 3},
             {"Float64", "axes", 9}
         });
+        const labelList points(identity(cells.size()));
         const labelList ends(identity(cells.size(), 1));
 
         const auto writeNumbers = [&](std::ostream& to, label first, label n)
@@ -60,14 +61,8 @@ namespace Foam
                 }
             }
         };
-        const auto writePoints = [&](std::ostream& to)
-        {
-            for (const label i : identity(cells.size()))
-            {
-                to << i << '\n';
-            }
-        };
-        writePolyData(os, arrays, writeNumbers, "Verts", writePoints, ends);
+
+        writePolyData(os, arrays, writeNumbers, "Verts", points, ends);
     }
 
     //- The files of a folder by their times

@@ -4,13 +4,13 @@
 #include "cellTracks.H"
 #include "atomicWrite.H"
 #include "fromRanks.H"
+#include "ListOps.H"
 #include "stringOps.H"
 #include "vtkPolyData.H"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <numeric>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -36,40 +36,20 @@ namespace Foam
         ].str();
     }
 
-    //- Numbers of the rows of each cell in a file, by its id
-    static std::map<label, DynamicList<label>> rowsOf(const appendedFile& file)
-    {
-        std::map<label, DynamicList<label>> rows;
-        label row = 0;
-        file.forRows([&](const std::string& text)
-        {
-            rows[idOf(text)].append(row++);
-        });
-        return rows;
-    }
-
-    //- Append a row
+    //- Append a row of a cell, which is there at that time
     static void append
     (
         cellState& cell,
         const scalar t,
-        const ellipsoid_state& body,
-        const isometry& unfold,
+        const cellState& there,
         DynamicList<cellTracks::row>& rows
     )
     {
-        cellTracks::row r;
-        r[0] = t;
-        r[1] = cell.id;
-        std::copy_n(body.x, 3, r.begin() + 2);
-        std::copy_n(body.u, 3, r.begin() + 5);
-        std::copy_n(body.q, 4, r.begin() + 8);
-        std::copy_n(body.omega, 3, r.begin() + 12);
-        r[15] = cell.fate;
-        r[16] = cell.patch;
-        const point unfolded(unfold(pointOf(body.x)));
-        std::copy_n(unfolded.v_, 3, r.begin() + 17);
-        rows.append(r);
+        const ellipsoid_state& body = there.body;
+        rows.append
+        ({
+            t, body, there.unfolded(), cell.id, cell.fate, cell.patch
+        });
 
         cell.lastRow[0] = t;
         std::copy_n(body.x, 3, cell.lastRow + 1);
@@ -110,7 +90,7 @@ Foam::cellTracks::cellTracks(const tableSet& set)
 
 void Foam::cellTracks::start(cellState& cell, DynamicList<row>& rows) const
 {
-    append(cell, cell.time, cell.body, cell.unfold, rows);
+    append(cell, cell.time, cell, rows);
     cell.nextRow =
         (std::floor(cell.time/setting_.interval) + 1)*setting_.interval;
 }
@@ -172,7 +152,7 @@ void Foam::cellTracks::add
 
         if (due && moved)
         {
-            append(cell, cell.nextRow, body, there.unfold, rows);
+            append(cell, cell.nextRow, there, rows);
         }
 
         cell.nextRow =
@@ -191,7 +171,7 @@ void Foam::cellTracks::finish(cellState& cell, DynamicList<row>& rows) const
 {
     if (cell.time - cell.lastRow[0] > 1e-6*setting_.interval)
     {
-        append(cell, cell.time, cell.body, cell.unfold, rows);
+        append(cell, cell.time, cell, rows);
     }
 }
 
@@ -202,7 +182,7 @@ void Foam::cellTracks::flush(const scalar until)
     const auto due = std::partition
     (
         rows_.begin(), rows_.end(),
-        [&](const row& r) { return !(r[0] < until); }
+        [&](const row& r) { return !(r.time < until); }
     );
     const label nKept = due - rows_.begin();
     List<row> rows
@@ -216,20 +196,19 @@ void Foam::cellTracks::flush(const scalar until)
         return;
     }
 
-    // By time and cell, which no two have in common
     Foam::sort(rows);
-
-    std::ostream& os = file.stream();
 
     for (const row& r : rows)
     {
-        const vector O(longAxis(&r[8]));
+        const ellipsoid_state& body = r.body;
 
-        os  << set_.timeText(r[0], 9) << ',' << label(r[1]) << commas{&r[2], 13}
-            << commas{O.v_, 3}
-            << ',' << cellState::fateNames[cellState::fateType(label(r[15]))]
-            << ',' << set_.patchName(label(r[16]))
-            << commas{&r[17], set_.unfolds ? 3 : 0} << '\n';
+        file.stream()
+            << set_.timeText(r.time, 9) << ',' << r.id << commas{body.x, 3}
+            << commas{body.u, 3} << commas{body.q, 4} << commas{body.omega, 3}
+            << commas{longAxis(body.q).v_, 3}
+            << ',' << cellState::fateNames[cellState::fateType(r.fate)]
+            << ',' << set_.patchName(r.patch)
+            << commas{r.unfolded.v_, set_.unfolds ? 3 : 0} << '\n';
     }
 
     file.flush();
@@ -285,27 +264,25 @@ void Foam::cellTracks::writeVTP
         });
     };
 
-    const std::map<label, DynamicList<label>> rows(rowsOf(file));
-    DynamicList<label> ends(rows.size());
-    for (const auto& cell : rows)
-    {
-        ends.append((ends.size() ? ends.last() : 0) + cell.second.size());
-    }
+    // The rows cell by cell
+    DynamicList<label> ids;
+    file.forRows([&](const std::string& text) { ids.append(idOf(text)); });
 
-    const auto writePoints = [&](std::ostream& os)
+    labelList rows;
+    sortedOrder(ids, rows);
+    DynamicList<label> ends;
+
+    forAll(rows, i)
     {
-        for (const auto& cell : rows)
+        if (i + 1 == rows.size() || ids[rows[i]] != ids[rows[i + 1]])
         {
-            for (const label row : cell.second)
-            {
-                os << row << '\n';
-            }
+            ends.append(i + 1);
         }
-    };
+    }
 
     atomicWrite(set_.folder/"tracks.vtp", [&](std::ostream& os)
     {
         os.precision(9);
-        writePolyData(os, arrays, writeNumbers, "Lines", writePoints, ends);
+        writePolyData(os, arrays, writeNumbers, "Lines", rows, ends);
     });
 }

@@ -26,6 +26,21 @@ namespace Foam
     {
         os << "</DataArray>\n";
     }
+
+    static void writeLabels
+    (
+        std::ostream& os,
+        const char* name,
+        const labelUList& labels
+    )
+    {
+        beginArray(os, {"Int64", name, 1});
+        for (const label i : labels)
+        {
+            os << i << '\n';
+        }
+        endArray(os);
+    }
 }
 
 
@@ -37,7 +52,7 @@ void Foam::writePolyData
     const UList<vtkArray>& arrays,
     const numberWriter& writeNumbers,
     const char* kind,
-    const std::function<void(std::ostream&)>& writePoints,
+    const labelUList& points,
     const labelUList& ends
 )
 {
@@ -56,14 +71,7 @@ void Foam::writePolyData
         first += array.nComponents;
     }
     os << "</PointData>\n<" << kind << ">\n";
-    beginArray(os, {"Int64", "connectivity", 1});
-    writePoints(os);
-    endArray(os);
-    beginArray(os, {"Int64", "offsets", 1});
-    for (const label end : ends)
-    {
-        os << end << '\n';
-    }
-    endArray(os);
+    writeLabels(os, "connectivity", points);
+    writeLabels(os, "offsets", ends);
     os  << "</" << kind << ">\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
