@@ -151,8 +151,7 @@ Foam::List<Foam::scalar> Foam::wallFacets::createWalls
         FatalErrorInFunction
             << "a wall triangle at "
             << triangles.points[triangles.corners[which][0]]
-            << " has no area: checkMesh says more"
-            << exit(FatalError);
+            << " has no area: checkMesh says more" << exit(FatalError);
     }
     else if (status != ELLIPSOID_OK)
     {
@@ -162,6 +161,7 @@ Foam::List<Foam::scalar> Foam::wallFacets::createWalls
             << exit(FatalError);
     }
 
+    memory.setSize(ellipsoid_walls_bytes(walls)/sizeof(scalar) + 1);
     return memory;
 }
 
@@ -180,33 +180,24 @@ Foam::wallFacets::wallFacets
     known_(images.empty() ? GREAT : reach),
     beyond_(images.empty() ? 0 : length)
 {
-    List<scalar> memory;
-    List<scalar> sizes(2, Zero);
+    List<scalar> made;
 
     if (Pstream::master())
     {
-        memory = createWalls(undecomposed, length, images, mirrors);
+        made = createWalls(undecomposed, length, images, mirrors);
         span_ = boundBox(undecomposed.mesh().points(), false);
-
-        int count;
-        const auto* walls =
-            reinterpret_cast<const ellipsoid_walls*>(memory.cdata());
-        ellipsoid_walls_facets(walls, &count);
-        sizes[0] = ellipsoid_walls_bytes(walls);
-        sizes[1] = count;
     }
-
     broadcast(span_);
-    broadcast(sizes);
-    size_ = sizes[1];
-
-    memory_.reset(new sharedMemory(std::size_t(sizes[0])));
+    memory_.reset(made.size());
     if (Pstream::master())
     {
-        std::memcpy(memory_->data(), memory.cdata(), std::size_t(sizes[0]));
+        memory_.deepCopy(made);
     }
-    memory_->share();
+    memory_.share();
 
+    int count;
+    ellipsoid_walls_facets(walls(), &count);
+    size_ = count;
     if (size_)
     {
         span_.inflate(0.01);
