@@ -79,7 +79,7 @@ namespace Foam
                 {
                     return vertices[vertexi].x;
                 };
-                const labelUList with(images.with(b - nCells));
+                const labelList with(images.with(b - nCells));
                 for (label p : images.with(a - nCells))
                 {
                     p += nCells;
@@ -151,7 +151,7 @@ namespace Foam
                 for (label i = 1; i < 4; ++i)
                 {
                     const label pointi = tet.vertices[i] - mesh.nCells();
-                    fixed.set(tet.vertices[i]);
+
                     for (const label other : images.with(pointi))
                     {
                         fixed.set(mesh.nCells() + other);

@@ -127,11 +127,8 @@ Foam::baffleSides::baffleSides(const polyMesh& mesh, pointImages& images)
     labelHashSet done;
     for (const label pointi : bafflePoints.sortedToc())
     {
-        labelList points(images.with(pointi));
-        if (points.empty())
-        {
-            points = labelList(1, pointi);
-        }
+        const labelList points(images.with(pointi));
+
         if (done.insert(pointi))
         {
             split(points, images);
