@@ -158,8 +158,8 @@ bool Foam::flowFields::accept()
     const fluxErrors errors(fields());
 
     Info<< "flow: taken as read from " << instance_ << ": net fluxes of mesh"
-        << " cells " << text(errors.net) << " of those through them, phi and the"
-        << " flux of U differ by " << text(errors.difference)
+        << " cells " << shortText(errors.net) << " of those through them, phi"
+        << " and the flux of U differ by " << shortText(errors.difference)
         << (hasFlux_ ? "" : " (phi is that of U: there is none in the time)")
         << endl;
 
@@ -168,9 +168,9 @@ bool Foam::flowFields::accept()
         const masterGate once;
         FatalErrorInFunction
             << "The flow in " << instance_ << " does not keep its volume: net"
-            << " fluxes of mesh cells are " << text(errors.net)
+            << " fluxes of mesh cells are " << shortText(errors.net)
             << " of the fluxes through them, above continuityTolerance "
-            << text(continuityTolerance) << " (dictionary flow of"
+            << shortText(continuityTolerance) << " (dictionary flow of"
             << " system/fvSolution)" << exit(FatalError);
     }
     checkFluxDifference(errors.difference, mesh_);
@@ -215,7 +215,8 @@ void Foam::flowFields::checkPatches() const
             const std::string what
             (
                 "phi and U are not of one flow at patch " + Up.patch().name()
-              + ": phi carries " + text(flux) + " m3/s out, U " + text(ofU[i])
+              + ": phi carries " + shortText(flux) + " m3/s out, U "
+              + shortText(ofU[i])
             );
 
             // The flow may change what is given there
@@ -243,7 +244,7 @@ void Foam::flowFields::report(const scalar density) const
     if (through.closed())
     {
         Info<< "flow: nothing flows through, mean speed "
-            << text(through.speed) << " m/s" << endl;
+            << shortText(through.speed) << " m/s" << endl;
         return;
     }
 
@@ -268,8 +269,8 @@ void Foam::flowFields::report(const scalar density) const
            /through.area[i];
 
         Info<< "flow: " << mesh_.boundary()[patchi].name() << ": "
-            << text(mag(flux)) << " m3/s " << (flux < 0 ? "in" : "out")
-            << ", mean p " << text(patchP) << " m2/s2" << endl;
+            << shortText(mag(flux)) << " m3/s " << (flux < 0 ? "in" : "out")
+            << ", mean p " << shortText(patchP) << " m2/s2" << endl;
 
         if (flux < 0)
         {
@@ -282,18 +283,18 @@ void Foam::flowFields::report(const scalar density) const
         }
     }
 
-    Info<< "flow: mean inlet speed " << text(through.speed) << " m/s"
+    Info<< "flow: mean inlet speed " << shortText(through.speed) << " m/s"
         << endl;
 
     if (outflow > 0)
     {
         const scalar drop = inP/through.inflow - outP/outflow;
 
-        Info<< "flow: pressure drop " << text(drop) << " m2/s2";
+        Info<< "flow: pressure drop " << shortText(drop) << " m2/s2";
 
         if (density > 0)
         {
-            Info<< " (" << text(density*drop) << " Pa)";
+            Info<< " (" << shortText(density*drop) << " Pa)";
         }
         Info<< endl;
     }

@@ -317,7 +317,7 @@ void Foam::refuseEntry
     // With fewer digits than files have
     for (const token& t : static_cast<const tokenList&>(is))
     {
-        FatalIOError<< ' ' << shortText(t).c_str();
+        FatalIOError<< ' ' << shortText(t);
     }
 
     FatalIOError

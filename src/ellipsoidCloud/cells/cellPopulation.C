@@ -133,8 +133,8 @@ ellipsoid_model Foam::cellPopulation::modelOf(const ellipsoid_options& options)
     if (ellipsoid_model_init(&model, &options) != ELLIPSOID_OK)
     {
         FatalErrorInFunction
-            << "a cell of length " << shortText(2*options.semi_axes[1]).c_str()
-            << " m and width " << shortText(2*options.semi_axes[0]).c_str()
+            << "a cell of length " << shortText(2*options.semi_axes[1])
+            << " m and width " << shortText(2*options.semi_axes[0])
             << " m: " << ellipsoidProperties::complaint(options).c_str()
             << exit(FatalError);
     }

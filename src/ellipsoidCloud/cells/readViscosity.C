@@ -66,7 +66,7 @@ Foam::dimensionedScalar Foam::readViscosity(const polyMesh& mesh)
     {
         reported = true;
         Warning
-            << "nu " << shortText(nu.value()).c_str() << " m2/s of"
+            << "nu " << shortText(nu.value()) << " m2/s of"
             << " transportProperties is not that of a liquid that carries"
             << " cells: water has 1e-6. It is kinematic, Pa s by kg/m3" << nl
             << endl;

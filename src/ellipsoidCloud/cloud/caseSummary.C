@@ -103,7 +103,7 @@ void Foam::ellipsoidCloud::reportCapture(const domainImages& images) const
         {
             Warning
                 << "The narrowest gap of " << name << ", at "
-                << shortText(gap.at).c_str() << ", is only "
+                << shortText(gap.at) << ", is only "
                 << gap.meshCells << " mesh cells wide:"
                 << " the flow through it is not resolved" << nl << endl;
         }

@@ -209,8 +209,8 @@ void Foam::ellipsoidCloud::checkTimes() const
     const masterGate once;
     FatalIOErrorInFunction(properties_.subDict("injection"))
         << "no cell enters while the run lasts, from "
-        << shortText(time_).c_str() << " to "
-        << shortText(end).c_str() << " s: "
+        << shortText(time_) << " to "
+        << shortText(end) << " s: "
         << (
                all.empty()
              ? string("none is to enter at any time")

@@ -72,8 +72,8 @@ void Foam::checkFluxDifference(const scalar difference, const fvMesh& mesh)
     {
         FatalErrorInFunction
             << "phi and U are not of one flow: they differ by "
-            << shortText(difference).c_str() << ", above fluxTolerance "
-            << shortText(tolerance).c_str() << " (dictionary flow of"
+            << shortText(difference) << ", above fluxTolerance "
+            << shortText(tolerance) << " (dictionary flow of"
             << " system/fvSolution)" << exit(FatalError);
     }
 }

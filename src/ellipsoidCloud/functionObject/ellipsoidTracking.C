@@ -126,9 +126,9 @@ void Foam::functionObjects::ellipsoidTracking::check(const fvMesh& mesh) const
                 const masterGate once;
                 FatalIOErrorInFunction(e.dict())
                     << "positions of injection " << e.keyword() << ": "
-                    << shortText(x).c_str() << " lies outside the mesh, which"
-                    << " reaches from " << shortText(mesh.bounds().min()).c_str()
-                    << " to " << shortText(mesh.bounds().max()).c_str() << " m"
+                    << shortText(x) << " lies outside the mesh, which"
+                    << " reaches from " << shortText(mesh.bounds().min())
+                    << " to " << shortText(mesh.bounds().max()) << " m"
                     << exit(FatalIOError);
             }
         }

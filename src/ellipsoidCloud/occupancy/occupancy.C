@@ -237,11 +237,11 @@ Foam::scalar Foam::occupancy::aperture::area(const fvMesh& mesh) const
     {
         FatalErrorInFunction
             << "aperture " << name << " of occupancy is a section of "
-            << shortText(1e12*sum).c_str() << " um2 of the mesh";
+            << shortText(1e12*sum) << " um2 of the mesh";
         if (given)
         {
             FatalError
-                << ", and not of " << shortText(1e12*givenArea).c_str();
+                << ", and not of " << shortText(1e12*givenArea);
         }
         FatalError
             << nl << "    Correct min, max and normal"
