@@ -109,15 +109,15 @@ void Foam::ellipsoidCloud::checkClock() const
     if (left < -0.5*deltaT || (!earlier_.found() && !(left > 0)))
     {
         FatalIOErrorInFunction(time.controlDict())
-            << "endTime " << shortText(time.endTime().value()).c_str()
+            << "endTime " << shortText(time.endTime().value())
             << " s is not after the start at " << time.timeName()
             << " s: no cell would move" << exit(FatalIOError);
     }
     if (!earlier_.found() && !(left > 0.5*deltaT))
     {
         FatalIOErrorInFunction(time.controlDict())
-            << "deltaT " << shortText(deltaT).c_str() << " s is too long for"
-            << " the " << shortText(left).c_str() << " s up to endTime: no cell"
+            << "deltaT " << shortText(deltaT) << " s is too long for"
+            << " the " << shortText(left) << " s up to endTime: no cell"
             << " would move" << exit(FatalIOError);
     }
     const scalar then = earlier_.notes().getOrDefault("deltaT", deltaT);
@@ -167,9 +167,9 @@ void Foam::ellipsoidCloud::checkImages(const domainImages& images) const
         if (properties_.pushing() && mag(period) < 2.2*longest)
         {
             FatalIOErrorInFunction(properties_)
-                << "cells of " << shortText(longest).c_str() << " m push one"
+                << "cells of " << shortText(longest) << " m push one"
                 << " another, and the cyclic patches repeat every "
-                << shortText(mag(period)).c_str() << " m" << nl
+                << shortText(mag(period)) << " m" << nl
                 << "    That must be 2.2 lengths of a cell or more: mesh"
                 << " several periods, or set contact/cells off"
                 << exit(FatalIOError);
@@ -318,9 +318,14 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
                 reportSize(whole.nCells(), whole.bounds(), population_);
             }
             reportCapture(images);
+
+            const undecomposedFlow::serialScope serial;
+            for (const occupancy::aperture& a : blocking_.apertures)
+            {
+                a.area(whole);
+            }
         }
     }
-    reportApertures(false);
     if (earlier_.found())
     {
         const masterGate once;
@@ -358,7 +363,7 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow, const bool asItIs)
 
     if (flowType_ != UNSTEADY)
     {
-        reportApertures(true);
+        reportApertures();
     }
 
     planEntries();

@@ -123,29 +123,22 @@ void Foam::ellipsoidCloud::beginTables()
 }
 
 
-void Foam::ellipsoidCloud::reportApertures(const bool hasFlow) const
+void Foam::ellipsoidCloud::reportApertures() const
 {
     const masterGate once;
 
-    if (Pstream::master())
+    if (Pstream::master() && blocking_.apertures.size())
     {
         const undecomposedFlow::serialScope serial;
+        const surfaceScalarField& phi = undecomposed_->phi();
+        const inletFlux through(undecomposed_->U(), phi);
+
         for (const occupancy::aperture& a : blocking_.apertures)
         {
-            const scalar area = a.area(undecomposed_->mesh());
-
-            if (hasFlow)
-            {
-                const scalar flux = a.flux(undecomposed_->phi());
-                const inletFlux through
-                (
-                    undecomposed_->U(), undecomposed_->phi()
-                );
-
-                Info<< "flow: aperture " << a.name << ": " << flux << " m3/s, "
-                    << flux/max(through.inflow, VSMALL) << " of the inflow, "
-                    << 1e12*area << " um2" << endl;
-            }
+            const scalar flux = a.flux(phi);
+            Info<< "flow: aperture " << a.name << ": " << flux << " m3/s, "
+                << flux/max(through.inflow, VSMALL) << " of the inflow, "
+                << 1e12*a.area(phi.mesh()) << " um2" << endl;
         }
     }
 }
