@@ -13,17 +13,6 @@ namespace Foam
 {
     defineTypeNameAndDebug(cellInjection, 0);
     defineRunTimeSelectionTable(cellInjection, dictionary);
-
-    //- End the run if the core could not answer about a cell
-    static void check(const cellState& cell, const ellipsoid_status status)
-    {
-        if (status != ELLIPSOID_OK)
-        {
-            FatalErrorInFunction
-                << "cell " << cell.id << " cannot enter at " << cell.centre()
-                << ": " << ellipsoid_status_text(status) << exit(FatalError);
-        }
-    }
 }
 
 
@@ -129,7 +118,7 @@ Foam::cellState Foam::cellInjection::drawn
 
     FatalIOErrorInFunction(from_.dict)
         << "cell " << cell.id << " of injection " << from_.dict.dictName()
-        << " at " << shortText(cell.centre()).c_str()
+        << " at " << shortText(cell.centre())
         << (inside ? overlap(cell, model) : outside).c_str() << nl
         << "    " << maxAttempts << " position(s) tried, this the last"
         << exit(FatalIOError);
@@ -332,8 +321,7 @@ void Foam::cellInjection::wait
 
     meshFlow::probe at{cell.tet, -1};
     tetCoordinates c;
-    const bool there = flow.reach(cell.centre(), at, c);
-    Foam::check(cell, there ? ELLIPSOID_OK : ELLIPSOID_FLOW_FAILED);
+    flow.reach(cell.centre(), at, c);
     std::copy_n(flow.velocity(time, c).v_, 3, cell.body.u);
 }
 
@@ -349,21 +337,27 @@ bool Foam::cellInjection::overlaps
     const ellipsoid_state& pose = cell.body;
 
     int cuts = 0;
-    const ellipsoid_status status =
-        ellipsoid_overlaps_walls(&model, &around, pose.x, pose.q, &cuts);
-    Foam::check(cell, status);
 
-    if (cuts || !model.options.contact)
+    // Where the core cannot tell, another pose is drawn
+    if
+    (
+        ellipsoid_overlaps_walls(&model, &around, pose.x, pose.q, &cuts)
+     || cuts
+    )
     {
-        return cuts;
+        return true;
+    }
+    if (!model.options.contact)
+    {
+        return false;
     }
 
     // Beads may stand out of the ellipsoid
     facetCache cache(model);
     ellipsoid_contact contact;
 
-    // Where the core cannot tell, another pose is drawn. To touch, whatever
-    // rounding says, is not to overlap, but adhesion may pull without
+    // To touch, whatever rounding says, is not to overlap, but adhesion may pull
+    // without
     return
         ellipsoid_contact_evaluate
         (
