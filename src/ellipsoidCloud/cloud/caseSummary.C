@@ -9,6 +9,7 @@
 #include "narrowestGaps.H"
 #include "surfaceFields.H"
 #include "volFields.H"
+#include "wallPolyPatch.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -265,4 +266,38 @@ bool Foam::reportInertia
     }
 
     return matters;
+}
+
+
+void Foam::reportMovingWalls
+(
+    const volVectorField& U,
+    const ellipsoidProperties& properties
+)
+{
+    const ellipsoid_options& options = properties.options();
+
+    for (const polyPatch& pp : U.mesh().boundaryMesh())
+    {
+        const fvPatchVectorField& Up = U.boundaryField()[pp.index()];
+
+        if
+        (
+            options.contact && options.friction > 0
+         && isA<wallPolyPatch>(pp) && Up.fixesValue()
+        )
+        {
+            const scalar speed = gMax(mag(Up)());
+
+            if (speed > 0)
+            {
+                Warning
+                    << "contact/friction " << options.friction << " takes walls"
+                    << " to be at rest, and U at " << pp.name() << " is up to "
+                    << speed << " m/s: if this wall moves, it brakes the cells"
+                    << " that it should carry. Without friction walls may move"
+                    << nl << endl;
+            }
+        }
+    }
 }

@@ -288,9 +288,10 @@ Foam::word Foam::checkpoint::setAsideIncomplete
 
         if (!dryRun && isDir(path))
         {
-            rmDir(path + ".incomplete", true);
+            const fileName aside(path + ".incomplete");
 
-            if (!mv(path, path + ".incomplete"))
+            // What is there may be the user's
+            if ((exists(aside) && !mvBak(aside)) || !mv(path, aside))
             {
                 FatalErrorInFunction
                     << "cannot rename " << path << ": remove it by hand"

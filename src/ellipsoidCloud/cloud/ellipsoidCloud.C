@@ -371,6 +371,7 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow, const bool asItIs)
     reportCells(through.inflow);
     inertiaReported_ =
         reportInertia(flow.U, properties_, population_.largest(longestSemiAxis));
+    reportMovingWalls(flow.U, properties_);
 
     localCells_ = undecomposed_->localCells();
 
