@@ -64,6 +64,22 @@ struct meshLine
         return way;
     }
 
+    //- The width of its mesh cell in this direction [m]
+    scalar cellWidth() const
+    {
+        scalar low = GREAT, high = -GREAT;
+        for (const label i : mesh.cells()[celli])
+        {
+            for (const label pointi : mesh.faces()[i])
+            {
+                const scalar here = mesh.points()[pointi] & along;
+                low = min(low, here);
+                high = max(high, here);
+            }
+        }
+        return high - low;
+    }
+
     //- Go on beyond the face: in the next mesh cell, or in the image there.
     //  False at the boundary
     bool enter(const domainImages& images)
@@ -126,9 +142,15 @@ static void narrow
     const scalar longest = 4*line.mesh.bounds().mag();
     const scalar most = min(min(known, gap.width), longest);
 
-    for (label n = before > 0 ? 0 : 1; n < 10000; ++n)
+    // A line cuts corners of tetrahedra: of each the part of its width counts
+    scalar meshCells = 0;
+
+    for (label n = 0; n < 10000; ++n)
     {
+        const scalar cellWidth = line.cellWidth();
+        const scalar start = max(width, scalar(0));
         width += line.leave();
+        meshCells += max(min(width, most) - start, scalar(0))/cellWidth;
 
         const bool passed = width >= (1 - 1e-6)*most;
         if (!passed && line.enter(images))
@@ -138,7 +160,11 @@ static void narrow
         if (passed ? known < gap.width : line.meetsWall())
         {
             width = min(width, most);
-            gap = narrowGap{width, from + 0.5*width*along, n};
+            gap = narrowGap
+            {
+                width, from + 0.5*width*along,
+                max(label(1), label(std::ceil(meshCells - 0.01)))
+            };
         }
         return;
     }
