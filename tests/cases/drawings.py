@@ -11,6 +11,7 @@ import math
 import os
 import re
 import sys
+from pathlib import Path
 
 
 def dxf(unit=13):
@@ -72,8 +73,16 @@ def curves(file):
 
 def blocks(file):
     """Blocks in blocks, turned, mirrored, scaled, and an array; entities of layer 0 are of the insert's layer. Names that are
-    centred, underlined and mirrored, and what has no extent."""
+    centred, underlined and mirrored, what has no extent, and what is hidden: layers that are off or frozen, a block on either,
+    and the other shape of a block with two."""
     document, space = dxf()
+    document.layers.add("OFF").off()
+    document.layers.add("FROZEN").freeze()
+    document.blocks.new("HIDDEN").add_circle((0, 0), 3, dxfattribs={"layer": "TRAP1"})
+    space.add_blockref("HIDDEN", (0, 0), dxfattribs={"layer": "FROZEN"})
+    space.add_blockref("HIDDEN", (0, 0), dxfattribs={"layer": "FLUID", "color": 77})
+    space.add_circle((0, 0), 3, dxfattribs={"layer": "TRAP2", "color": 77})
+    space.add_circle((0, 0), 3, dxfattribs={"layer": "OFF"})
     closed(space, "FLUID", [(-10, -20), (10, -20), (10, 20), (-10, 20)])
     space.add_text("%%uinlet", dxfattribs={
         "layer": "NAMES", "insert": (0, 0), "halign": 1, "valign": 2, "align_point": (0, -20)})
@@ -89,9 +98,18 @@ def blocks(file):
     pair.add_blockref("POST", (0, 3), dxfattribs={"layer": "POSTS", "rotation": 90})
     space.add_blockref("PAIR", (-6, -10), dxfattribs={"layer": "TRAP1"})
     space.add_blockref("PAIR", (5, -10), dxfattribs={"layer": "TRAP2", "xscale": -1, "yscale": 2})
+    seen = document.blocks.new("SEEN")
+    closed(seen, "posts", [(4, 14), (6, 14), (6, 16), (4, 16)])
+    closed(seen, "0", [(3, 13), (7, 13), (7, 17), (3, 17)])
+    space.add_blockref("SEEN", (0, 0), dxfattribs={"layer": "OFF"})
     space.add_blockref("POST", (-6, 6), dxfattribs={
         "layer": "TRAP1", "column_count": 3, "row_count": 2, "column_spacing": 4, "row_spacing": 4})
     document.saveas(file)
+    # ezdxf writes no 60, which makes an entity invisible
+    path = Path(file)
+    whole, count = re.subn(r"\n *62\n *77\n", "\n 60\n1\n", path.read_text())
+    assert count == 2
+    path.write_text(whole)
 
 
 def walls(file):

@@ -62,13 +62,23 @@ def shaped(what, given, shape):
     return array
 
 
+def key(what, given, bits):
+    """A whole number that C would cut off if it were too large, or an error that names it."""
+    if not 0 <= given < 2**bits or int(given) != given:
+        raise ValueError(f"{what} = {given!r}: allowed is a whole number, 0 to {2**bits - 1}")
+    return int(given)
+
+
 def state_part(first, last, text):
     """A property: a part of the state's numbers, which may be changed in place."""
     def read(self):
         return self.numbers[first:last]
 
     def write(self, given):
-        self.numbers[first:last] = shaped("the state", given, (last - first,))
+        part = shaped("the state", given, (last - first,))
+        # The core's functions but advance() take a quaternion as it is; that of no length is told
+        length = np.linalg.norm(part) if last - first == 4 else 0
+        self.numbers[first:last] = part / length if length > 0 else part
 
     return property(read, write, doc=text)
 
@@ -86,6 +96,8 @@ class Ellipsoid:
     walls       Walls that it touches
     seed, id    the key of its Brownian motion; the id names it in a World
     options     any of ellipsoidtrap.core.options(), by name
+
+    Of these x, q, u, omega and the time t may be set later.
     """
 
     u = state_part(0, 3, "[m/s] velocity, lab")
@@ -97,7 +109,7 @@ class Ellipsoid:
                  walls=None, unsteady=False, seed=0, id=0, **options):  # pylint: disable=redefined-builtin,too-many-arguments
         if semi_axes is not None:
             options["semi_axes"] = semi_axes
-        self.t, self.id, self.walls = float(t), id, walls
+        self.t, self.id, self.walls = float(t), key("id", id, 32), walls
         self._model = ctypes.create_string_buffer(core.ellipsoid_model_size())
         check(core.ellipsoid_model_init(self._model, byref(make(options))))
         self.model = ModelStart.from_buffer(self._model)
@@ -105,7 +117,7 @@ class Ellipsoid:
         self.numbers = np.frombuffer(self._state)
         self.x, self.q, self.u, self.omega = x, q, u, omega
         self._flow = Flow(flow, unsteady)
-        self._surroundings = Surroundings(unsteady=bool(unsteady), seed=seed, id=id)
+        self._surroundings = Surroundings(unsteady=bool(unsteady), seed=key("seed", seed, 64), id=self.id)
         if flow is not None:
             self._surroundings.flow = self._flow.callback
         self._cache = None
@@ -116,6 +128,11 @@ class Ellipsoid:
         self._member = Member(ctypes.addressof(self._model), ctypes.pointer(self._surroundings),
                               ctypes.pointer(self._state), ctypes.pointer(self._controller),
                               self._cache and ctypes.addressof(self._cache), None, ctypes.pointer(self.statistics))
+
+    def __setattr__(self, name, what):
+        if name not in ("t", "x", "q", "u", "omega") and hasattr(self, "_member"):
+            raise AttributeError(f"{name} of an Ellipsoid: allowed to be set are t, x, q, u, omega; all else when it is made")
+        super().__setattr__(name, what)
 
     def __repr__(self):
         return f"<Ellipsoid at t = {self.t:g} s, x = {self.x} m, q = {self.q}>"

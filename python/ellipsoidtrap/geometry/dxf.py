@@ -17,20 +17,25 @@ from .shapes import CIRCLE_SIDES, Drawing, Shape, Text
 PASSED_OVER = ("POINT", "DIMENSION", "LEADER", "MULTILEADER", "VIEWPORT", "ATTDEF", "ATTRIB")
 
 
-def entities(some, matrix, layer=None, blocks=()):
-    """Entities of a layout or block, each with the matrix to the drawing and its layer; those of inserted blocks in
-    their place. Layer 0 of a block is that of its insert."""
+def entities(some, matrix, hidden, layer=None, blocks=()):
+    """Entities of a layout or block that are seen, each with the matrix to the drawing and its layer; those of inserted blocks
+    in their place. Layer 0 of a block is that of its insert. What is hidden: of each layer whether it is frozen, or else off,
+    which does not hide what an insert on it has on other layers."""
     for entity in some:
         own = layer if layer and entity.dxf.layer == "0" else entity.dxf.layer
+        frozen = hidden.get(own.casefold())
+        if frozen or entity.dxf.invisible:
+            continue
         if entity.dxftype() != "INSERT":
-            yield entity, matrix, own
+            if frozen is None:
+                yield entity, matrix, own
             continue
         name = entity.dxf.name
         if name in blocks:
             raise ValueError(f"block {name} holds itself")
         for one in entity.multi_insert() if entity.mcount > 1 else (entity,):
             if one.block() is not None:
-                yield from entities(one.block(), one.matrix44()*matrix, own, (*blocks, name))
+                yield from entities(one.block(), one.matrix44()*matrix, hidden, own, (*blocks, name))
 
 
 def sides_of(radius, tolerance):
@@ -76,7 +81,9 @@ def read(file, unit, tolerance):
     if unit is None:
         return None
     shapes, texts = [], []
-    for entity, matrix, layer in entities(document.modelspace(), Matrix44.scale(unit)):
+    unseen = [one for one in document.layers if one.is_off() or one.is_frozen()]
+    hidden = {one.dxf.name.casefold(): one.is_frozen() for one in unseen}
+    for entity, matrix, layer in entities(document.modelspace(), Matrix44.scale(unit), hidden):
         kind = entity.dxftype()
         if kind in ("TEXT", "MTEXT"):
             place = matrix.transform(place_of(entity))
@@ -89,4 +96,5 @@ def read(file, unit, tolerance):
                 trouble = f"a {kind} has a width: draw its outline"
             shapes += [Shape((layer,), [tuple(p.vec2) for p in matrix.transform_vertices(points)], trouble)
                        for points in lines or ([[]] if trouble else [])]
-    return Drawing(shapes, texts, sorted({one.layers[0] for one in shapes + texts}), True)
+    return Drawing(shapes, texts, sorted({one.layers[0] for one in shapes + texts})
+                   + [f"{one.dxf.name} (off or frozen)" for one in unseen], True)
