@@ -51,9 +51,13 @@ namespace Foam
             }
             for (const std::string& column : csvFields(lines.front()))
             {
-                head.push_back(stringOps::trim(column));
+                head.push_back(stringOps::lower(stringOps::trim(column)));
             }
             lines.erase(lines.begin());
+            if (lines.empty())
+            {
+                refuse(1, "no line of a cell follows");
+            }
         }
 
         static fileName path(fileName file, const fileName& caseFolder)
@@ -177,7 +181,8 @@ namespace Foam
                 FatalIOErrorInFunction(streamOf(dict, "file"))
                     << file.name.c_str() << ", line 1: the head must name all of"
                     << " the columns " << flatOutput(list.columns)
-                    << exit(FatalIOError);
+                    << ", separated by commas; its first is "
+                    << file.head.front().c_str() << exit(FatalIOError);
             }
             entries << list.entry << "\n(\n";
             file.write(places, entries);
