@@ -38,7 +38,7 @@ def number(text):
 def parts(name):
     """The rows of a table as structured arrays, so many at a time; one at least. A row whose end is not
     written yet is left out."""
-    with open(name, newline="", encoding="utf-8") as file:
+    with open(name, newline="", encoding="utf-8-sig") as file:
         table = csv.reader(line for line in file if line.endswith("\n"))
         header = next(table, [])
         if not header:
@@ -101,9 +101,12 @@ def captures_of(folders):
     for _, folder in reversed(folders):
         name = os.path.join(folder, "captures.csv")
         if os.path.isfile(name):
-            with open(name, newline="", encoding="utf-8") as file:
-                rows = [(plain(sieve), int(cells), np.array(times.split(), float))
-                        for sieve, cells, times in itertools.islice(csv.reader(file), 1, None)]
+            with open(name, newline="", encoding="utf-8-sig") as file:
+                try:
+                    rows = [(plain(sieve), int(cells), np.array(times.split(), float))
+                            for sieve, cells, times in itertools.islice(csv.reader(file), 1, None)]
+                except ValueError as error:
+                    raise CaseError(f"{name}: no rows of sieve, cells and t: {error}") from None
             whole = np.empty(len(rows), [("sieve", "O"), ("cells", "i4"), ("t", "O")])
             for i, row in enumerate(rows):
                 whole[i] = row

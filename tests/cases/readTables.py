@@ -124,6 +124,25 @@ def starts():
     shutil.rmtree(later)
 
 
+def spreadsheet():
+    """Tables that a spreadsheet has saved: with a byte order mark they are read, with semicolons they are named."""
+    before = ellipsoidtrap.read(".")
+    texts = {name: (ROOT / "0" / f"{name}.csv").read_bytes() for name in ("cells", "captures")}
+    for name, text in texts.items():
+        (ROOT / "0" / f"{name}.csv").write_bytes(b"\xef\xbb\xbf" + text)
+    after = ellipsoidtrap.read(".")
+    assert list(after.cells["id"]) == list(before.cells["id"]) and list(after.captures["cells"]) == list(before.captures["cells"])
+    (ROOT / "0" / "captures.csv").write_bytes(texts["captures"].replace(b",", b";"))
+    try:
+        ellipsoidtrap.read(".")
+    except CaseError as error:
+        assert "captures.csv: no rows of sieve, cells and t" in str(error)
+    else:
+        raise AssertionError("read")
+    for name, text in texts.items():
+        (ROOT / "0" / f"{name}.csv").write_bytes(text)
+
+
 def none():
     """No folder of tables."""
     try:
