@@ -72,8 +72,6 @@ namespace Foam
         const auto insert =
             [&](const label a, const label b)
             {
-                edges.insert(edge(a, b));
-
                 const label nCells = mesh.nCells();
                 const auto x = [&](const label vertexi) -> const point&
                 {

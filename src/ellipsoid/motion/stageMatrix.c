@@ -82,9 +82,9 @@ static inline void reduce_row(const elimination *e, int row,
     to->rates[5][row] = coupling(turned, q, 2, 0, 1) - of_w[2];
 }
 
-inline void ellipsoid_stage_matrix_reduce(const ellipsoid_jacobian_blocks *b,
-                                          const ellipsoid_state *column,
-                                          double per_g, ellipsoid_reduced *to)
+void ellipsoid_stage_matrix_reduce(const ellipsoid_jacobian_blocks *b,
+                                   const ellipsoid_state *column, double per_g,
+                                   ellipsoid_reduced *to)
 {
     const elimination e = of_step(column, per_g);
 
@@ -111,9 +111,9 @@ static inline void apply_inverse(double inverse[6][6], const double column[6],
     }
 }
 
-inline void ellipsoid_stage_matrix_kinematics(ellipsoid_stage_matrix *s,
-                                              const ellipsoid_state *state,
-                                              double per_g)
+void ellipsoid_stage_matrix_kinematics(ellipsoid_stage_matrix *s,
+                                       const ellipsoid_state *state,
+                                       double per_g)
 {
     const elimination e = of_step(state, per_g);
 
@@ -164,8 +164,8 @@ int ellipsoid_stage_matrix_prepare(ellipsoid_stage_matrix *s,
     return 1;
 }
 
-inline void ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *s,
-                                          const double a[6], double k[UNKNOWNS])
+void ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *s,
+                                   const double a[6], double k[UNKNOWNS])
 {
     double q[4];
 

@@ -185,25 +185,34 @@ static int is_straight(const merging *m, int point)
    continued by one other? Both sides of a baffle have two. */
 static int is_flat_edge(const merging *m, int point, int other)
 {
-    for (int a = m->first[point]; a >= 0; a = m->next[a])
+    int sharing[MOST_SHARED], count = 0;
+
+    for (int node = m->first[point]; node >= 0; node = m->next[node])
+    {
+        if (has_corner(m->s->corner[node / 3], other))
+        {
+            if (count == MOST_SHARED)
+            {
+                return 0;
+            }
+            sharing[count++] = node / 3;
+        }
+    }
+    /* if all but the last are, and they are even in number, it is, too */
+    for (int a = 0; a < count - 1; a++)
     {
         int continuing = 0;
 
-        if (!has_corner(m->s->corner[a / 3], other))
+        for (int b = 0; b < count; b++)
         {
-            continue;
-        }
-        for (int b = m->first[point]; b >= 0; b = m->next[b])
-        {
-            continuing += b != a && has_corner(m->s->corner[b / 3], other)
-                       && are_flat(m, a / 3, b / 3);
+            continuing += b != a && are_flat(m, sharing[a], sharing[b]);
         }
         if (continuing != 1)
         {
             return 0;
         }
     }
-    return 1;
+    return count % 2 == 0;
 }
 
 /* The points around a point, and those that it may be moved to by what the

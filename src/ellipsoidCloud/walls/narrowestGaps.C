@@ -8,6 +8,9 @@
 #include "polyMesh.H"
 #include "wallPolyPatch.H"
 
+#include <utility>
+#include <vector>
+
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -142,23 +145,29 @@ static void narrow
     const scalar longest = 4*line.mesh.bounds().mag();
     const scalar most = min(min(known, gap.width), longest);
 
-    // A line cuts corners of tetrahedra: of each the part of its width counts
-    scalar meshCells = 0;
+    // Where it was in each mesh cell, and how far it goes there
+    std::vector<std::pair<meshLine, scalar>> passed;
 
     for (label n = 0; n < 10000; ++n)
     {
-        const scalar cellWidth = line.cellWidth();
         const scalar start = max(width, scalar(0));
+        passed.emplace_back(line, 0);
         width += line.leave();
-        meshCells += max(min(width, most) - start, scalar(0))/cellWidth;
+        passed.back().second = max(min(width, most) - start, scalar(0));
 
-        const bool passed = width >= (1 - 1e-6)*most;
-        if (!passed && line.enter(images))
+        const bool wide = width >= (1 - 1e-6)*most;
+        if (!wide && line.enter(images))
         {
             continue;
         }
-        if (passed ? known < gap.width : line.meetsWall())
+        if (wide ? known < gap.width : line.meetsWall())
         {
+            // It cuts corners of tetrahedra: of each the part of its width counts
+            scalar meshCells = 0;
+            for (const auto& in : passed)
+            {
+                meshCells += in.second/in.first.cellWidth();
+            }
             width = min(width, most);
             gap = narrowGap
             {
