@@ -277,15 +277,15 @@ void Foam::reportMovingWalls
 {
     const ellipsoid_options& options = properties.options();
 
+    if (!options.contact || !(options.friction > 0))
+    {
+        return;
+    }
     for (const polyPatch& pp : U.mesh().boundaryMesh())
     {
         const fvPatchVectorField& Up = U.boundaryField()[pp.index()];
 
-        if
-        (
-            options.contact && options.friction > 0
-         && isA<wallPolyPatch>(pp) && Up.fixesValue()
-        )
+        if (isA<wallPolyPatch>(pp) && Up.fixesValue())
         {
             const scalar speed = gMax(mag(Up)());
 

@@ -319,6 +319,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
             }
             reportCapture(images);
 
+            // Before the flow is solved: one that is no section ends the run
             const undecomposedFlow::serialScope serial;
             for (const occupancy::aperture& a : blocking_.apertures)
             {
@@ -363,7 +364,7 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow, const bool asItIs)
 
     if (flowType_ != UNSTEADY)
     {
-        reportApertures();
+        reportApertures(through.inflow);
     }
 
     planEntries();

@@ -10,7 +10,6 @@ Description
 
 #include "ellipsoidCloud.H"
 #include "cellPoses.H"
-#include "inletFlux.H"
 #include "masterGate.H"
 #include "atomicWrite.H"
 #include "fvMesh.H"
@@ -123,21 +122,20 @@ void Foam::ellipsoidCloud::beginTables()
 }
 
 
-void Foam::ellipsoidCloud::reportApertures() const
+void Foam::ellipsoidCloud::reportApertures(const scalar inflow) const
 {
     const masterGate once;
 
-    if (Pstream::master() && blocking_.apertures.size())
+    if (Pstream::master())
     {
         const undecomposedFlow::serialScope serial;
         const surfaceScalarField& phi = undecomposed_->phi();
-        const inletFlux through(undecomposed_->U(), phi);
 
         for (const occupancy::aperture& a : blocking_.apertures)
         {
             const scalar flux = a.flux(phi);
             Info<< "flow: aperture " << a.name << ": " << flux << " m3/s, "
-                << flux/max(through.inflow, VSMALL) << " of the inflow, "
+                << flux/max(inflow, VSMALL) << " of the inflow, "
                 << 1e12*a.area(phi.mesh()) << " um2" << endl;
         }
     }
