@@ -8,6 +8,7 @@
 #define NEAR_WALL_TEST_H
 
 #include "coreTest.h"
+#include "drag/drag.h"
 #include "flowTest.h"
 #include "wallMesh.h"
 
@@ -65,6 +66,25 @@ static inline ellipsoid_surroundings around(wall_mesh *mesh,
                                                  .walls_context = mesh};
 
     return surroundings;
+}
+
+/* Both actions of a plane over mu on a body which a free one outruns by `rates`, of
+   which the last three are the shear. */
+static inline void action_of(const ellipsoid_plane_effect *effect,
+                             const double rates[9], const double velocity[6],
+                             double action[2][6])
+{
+    ellipsoid_dual motion[9], both[2][6];
+
+    for (int n = 0; n < 9; n++)
+    {
+        motion[n] = rates[n];
+    }
+    ellipsoid_plane_action(&effect->by_gap, motion, velocity, both);
+    for (int n = 0; n < 12; n++)
+    {
+        action[n / 6][n % 6] = creal(both[n / 6][n % 6]);
+    }
 }
 
 /* A plane x3 = height of 100 um, in nu x nv quads. */

@@ -72,7 +72,7 @@ static made_walls make(scattered s, double size, double depth)
 static double squeezing(const ellipsoid_model *model, const made_walls *m,
                         const double x[3], int *planes_found)
 {
-    static const double still[6] = {0}, down[6] = {0, 0, -1};
+    static const double still[9] = {0}, down[6] = {0, 0, -1};
     ellipsoid_walls_context context = {m->walls, m->count,
                                        malloc(m->count * sizeof(int))};
     test_quadratic rest = {.answer = 0};
@@ -81,24 +81,20 @@ static double squeezing(const ellipsoid_model *model, const made_walls *m,
                                       .walls = ellipsoid_walls_list,
                                       .walls_context = &context};
     ellipsoid_state state = {.q = {0, 0, 0, 1}};
-    ellipsoid_frame frame = {.axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     ellipsoid_planes planes;
     double force = 0;
 
     *planes_found = 0;
     ellipsoid_copy(x, state.x);
     ellipsoid_facet_cache_clear(&cache);
-    assert_ok(
-        ellipsoid_find_planes(model, &s, &state, &frame, &cache, &planes));
+    assert_ok(ellipsoid_find_planes(model, &s, &state, &cache, &planes));
     for (int p = 0; p < planes.count; p++)
     {
-        static const double no_shear[3];
         double action[2][6];
 
-        *planes_found += planes.at[p].weight[ELLIPSOID_PLANE_NEAR] != 0;
-        ellipsoid_plane_action(&planes.at[p].effect, still, down, no_shear,
-                               action, NULL);
-        force += planes.at[p].weight[ELLIPSOID_PLANE_NEAR]
+        *planes_found += planes.at[p].weight[ELLIPSOID_PLANE_NEAR].value != 0;
+        action_of(&planes.at[p].effect, still, down, action);
+        force += planes.at[p].weight[ELLIPSOID_PLANE_NEAR].value
                * action[ELLIPSOID_PLANE_NEAR][2];
     }
     free(context.index);

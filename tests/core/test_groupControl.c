@@ -240,8 +240,12 @@ static void test_errors_near_walls(void **unused)
                              .surroundings = around(&mesh, &rest),
                              .length = 2e-6}};
         const ellipsoid_group g = group_of(&j);
+        const ellipsoid_state here = {.q = {0, 0, 0, 1}};
+        ellipsoid_planes none = {.count = 0};
         double error = 0;
 
+        ellipsoid_wall_expansion_set(&model, &none, &here, &j.start.walls);
+        j.next.walls = j.start.walls;
         j.next.walls.planes = 1;
         j.next.walls.motion[0] = 1;
         j.next.walls.by[0][kind ? 4 : 2] =

@@ -85,7 +85,7 @@ static void test_too_many(void **unused)
             add_beside(&mesh, state.x[2], o.wall_range);
         }
         wall_mesh_finish(&mesh);
-        planes[beside] = planes_at(&model, &mesh, &state, &upright);
+        planes[beside] = planes_at(&model, &mesh, &state);
         assert_int_equal(planes[beside].count, ELLIPSOID_MAX_PLANES);
         wall_mesh_free(&mesh);
     }

@@ -91,8 +91,6 @@ static void test_jacobian(void **unused)
     {
         const ellipsoid_surroundings s = around(&mesh, &flow);
         ellipsoid_state state = {.u = {0}};
-        double r[3][3];
-        ellipsoid_frame frame = {.by_q = NULL};
         ellipsoid_planes planes;
 
         test_orientation(&seed, state.q);
@@ -106,13 +104,7 @@ static void test_jacobian(void **unused)
         {
             state.x[2] = fabs(state.x[2]);
         }
-        ellipsoid_rotation(state.q, r);
-        for (int i = 0; i < 3; i++)
-        {
-            ellipsoid_set(frame.axis[i], r[0][i], r[1][i], r[2][i]);
-        }
-        assert_ok(
-            ellipsoid_find_planes(&model, &s, &state, &frame, &cache, &planes));
+        assert_ok(ellipsoid_find_planes(&model, &s, &state, &cache, &planes));
         several += planes.count >= 6;
         for (int l = 0; l < 4; l++)
         {

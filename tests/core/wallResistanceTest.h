@@ -9,7 +9,6 @@
 #define WALL_RESISTANCE_TEST_H
 
 #include "nearWallTest.h"
-#include "drag/drag.h"
 
 static ellipsoid_facet_cache cache;
 
@@ -49,22 +48,17 @@ static inline void lab_resistance(const ellipsoid_model *m, wall_mesh *mesh,
     }
 }
 
-/* The axes of a body that is not turned. */
-static const ellipsoid_frame upright = {
-    .axis = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-
 /* The planes at a pose, in a fluid at rest. */
 static inline ellipsoid_planes planes_at(const ellipsoid_model *model,
                                          wall_mesh *mesh,
-                                         const ellipsoid_state *state,
-                                         const ellipsoid_frame *frame)
+                                         const ellipsoid_state *state)
 {
     test_quadratic still = {.answer = 0};
     const ellipsoid_surroundings s = around(mesh, &still);
     ellipsoid_planes planes;
 
     ellipsoid_facet_cache_clear(&cache);
-    assert_ok(ellipsoid_find_planes(model, &s, state, frame, &cache, &planes));
+    assert_ok(ellipsoid_find_planes(model, &s, state, &cache, &planes));
     return planes;
 }
 

@@ -118,6 +118,21 @@ static inline void ellipsoid_copy(const double from[3], double to[3])
     to[2] = from[2];
 }
 
+/* Two unit vectors that span the plane across n. */
+static inline void ellipsoid_tangents(const double n[3], double e[2][3])
+{
+    const int least = fabs(n[0]) < fabs(n[1])
+                        ? (fabs(n[0]) < fabs(n[2]) ? 0 : 2)
+                        : (fabs(n[1]) < fabs(n[2]) ? 1 : 2);
+    double axis[3] = {0, 0, 0}, length;
+
+    axis[least] = 1;
+    ellipsoid_cross(n, axis, e[0]);
+    length = ellipsoid_length(e[0]);
+    ellipsoid_set(e[0], e[0][0] / length, e[0][1] / length, e[0][2] / length);
+    ellipsoid_cross(n, e[0], e[1]);
+}
+
 /* By cofactors; 0 if it is singular. */
 static inline int ellipsoid_invert3(double m[3][3], double inverse[3][3])
 {

@@ -55,21 +55,6 @@ static void set_support(const ellipsoid_surface *body, const double n[3],
     }
 }
 
-/* Two unit vectors that span the plane across n. */
-static void set_tangents(const double n[3], double e[2][3])
-{
-    const int least = fabs(n[0]) < fabs(n[1])
-                        ? (fabs(n[0]) < fabs(n[2]) ? 0 : 2)
-                        : (fabs(n[1]) < fabs(n[2]) ? 1 : 2);
-    double axis[3] = {0, 0, 0}, length;
-
-    axis[least] = 1;
-    ellipsoid_cross(n, axis, e[0]);
-    length = ellipsoid_length(e[0]);
-    ellipsoid_set(e[0], e[0][0] / length, e[0][1] / length, e[0][2] / length);
-    ellipsoid_cross(n, e[0], e[1]);
-}
-
 /* phi, the support functions in it, and its derivatives across n. */
 typedef struct objective
 {
@@ -91,7 +76,7 @@ static void evaluate(const ellipsoid_surface *a, const ellipsoid_surface *b,
         w[i] = at->a.point[i] + at->b.point[i] - line[i];
     }
     at->phi = at->a.height + at->b.height - ellipsoid_dot(n, line);
-    set_tangents(n, at->across);
+    ellipsoid_tangents(n, at->across);
     for (int k = 0; k < 2; k++)
     {
         at->slope[k] = ellipsoid_dot(at->across[k], w);

@@ -82,7 +82,7 @@ static double longest_interval(const ellipsoid_model *model,
 {
     static const double part = 0.4;
     const double energy = ELLIPSOID_BOLTZMANN * model->options.temperature;
-    const double moved = part * plane->gap[ELLIPSOID_PLANE_FAR];
+    const double moved = part * plane->effect.gap[ELLIPSOID_PLANE_FAR];
     const double *a = model->options.semi_axes, *n = plane->effect.normal;
     const double stretched[3] = {a[0] * a[0] * n[0], a[1] * a[1] * n[1],
                                  a[2] * a[2] * n[2]};
@@ -123,8 +123,7 @@ ellipsoid_status ellipsoid_wall_noise_begin(
     ellipsoid_axes(state->q, frame.axis);
     ellipsoid_product(frame.axis, load->force, in_body.force);
     ellipsoid_product(frame.axis, load->push, in_body.push);
-    status = ellipsoid_find_planes(model, surroundings, state, &frame, cache,
-                                   &planes);
+    status = ellipsoid_find_planes(model, surroundings, state, cache, &planes);
     noise->near = status == ELLIPSOID_OK && planes.count > 0;
     if (!noise->near)
     {
@@ -132,7 +131,7 @@ ellipsoid_status ellipsoid_wall_noise_begin(
     }
     noise->start = t;
     ellipsoid_wall_expansion_set(model, &planes, state, &here);
-    ellipsoid_wall_matrix(model, &here, noise->factor);
+    ellipsoid_wall_matrix(&here, noise->factor);
     if (!factorise(noise->factor))
     {
         return ELLIPSOID_NON_FINITE;

@@ -11,6 +11,8 @@
 
 #include "walls/walls.h"
 
+#include <complex.h>
+
 /* The position x and the quaternion q: what derivatives are taken by. */
 #define ELLIPSOID_POSE_SIZE 7
 
@@ -105,8 +107,14 @@ enum
     ELLIPSOID_PLANE_NEAR
 };
 
-/* The functions of tilt and gap, and their derivatives by nu and the gap;
-   lengths in equatorial radii. */
+/* A number and, as its imaginary part over the step, a derivative of it: exact to
+   rounding where the functions of it are analytic (complex step: Squire & Trapp,
+   SIAM Review 40, 110 (1998)). */
+typedef double complex ellipsoid_dual;
+#define ELLIPSOID_DUAL_STEP 0x1p-100
+
+/* The functions of tilt and gap, and their derivatives by nu and the gap, SI
+   units. */
 typedef struct ellipsoid_plane_values
 {
     double f[ELLIPSOID_PLANE_FUNCTIONS], by_nu[ELLIPSOID_PLANE_FUNCTIONS];
@@ -116,37 +124,39 @@ typedef struct ellipsoid_plane_values
 } ellipsoid_plane_values;
 
 /*
-    One plane and one body: force [m2/s] and torque [m3/s] over mu, body frame, are
+    Force [m2/s] and torque [m3/s] over mu, body frame, of one plane and one body:
     `column` by each of the motion relative to a free body's, u and omega, and of
     the shear [1/s], and -squeeze row (row.(u, omega)).
 */
+typedef struct ellipsoid_plane_matrix
+{
+    ellipsoid_dual column[9][6], row[6], squeeze;
+} ellipsoid_plane_matrix;
+
 typedef struct ellipsoid_plane_effect
 {
     const ellipsoid_plane_table *own;
     double normal[3]; /* body frame */
-    double column[9][6], row[6], squeeze;
+    double gap[2];    /* [m] of each action, at least the lubrication_gap */
     ellipsoid_plane_values values;
+    ellipsoid_plane_matrix
+        by_gap; /* with the derivatives by that of each action */
 } ellipsoid_plane_effect;
 
-/* Where a body is nearest to a plane (wallFit.c). */
-typedef struct ellipsoid_wall_fit
+/* What changes with the pose, and its derivatives by that. */
+typedef struct ellipsoid_of_pose
 {
-    double towards;       /* [-] k */
-    double nearest[3];    /* [m] r */
-    double support;       /* [m] how far r is along the normal */
-    double inverse[3][3]; /* [1/m2] */
-} ellipsoid_wall_fit;
+    double value, by[ELLIPSOID_POSE_SIZE];
+} ellipsoid_of_pose;
 
-/* A wall as the body sees it; slopes, by the pose, only where asked for. */
+/* A wall as the body sees it. */
 typedef struct ellipsoid_plane
 {
     ellipsoid_plane_effect effect;
-    ellipsoid_wall_fit fit;
-    double gap[2];    /* [m] of each action, at least the lubrication_gap */
-    double weight[2]; /* [-] of each action: 1 on a wall without end */
-    double normal_slope[ELLIPSOID_POSE_SIZE][3];
-    double gap_slope[2][ELLIPSOID_POSE_SIZE];
-    double weight_slope[2][ELLIPSOID_POSE_SIZE];
+    ellipsoid_of_pose gap[2]; /* of the effect */
+    ellipsoid_of_pose
+        weight[2]; /* [-] of each action: 1 on a wall without end */
+    double normal_by[ELLIPSOID_POSE_SIZE][3];
 } ellipsoid_plane;
 
 typedef struct ellipsoid_planes
@@ -155,47 +165,48 @@ typedef struct ellipsoid_planes
     ellipsoid_plane at[ELLIPSOID_MAX_PLANES];
 } ellipsoid_planes;
 
-/* The planes at the pose of a state; slopes if frame->by_q (wallPlanes.c). */
-ellipsoid_status ellipsoid_find_planes(
-    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
-    const ellipsoid_state *state, const ellipsoid_frame *frame,
-    ellipsoid_facet_cache *cache, ellipsoid_planes *planes);
+/* The planes at the pose of a state (wallPlanes.c). */
+ellipsoid_status
+ellipsoid_find_planes(const ellipsoid_model *model,
+                      const ellipsoid_surroundings *surroundings,
+                      const ellipsoid_state *state,
+                      ellipsoid_facet_cache *cache, ellipsoid_planes *planes);
 
-/* gap: of each action; slopes: are derivatives to be asked for? */
+/* gap: of each action. */
 void ellipsoid_plane_effect_set(const ellipsoid_plane_table *own,
                                 const double normal[3], const double gap[2],
-                                int slopes, ellipsoid_plane_effect *effect);
+                                ellipsoid_plane_effect *effect);
 
-/*
-    That on a body of this velocity that a free one outruns by `rates`, in a flow
-    of which (z - z of the centre) shear is a part; FAR and NEAR apart. change, if
-    not NULL: its derivatives by the components of the normal, and of each action
-    by its gap.
-*/
-void ellipsoid_plane_action(ellipsoid_plane_effect *effect,
-                            const double rates[6], const double velocity[6],
-                            const double shear[3], double action[2][6],
-                            double change[4][2][6]);
+/* That of a normal and gaps which differ from those of the effect in their
+   derivatives. */
+void ellipsoid_plane_matrix_at(const ellipsoid_plane_effect *effect,
+                               const ellipsoid_dual normal[3],
+                               ellipsoid_dual wider,
+                               ellipsoid_plane_matrix *matrix);
 
-/* (I - n n) M n, and its derivatives by each component of n. */
-void ellipsoid_along_wall(double m[3][3], const double n[3], double value[3],
-                          double change[3][3]);
+/* Its force and torque on a body of this velocity, which a free one outruns by the
+   first six of `motion`, in a flow of which (z - z of the centre) shear, the last
+   three, is a part; FAR and NEAR apart. */
+void ellipsoid_plane_action(const ellipsoid_plane_matrix *matrix,
+                            const ellipsoid_dual motion[9],
+                            const double velocity[6],
+                            ellipsoid_dual action[2][6]);
 
-/* The normal is in the body frame. */
-void ellipsoid_wall_fit_set(const ellipsoid_model *model,
-                            const double normal[3], ellipsoid_wall_fit *fit);
+/* (I - n n) M n, M as [3 i + j]. */
+void ellipsoid_along_wall(const double m[9], const ellipsoid_dual n[3],
+                          ellipsoid_dual value[3]);
 
-/* What the columns of a motion (ellipsoid_plane_effect) do by each component of
-   the mean gradient, body frame, [3 i + j]: du_i/dx_j. */
-void ellipsoid_wall_fit_columns(const double a[3], const double normal[3],
-                                ellipsoid_wall_fit *fit, double column[9][6],
-                                double by[9][6]);
+/* What the columns of an effect do by each component of the flow's gradient at the
+   centre, and then of its mean; normal and gradient, [3 i + j]: du_i/dx_j, in the
+   body frame. Takes from the columns of the shear what they have along n. */
+void ellipsoid_wall_fit_columns(const ellipsoid_model *model,
+                                const double normal[3], double column[9][6],
+                                double by[18][6]);
 
-/* The motion u [m/s], omega [1/s] in a mean gradient g, body frame; change: by each
-   component of the normal. */
-void ellipsoid_wall_fit_motion(const double a[3], const double normal[3],
-                               double g[3][3], ellipsoid_wall_fit *fit,
-                               double motion[6], double change[3][6]);
+/* The motion u [m/s], omega [1/s] in a mean gradient g, likewise. */
+void ellipsoid_wall_fit_motion(const ellipsoid_model *model,
+                               const ellipsoid_dual normal[3],
+                               const double g[9], ellipsoid_dual motion[6]);
 
 /* What the drag near walls depends on besides the pose. */
 typedef struct ellipsoid_near_walls
@@ -212,13 +223,13 @@ typedef struct ellipsoid_near_walls
 #define ELLIPSOID_WALL_MOTION 30
 
 /*
-    What the planes add at one pose to force [N] and torque [N m], body frame: by
-    each component of that motion, and how the product of both changes with the
-    pose.
+    Force [N] and torque [N m] of the fluid at one pose, body frame: by each
+    component of that motion, and how what planes add to the product of both
+    changes with the pose.
 */
 typedef struct ellipsoid_wall_expansion
 {
-    int planes; /* how many are near; 0: nothing else is set */
+    int planes; /* how many are near */
     double x[3], q[4];
     double by[ELLIPSOID_WALL_MOTION][6];
     double motion[ELLIPSOID_WALL_MOTION];
@@ -232,15 +243,15 @@ void ellipsoid_wall_expansion_set(const ellipsoid_model *model,
                                   ellipsoid_wall_expansion *expansion);
 
 /* mu (diag(K, C) + what the planes add), body frame. */
-void ellipsoid_wall_matrix(const ellipsoid_model *model,
-                           const ellipsoid_wall_expansion *expansion,
+void ellipsoid_wall_matrix(const ellipsoid_wall_expansion *expansion,
                            double matrix[6][6]);
 
 /* Adds to the state's u and omega what force and torque, both in the body frame,
    do against that. NON_FINITE: it is singular. */
-ellipsoid_status ellipsoid_add_wall_mobility(
-    const ellipsoid_model *model, const ellipsoid_wall_expansion *expansion,
-    ellipsoid_frame *frame, const double push[6], ellipsoid_state *state);
+ellipsoid_status
+ellipsoid_add_wall_mobility(const ellipsoid_wall_expansion *expansion,
+                            ellipsoid_frame *frame, const double push[6],
+                            ellipsoid_state *state);
 
 /* Sets the state's u and omega to those that balance this wrench. NON_FINITE, as
    above. */
@@ -269,8 +280,9 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
 
 /* The velocities [m/s, rad/s, body frame] that an expansion is wrong by in the
    state of another. NON_FINITE: its resistance is singular. */
-ellipsoid_status ellipsoid_wall_expansion_error(
-    const ellipsoid_model *model, const ellipsoid_wall_expansion *about,
-    const ellipsoid_wall_expansion *there, double error[6]);
+ellipsoid_status
+ellipsoid_wall_expansion_error(const ellipsoid_wall_expansion *about,
+                               const ellipsoid_wall_expansion *there,
+                               double error[6]);
 
 #endif

@@ -27,37 +27,31 @@ enum
     NEAR = ELLIPSOID_PLANE_NEAR
 };
 
-static void add_plane(const ellipsoid_model *model, ellipsoid_plane *plane,
-                      ellipsoid_wall_expansion *e)
-{
-    ellipsoid_plane_effect *effect = &plane->effect;
-    const double *a = model->options.semi_axes, *n = effect->normal;
-    const double viscosity = model->viscosity;
-    const double far = viscosity * plane->weight[FAR];
-    const double near = viscosity * plane->weight[NEAR] * effect->squeeze;
-    double by_mean[9][6], along[6] = {0};
+typedef ellipsoid_dual dual;
 
+static void add_plane(const ellipsoid_model *model,
+                      const ellipsoid_plane *plane, ellipsoid_wall_expansion *e)
+{
+    const ellipsoid_plane_matrix *of = &plane->effect.by_gap;
+    const double far = model->viscosity * plane->weight[FAR].value;
+    const double near =
+        model->viscosity * plane->weight[NEAR].value * creal(of->squeeze);
+    double column[9][6], row[6], by_flow[MOTION - GRADIENT][6];
+
+    for (int n = 0; n < 54; n++)
+    {
+        column[n / 6][n % 6] = creal(of->column[n / 6][n % 6]);
+        row[n % 6] = creal(of->row[n % 6]);
+    }
     for (int m = 0; m < 6; m++)
     {
-        ellipsoid_add6(far, effect->column[m], e->by[m]);
-        ellipsoid_add6(-near * effect->row[m], effect->row,
-                       e->by[VELOCITY + m]);
+        ellipsoid_add6(far, column[m], e->by[m]);
+        ellipsoid_add6(-near * row[m], row, e->by[VELOCITY + m]);
     }
-    ellipsoid_wall_fit_columns(a, n, &plane->fit, effect->column, by_mean);
-    for (int i = 0; i < 3; i++)
+    ellipsoid_wall_fit_columns(model, plane->effect.normal, column, by_flow);
+    for (int m = GRADIENT; m < MOTION; m++)
     {
-        ellipsoid_add6(far * n[i], effect->column[6 + i], along);
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        for (int j = 0; j < 3; j++)
-        {
-            double *by = e->by[GRADIENT + 3 * i + j];
-
-            ellipsoid_add6(far * n[j], effect->column[6 + i], by);
-            ellipsoid_add6(-n[i] * n[j], along, by);
-            ellipsoid_add6(far, by_mean[3 * i + j], e->by[MEAN + 3 * i + j]);
-        }
+        ellipsoid_add6(far, by_flow[m - GRADIENT], e->by[m]);
     }
 }
 
@@ -67,78 +61,50 @@ void ellipsoid_wall_expansion_set(const ellipsoid_model *model,
                                   ellipsoid_wall_expansion *e)
 {
     e->planes = planes->count;
-    if (e->planes == 0)
-    {
-        return;
-    }
     ellipsoid_copy(state->x, e->x);
     memcpy(e->q, state->q, sizeof(e->q));
     memset(e->by, 0, sizeof(e->by));
     memset(e->by_pose, 0, sizeof(e->by_pose));
+    for (int i = 0; i < 3; i++)
+    {
+        e->by[i][i] = model->viscosity * model->resistance[i];
+        e->by[i + 3][i + 3] = model->viscosity * model->rotation_resistance[i];
+    }
     for (int p = 0; p < planes->count; p++)
     {
         add_plane(model, &planes->at[p], e);
     }
 }
 
-/* Adds mu diag(K, C) rates. */
-static void add_free(const ellipsoid_model *model, const double rates[6],
-                     double action[6])
-{
-    for (int i = 0; i < 3; i++)
-    {
-        action[i] += model->viscosity * model->resistance[i] * rates[i];
-        action[i + 3] +=
-            model->viscosity * model->rotation_resistance[i] * rates[i + 3];
-    }
-}
-
-void ellipsoid_wall_matrix(const ellipsoid_model *model,
-                           const ellipsoid_wall_expansion *e,
+void ellipsoid_wall_matrix(const ellipsoid_wall_expansion *e,
                            double matrix[6][6])
 {
-    memset(matrix, 0, 6 * sizeof(*matrix));
+    memcpy(matrix, e->by, 6 * sizeof(*matrix));
     for (int m = 0; m < 6; m++)
     {
-        double unit[6] = {0};
-
-        unit[m] = 1;
-        add_free(model, unit, matrix[m]);
-        if (e->planes > 0)
-        {
-            ellipsoid_add6(1, e->by[m], matrix[m]);
-            ellipsoid_add6(-1, e->by[VELOCITY + m], matrix[m]);
-        }
+        ellipsoid_add6(-1, e->by[VELOCITY + m], matrix[m]);
     }
 }
 
-/* Adds what the planes do at this pose: the sum is a copy, or each term would be
+/* Adds what the fluid does at this pose: the sum is a copy, or each term would be
    stored before the next is read. */
-static void add_planes(const ellipsoid_wall_expansion *e, const double x[3],
+static void add_action(const ellipsoid_wall_expansion *e, const double x[3],
                        const double q[4], const double motion[MOTION],
                        double action[6])
 {
     double sum[6];
 
     memcpy(sum, action, sizeof(sum));
-    for (int m = 0; e->planes > 0 && m < MOTION; m++)
+    for (int m = 0; m < MOTION; m++)
     {
         ellipsoid_add6(motion[m], e->by[m], sum);
     }
-    for (int l = 0; e->planes > 0 && l < POSE; l++)
+    for (int l = 0; l < POSE; l++)
     {
         ellipsoid_add6(l < 3 ? x[l] - e->x[l] : q[l - 3] - e->q[l - 3],
                        e->by_pose[l], sum);
     }
     memcpy(action, sum, sizeof(sum));
-}
-
-/* (R^T first, second) */
-static void to_body(double axis[3][3], const double first[3],
-                    const double second[3], double both[6])
-{
-    ellipsoid_product(axis, first, both);
-    ellipsoid_copy(second, both + 3);
 }
 
 static void add_lab(double axis[3][3], const double body[3], double lab[3])
@@ -149,49 +115,51 @@ static void add_lab(double axis[3][3], const double body[3], double lab[3])
     ellipsoid_add(lab, turned);
 }
 
-/* Adds left_i.right_j, as [3 i + j]. */
-static void add_products(double left[3][3], double right[3][3], double sum[9])
+/* What a body does in the flow, from the lab: outrun by a free one, and along its
+   axes the gradient, at the centre and averaged. Angular velocities are those of
+   the body frame. */
+typedef struct seen
 {
-    for (int n = 0; n < 9; n++)
-    {
-        double value = sum[n];
+    double outrun[3], turn[3], u[3], omega[3], along[2][3][3];
+} seen;
 
-        for (int i = 0; i < 3; i++)
-        {
-            value += left[n / 3][i] * right[n % 3][i];
-        }
-        sum[n] = value;
-    }
-}
-
-/* Adds left_i.(G right_j), likewise. */
-static void add_turned(double g[3][3], double left[3][3], double right[3][3],
-                       double sum[9])
+static seen see(const ellipsoid_near_walls *near, const ellipsoid_state *state)
 {
-    double along[3][3];
+    seen from = {.u = {0}};
 
+    ellipsoid_difference(near->free->u, state->u, from.outrun);
+    ellipsoid_difference(near->free->omega, state->omega, from.turn);
+    ellipsoid_copy(state->u, from.u);
+    ellipsoid_copy(state->omega, from.omega);
     for (int j = 0; j < 3; j++)
     {
-        ellipsoid_product(g, right[j], along[j]);
+        ellipsoid_product(near->flow->gradient, near->frame->axis[j],
+                          from.along[0][j]);
     }
-    add_products(left, along, sum);
-}
-
-static void set_motion(const ellipsoid_near_walls *near,
-                       const ellipsoid_state *state, double motion[MOTION])
-{
-    double outrun[3], turn[3];
-
-    ellipsoid_difference(near->free->u, state->u, outrun);
-    ellipsoid_difference(near->free->omega, state->omega, turn);
-    to_body(near->frame->axis, outrun, turn, motion);
-    to_body(near->frame->axis, state->u, state->omega, motion + VELOCITY);
-    memset(motion + GRADIENT, 0, (MOTION - GRADIENT) * sizeof(*motion));
-    add_turned(near->flow->gradient, near->frame->axis, near->frame->axis,
-               motion + GRADIENT);
     if (near->model->flow_points > 0)
     {
-        add_products(near->frame->axis, near->free->along, motion + MEAN);
+        memcpy(from.along[1], near->free->along, sizeof(from.along[1]));
+    }
+    return from;
+}
+
+/* Adds R^T of it. */
+static void add_motion(double axis[3][3], const seen *from,
+                       double motion[MOTION])
+{
+    for (int i = 0; i < 3; i++)
+    {
+        motion[i] += ellipsoid_dot(axis[i], from->outrun);
+        motion[3 + i] += from->turn[i];
+        motion[VELOCITY + i] += ellipsoid_dot(axis[i], from->u);
+        motion[VELOCITY + 3 + i] += from->omega[i];
+        for (int j = 0; j < 3; j++)
+        {
+            motion[GRADIENT + 3 * i + j] +=
+                ellipsoid_dot(axis[i], from->along[0][j]);
+            motion[MEAN + 3 * i + j] +=
+                ellipsoid_dot(axis[i], from->along[1][j]);
+        }
     }
 }
 
@@ -201,93 +169,67 @@ void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
                              double motion[MOTION], double action[6],
                              ellipsoid_body_wrench *wrench)
 {
+    const seen from = see(near, state);
+
+    memset(motion, 0, MOTION * sizeof(*motion));
     memset(action, 0, 6 * sizeof(*action));
-    set_motion(near, state, motion);
-    add_planes(about, state->x, state->q, motion, action);
-    add_free(near->model, motion, action);
+    add_motion(near->frame->axis, &from, motion);
+    add_action(about, state->x, state->q, motion, action);
     add_lab(near->frame->axis, action, wrench->force);
     ellipsoid_add(wrench->torque, action + 3);
 }
 
-/* How what the planes add changes with the pose while the motion stays. */
-static void add_slopes(const ellipsoid_near_walls *near, ellipsoid_plane *plane,
+/* How what a plane adds changes with the pose while the motion stays: by two
+   turns of the normal, and the gaps; and by the weights. */
+static void add_slopes(const ellipsoid_model *model,
+                       const ellipsoid_plane *plane,
                        ellipsoid_wall_expansion *e)
 {
-    const double *a = near->model->options.semi_axes;
-    const double mu = near->model->viscosity;
-    const double far = mu * plane->weight[FAR];
-    ellipsoid_plane_effect *effect = &plane->effect;
-    const double *n = effect->normal;
-    double rates[6], action[2][6], by[4][2][6], g[3][3], mean[3][3];
-    double shear[3], bent[3][3], change[3][6];
-    double turned[3][6] = {{0}}; /* by the normal */
+    const double *n = plane->effect.normal;
+    dual motion[9] = {0}, action[2][6];
+    double turn[2][3];
 
-    memcpy(g, e->motion + GRADIENT, sizeof(g));
-    memcpy(mean, e->motion + MEAN, sizeof(mean));
-    ellipsoid_wall_fit_motion(a, n, mean, &plane->fit, rates, change);
-    ellipsoid_add6(1, e->motion, rates);
-    ellipsoid_along_wall(g, n, shear, bent);
-    for (int c = 0; c < 3; c++)
+    ellipsoid_tangents(n, turn);
+    for (int by = 0; by < 3; by++)
     {
-        for (int m = 0; m < 6; m++)
-        {
-            ellipsoid_add6(far * change[c][m], effect->column[m], turned[c]);
-        }
-        for (int i = 0; i < 3; i++)
-        {
-            ellipsoid_add6(far * bent[c][i], effect->column[6 + i], turned[c]);
-        }
-    }
-    ellipsoid_plane_action(effect, rates, e->motion + VELOCITY, shear, action,
-                           by);
-    for (int m = 0; m < 2; m++)
-    {
-        const double weight = mu * plane->weight[m];
+        const double *t = turn[by % 2];
+        ellipsoid_plane_matrix turned;
 
-        for (int l = 0; l < POSE; l++)
+        if (by < 2)
         {
-            ellipsoid_add6(mu * plane->weight_slope[m][l], action[m],
-                           e->by_pose[l]);
-            ellipsoid_add6(weight * plane->gap_slope[m][l], by[3][m],
-                           e->by_pose[l]);
-        }
-        for (int c = 0; c < 3; c++)
-        {
-            ellipsoid_add6(weight, by[c][m], turned[c]);
-        }
-    }
-    for (int c = 0; c < 3; c++)
-    {
-        for (int l = 3; l < POSE; l++)
-        {
-            ellipsoid_add6(plane->normal_slope[l][c], turned[c], e->by_pose[l]);
-        }
-    }
-}
+            const dual step = ELLIPSOID_DUAL_STEP * I;
+            const dual normal[3] = {n[0] + step * t[0], n[1] + step * t[1],
+                                    n[2] + step * t[2]};
 
-/* Adds a column of the blocks, rows of u and omega apart by a stride: what this
-   change of the motion does, with that of the pose. */
-static void add_column(const ellipsoid_near_walls *near,
-                       const ellipsoid_wall_expansion *e,
-                       const double change[MOTION], const double by_pose[6],
-                       double *of_u, double *of_omega, int stride)
-{
-    double action[6], lab[3] = {0};
-
-    memcpy(action, by_pose, sizeof(action));
-    for (int m = 0; m < MOTION; m++)
-    {
-        if (change[m] != 0) /* most are */
-        {
-            ellipsoid_add6(change[m], e->by[m], action);
+            ellipsoid_wall_fit_motion(model, normal, e->motion + MEAN, motion);
+            ellipsoid_along_wall(e->motion + GRADIENT, normal, motion + 6);
+            ellipsoid_plane_matrix_at(&plane->effect, normal, 0, &turned);
         }
-    }
-    add_free(near->model, change, action);
-    add_lab(near->frame->axis, action, lab);
-    for (int i = 0; i < 3; i++)
-    {
-        of_u[i * stride] += lab[i];
-        of_omega[i * stride] += action[i + 3];
+        for (int m = 0; m < 9; m++)
+        {
+            motion[m] = by == 2 ? creal(motion[m])
+                                : motion[m] + (m < 6 ? e->motion[m] : 0);
+        }
+        ellipsoid_plane_action(by < 2 ? &turned : &plane->effect.by_gap, motion,
+                               e->motion + VELOCITY, action);
+        for (int m = 0; m < 2; m++)
+        {
+            double value[6], change[6];
+
+            for (int i = 0; i < 6; i++)
+            {
+                value[i] = by < 2 ? 0 : model->viscosity * creal(action[m][i]);
+                change[i] = model->viscosity * plane->weight[m].value
+                          * cimag(action[m][i]) / ELLIPSOID_DUAL_STEP;
+            }
+            for (int l = 0; l < POSE; l++)
+            {
+                ellipsoid_add6(by < 2 ? ellipsoid_dot(plane->normal_by[l], t)
+                                      : plane->gap[m].by[l],
+                               change, e->by_pose[l]);
+                ellipsoid_add6(plane->weight[m].by[l], value, e->by_pose[l]);
+            }
+        }
     }
 }
 
@@ -296,7 +238,22 @@ void ellipsoid_wall_expansion_slopes(const ellipsoid_near_walls *near,
 {
     for (int p = 0; p < near->planes->count; p++)
     {
-        add_slopes(near, &near->planes->at[p], e);
+        add_slopes(near->model, &near->planes->at[p], e);
+    }
+}
+
+/* Adds force and torque of the body frame to a column of the blocks, whose rows
+   of u and omega are apart by a stride. */
+static void add_column(double axis[3][3], const double action[6], double *of_u,
+                       double *of_omega, int stride)
+{
+    double lab[3] = {0};
+
+    add_lab(axis, action, lab);
+    for (int i = 0; i < 3; i++)
+    {
+        of_u[i * stride] += lab[i];
+        of_omega[i * stride] += action[i + 3];
     }
 }
 
@@ -306,82 +263,79 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
                                     const double action[6],
                                     ellipsoid_jacobian_blocks *b)
 {
-    static const double none[6];
     ellipsoid_free_motion *free = near->free;
+    ellipsoid_flow_sample *flow = near->flow;
     const int averaged = near->model->flow_points > 0;
-    double(*axis)[3] = near->frame->axis, outrun[3];
+    double(*axis)[3] = near->frame->axis, matrix[6][6];
+    seen from = see(near, state);
 
-    ellipsoid_difference(free->u, state->u, outrun);
+    ellipsoid_wall_matrix(e, matrix);
     for (int l = 0; l < 3; l++)
     {
-        const double u[3] = {free->u_x[0][l], free->u_x[1][l], free->u_x[2][l]};
-        const double omega[3] = {free->omega_x[0][l], free->omega_x[1][l],
-                                 free->omega_x[2][l]};
-        double moved[MOTION] = {0}, pushed[MOTION] = {0}, turned[MOTION] = {0};
-        double bent[3][3];
+        double pushed[6] = {0}, spun[6] = {0};
 
-        to_body(axis, u, omega, moved);
-        for (int i = 0; i < 9; i++)
-        {
-            bent[i / 3][i % 3] = near->flow->gradient_jacobian[i / 3][i % 3][l];
-        }
-        add_turned(bent, axis, axis, moved + GRADIENT);
-        if (averaged)
-        {
-            add_products(axis, free->along_by[l], moved + MEAN);
-        }
         for (int i = 0; i < 3; i++)
         {
-            pushed[VELOCITY + i] = axis[i][l];
-            pushed[i] = -axis[i][l];
+            ellipsoid_add6(-axis[i][l], matrix[i], pushed);
         }
-        turned[VELOCITY + 3 + l] = 1;
-        turned[3 + l] = -1;
-        add_column(near, e, moved, e->by_pose[l], &b->ux[0][l], &b->wx[0][l],
-                   3);
-        add_column(near, e, pushed, none, &b->uu[0][l], &b->wu[0][l], 3);
-        add_column(near, e, turned, none, &b->uw[0][l], &b->ww[0][l], 3);
+        ellipsoid_add6(-1, matrix[3 + l], spun);
+        add_column(axis, pushed, &b->uu[0][l], &b->wu[0][l], 3);
+        add_column(axis, spun, &b->uw[0][l], &b->ww[0][l], 3);
+        from.turn[l] = from.omega[l] = 0; /* the same in a frame that turns */
     }
-    for (int n = 0; n < 4; n++)
+    for (int l = 0; l < POSE; l++)
     {
-        double(*by_q)[3] = near->frame->by_q[n], moved[MOTION] = {0};
-        double turned[3];
+        const int n = l - 3;
+        double motion[MOTION] = {0}, by[6], lab[3] = {0};
+        seen changes = {.u = {0}};
 
-        ellipsoid_product(by_q, outrun, moved);
-        ellipsoid_product(by_q, state->u, moved + VELOCITY);
+        memcpy(by, e->by_pose[l], sizeof(by));
         for (int i = 0; i < 3; i++)
         {
-            const double u[3] = {free->u_q[0][n], free->u_q[1][n],
-                                 free->u_q[2][n]};
+            changes.outrun[i] = n < 0    ? free->u_x[i][l]
+                              : averaged ? free->u_q[i][n]
+                                         : 0;
+            changes.turn[i] = n < 0 ? free->omega_x[i][l] : free->omega_q[i][n];
+            for (int jk = 0; jk < 9; jk++)
+            {
+                const int j = jk / 3, k = jk % 3;
 
-            moved[i] += averaged ? ellipsoid_dot(axis[i], u) : 0;
-            moved[i + 3] = free->omega_q[i][n];
+                changes.along[0][j][i] +=
+                    n < 0 ? flow->gradient_jacobian[i][k][l] * axis[j][k]
+                          : flow->gradient[i][k] * near->frame->by_q[n][j][k];
+            }
         }
-        add_turned(near->flow->gradient, by_q, axis, moved + GRADIENT);
-        add_turned(near->flow->gradient, axis, by_q, moved + GRADIENT);
         if (averaged)
         {
-            add_products(by_q, free->along, moved + MEAN);
-            add_products(axis, free->along_by[n + 3], moved + MEAN);
+            memcpy(changes.along[1], free->along_by[l],
+                   sizeof(changes.along[1]));
         }
-        add_column(near, e, moved, e->by_pose[n + 3], &b->uq[0][n],
-                   &b->wq[0][n], 4);
-        ellipsoid_combination(by_q, action[0], action[1], action[2], turned);
-        for (int i = 0; i < 3; i++)
+        add_motion(axis, &changes, motion);
+        if (n >= 0)
         {
-            b->uq[i][n] += turned[i];
+            add_motion(near->frame->by_q[n], &from, motion);
+            add_lab(near->frame->by_q[n], action, lab);
+        }
+        for (int m = 0; m < MOTION; m++)
+        {
+            ellipsoid_add6(motion[m], e->by[m], by);
+        }
+        add_column(axis, by, n < 0 ? &b->ux[0][l] : &b->uq[0][n],
+                   n < 0 ? &b->wx[0][l] : &b->wq[0][n], n < 0 ? 3 : 4);
+        for (int i = 0; n >= 0 && i < 3; i++)
+        {
+            b->uq[i][n] += lab[i];
         }
     }
 }
 
 /* Velocities by which the resistance meets a push. */
-static ellipsoid_status solve(const ellipsoid_model *model,
-                              const ellipsoid_wall_expansion *e,
+static ellipsoid_status solve(const ellipsoid_wall_expansion *e,
                               const double push[6], double rates[6])
 {
     double matrix[6][6];
 
-    ellipsoid_wall_matrix(model, e, matrix);
+    ellipsoid_wall_matrix(e, matrix);
     if (!ellipsoid_invert6(matrix))
     {
         return ELLIPSOID_NON_FINITE;
@@ -394,26 +348,26 @@ static ellipsoid_status solve(const ellipsoid_model *model,
     return ELLIPSOID_OK;
 }
 
-ellipsoid_status ellipsoid_wall_expansion_error(
-    const ellipsoid_model *model, const ellipsoid_wall_expansion *about,
-    const ellipsoid_wall_expansion *there, double error[6])
+ellipsoid_status
+ellipsoid_wall_expansion_error(const ellipsoid_wall_expansion *about,
+                               const ellipsoid_wall_expansion *there,
+                               double error[6])
 {
     double action[6] = {0}, wrong[6] = {0};
 
-    add_planes(about, there->x, there->q, there->motion, action);
-    add_planes(there, there->x, there->q, there->motion, wrong);
+    add_action(about, there->x, there->q, there->motion, action);
+    add_action(there, there->x, there->q, there->motion, wrong);
     ellipsoid_add6(-1, action, wrong);
-    return solve(model, about, wrong, error);
+    return solve(about, wrong, error);
 }
 
-ellipsoid_status ellipsoid_add_wall_mobility(const ellipsoid_model *model,
-                                             const ellipsoid_wall_expansion *e,
+ellipsoid_status ellipsoid_add_wall_mobility(const ellipsoid_wall_expansion *e,
                                              ellipsoid_frame *frame,
                                              const double push[6],
                                              ellipsoid_state *state)
 {
     double rates[6];
-    const ellipsoid_status status = solve(model, e, push, rates);
+    const ellipsoid_status status = solve(e, push, rates);
 
     if (status == ELLIPSOID_OK)
     {
@@ -427,13 +381,15 @@ ellipsoid_status ellipsoid_balance_wall_drag(
     const ellipsoid_near_walls *near, const ellipsoid_wall_expansion *e,
     const ellipsoid_body_wrench *wrench, ellipsoid_state *state)
 {
-    double push[6], motion[MOTION];
+    double push[6] = {0}, motion[MOTION] = {0};
+    seen from;
 
     ellipsoid_copy(near->free->u, state->u);
     ellipsoid_copy(near->free->omega, state->omega);
-    set_motion(near, state, motion);
-    to_body(near->frame->axis, wrench->force, wrench->torque, push);
-    add_planes(e, state->x, state->q, motion, push);
-    return ellipsoid_add_wall_mobility(near->model, e, near->frame, push,
-                                       state);
+    from = see(near, state);
+    add_motion(near->frame->axis, &from, motion);
+    ellipsoid_product(near->frame->axis, wrench->force, push);
+    ellipsoid_copy(wrench->torque, push + 3);
+    add_action(e, state->x, state->q, motion, push);
+    return ellipsoid_add_wall_mobility(e, near->frame, push, state);
 }

@@ -20,190 +20,192 @@
 */
 #include "drag/drag.h"
 
-#include <string.h>
-
 /* Fitted to spheres and spheroids held in the flows of stagnation points, by
    boundary elements: a median error of 8 % in place of 46 (test_wallFit.c). */
 static const double towards = 0.43;
 
-/* How much of the strain ij is left to the part i of the flow along j. */
+typedef ellipsoid_dual dual;
+
+/* 2 a_i^2 a_j^2/(a_i^2 + a_j^2), by which E^_ij m_j, m = -n/p (below), adds to
+   G' r. */
 static double left(const double a[3], int i, int j)
 {
-    return 2 * a[i] * a[i] / (a[i] * a[i] + a[j] * a[j]);
+    const double ii = a[i] * a[i], jj = a[j] * a[j];
+
+    return 2 * ii * jj / (ii + jj);
 }
 
-void ellipsoid_along_wall(double m[3][3], const double n[3], double value[3],
-                          double change[3][3])
+static void cross(const dual a[3], const dual b[3], dual result[3])
 {
-    double of_n[3], back[3], along;
+    result[0] = a[1] * b[2] - a[2] * b[1];
+    result[1] = a[2] * b[0] - a[0] * b[2];
+    result[2] = a[0] * b[1] - a[1] * b[0];
+}
 
-    ellipsoid_product(m, n, of_n);
-    ellipsoid_combination(m, n[0], n[1], n[2], back);
-    along = ellipsoid_dot(n, of_n);
+void ellipsoid_along_wall(const double m[9], const dual n[3], dual value[3])
+{
+    dual along = 0;
+
     for (int i = 0; i < 3; i++)
     {
-        value[i] = of_n[i] - along * n[i];
-        for (int c = 0; c < 3; c++)
-        {
-            change[c][i] =
-                m[i][c] - (i == c) * along - n[i] * (of_n[c] + back[c]);
-        }
+        value[i] = m[3 * i] * n[0] + m[3 * i + 1] * n[1] + m[3 * i + 2] * n[2];
+        along += n[i] * value[i];
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        value[i] -= along * n[i];
     }
 }
 
-void ellipsoid_wall_fit_set(const ellipsoid_model *model,
-                            const double normal[3], ellipsoid_wall_fit *fit)
+/* Where a body is nearest to a wall. */
+typedef struct nearest
+{
+    double towards;     /* k */
+    dual m[3], r[3];    /* -n/p, p = sqrt(sum a_i^2 n_i^2), r_i = a_i^2 m_i */
+    dual inverse[3][3]; /* by which moments turn */
+} nearest;
+
+static nearest set_nearest(const ellipsoid_model *model, const dual n[3])
 {
     const double *a = model->options.semi_axes;
-    const double k = model->flow_points > 0 ? towards : 0;
-    double *r = fit->nearest, matrix[3][3];
+    const double k = model->flow_points > 0 ? towards : 0, k2 = k * k;
+    nearest at = {.towards = k};
+    dual matrix[3][3], per, square = 0;
 
-    fit->towards = k;
-    ellipsoid_set(r, a[0] * a[0] * normal[0], a[1] * a[1] * normal[1],
-                  a[2] * a[2] * normal[2]);
-    fit->support = sqrt(ellipsoid_dot(r, normal));
     for (int i = 0; i < 3; i++)
     {
-        r[i] /= -fit->support;
+        square += a[i] * a[i] * n[i] * n[i];
+    }
+    /* a root's and a quotient's first order */
+    per = 1 / sqrt(creal(square));
+    per *= 1.5 - 0.5 * square * creal(per) * creal(per);
+    square = 0;
+    for (int i = 0; i < 3; i++)
+    {
+        at.m[i] = -n[i] * per;
+        at.r[i] = a[i] * a[i] * at.m[i];
+        square += at.r[i] * at.r[i];
     }
     for (int i = 0; i < 3; i++)
     {
         for (int j = 0; j < 3; j++)
         {
-            matrix[i][j] = k * k * r[i] * r[j];
+            matrix[i][j] = k2 * at.r[i] * at.r[j];
         }
-        matrix[i][i] += (ellipsoid_dot(a, a) - a[i] * a[i]) / 3
-                      - k * k * ellipsoid_dot(r, r);
+        matrix[i][i] += (ellipsoid_dot(a, a) - a[i] * a[i]) / 3 - k2 * square;
     }
-    ellipsoid_invert3(matrix, fit->inverse);
+    for (int i = 0; i < 3; i++)
+    {
+        cross(matrix[(i + 1) % 3], matrix[(i + 2) % 3], at.inverse[i]);
+    }
+    square = 0;
+    for (int i = 0; i < 3; i++)
+    {
+        square += matrix[0][i] * at.inverse[0][i];
+    }
+    per = (2 - square / creal(square)) / creal(square);
+    for (int i = 0; i < 9; i++)
+    {
+        at.inverse[i / 3][i % 3] *= k2 * per;
+    }
+    return at;
 }
 
 /* The motion by s = G' r. */
-static void set_motion(ellipsoid_wall_fit *fit, const double s[3],
-                       double motion[6])
+static void set_motion(const nearest *at, const dual s[3], dual motion[6])
 {
-    const double k = fit->towards;
-    double *w = motion + 3, moment[3], turned[3];
+    dual *w = motion + 3, moment[3], turned[3];
 
-    ellipsoid_cross(s, fit->nearest, moment);
-    ellipsoid_product(fit->inverse, moment, w);
+    cross(s, at->r, moment);
     for (int i = 0; i < 3; i++)
     {
-        w[i] *= k * k;
+        w[i] = at->inverse[i][0] * moment[0] + at->inverse[i][1] * moment[1]
+             + at->inverse[i][2] * moment[2];
     }
-    ellipsoid_cross(w, fit->nearest, turned);
+    cross(w, at->r, turned);
     for (int i = 0; i < 3; i++)
     {
-        motion[i] = k * (s[i] - turned[i]);
+        motion[i] = at->towards * (s[i] - turned[i]);
     }
 }
 
-void ellipsoid_wall_fit_columns(const double a[3], const double n[3],
-                                ellipsoid_wall_fit *fit, double column[9][6],
-                                double by[9][6])
+/* Takes from vectors of six numbers what they have along n. */
+static void project(const double n[3], double v[3][6])
 {
-    double by_s[3][6] = {{0}}, of_n[3][6] = {{0}}, along[6] = {0};
+    double along[6] = {0};
 
     for (int i = 0; i < 3; i++)
     {
-        const double s[3] = {i == 0, i == 1, i == 2};
-        double motion[6];
+        ellipsoid_add6(n[i], v[i], along);
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        ellipsoid_add6(-n[i], along, v[i]);
+    }
+}
 
-        set_motion(fit, s, motion);
-        for (int m = 0; m < 6; m++)
+void ellipsoid_wall_fit_columns(const ellipsoid_model *model, const double n[3],
+                                double column[9][6], double by[18][6])
+{
+    const dual normal[3] = {n[0], n[1], n[2]};
+    const nearest at = set_nearest(model, normal);
+    double by_s[3][6] = {{0}}, of_n[3][6] = {{0}};
+
+    for (int i = 0; i < 3; i++)
+    {
+        const dual s[3] = {i == 0, i == 1, i == 2};
+        dual motion[6];
+
+        set_motion(&at, s, motion);
+        for (int c = 0; c < 6; c++)
         {
-            ellipsoid_add6(motion[m], column[m], by_s[i]);
+            ellipsoid_add6(creal(motion[c]), column[c], by_s[i]);
         }
     }
+    project(n, column + 6);
+    memset(by, 0, 18 * sizeof(*by));
     /* by all of the strain, symmetric; then without (I - n n) E n */
     for (int i = 0; i < 3; i++)
     {
         for (int j = 0; j < 3; j++)
         {
-            double *sum = by[3 * i + j];
+            const double half = 0.5 * left(model->options.semi_axes, i, j);
+            double *of_mean = by[9 + 3 * i + j];
 
-            memset(sum, 0, 6 * sizeof(*sum));
-            ellipsoid_add6(0.5 * left(a, i, j) * fit->nearest[j], by_s[i], sum);
-            ellipsoid_add6(0.5 * left(a, j, i) * fit->nearest[i], by_s[j], sum);
-            ellipsoid_add6(n[j], sum, of_n[i]);
+            ellipsoid_add6(n[j], column[6 + i], by[3 * i + j]);
+            ellipsoid_add6(half * creal(at.m[j]), by_s[i], of_mean);
+            ellipsoid_add6(half * creal(at.m[i]), by_s[j], of_mean);
+            ellipsoid_add6(n[j], of_mean, of_n[i]);
         }
-        ellipsoid_add6(n[i], of_n[i], along);
     }
-    for (int i = 0; i < 3; i++)
+    project(n, of_n);
+    for (int i = 0; i < 9; i++)
     {
-        ellipsoid_add6(-n[i], along, of_n[i]);
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        for (int j = 0; j < 3; j++)
-        {
-            ellipsoid_add6(-n[j], of_n[i], by[3 * i + j]);
-            ellipsoid_add6(-n[i], of_n[j], by[3 * i + j]);
-        }
+        ellipsoid_add6(-n[i % 3], of_n[i / 3], by[9 + i]);
+        ellipsoid_add6(-n[i / 3], of_n[i % 3], by[9 + i]);
     }
 }
 
-void ellipsoid_wall_fit_motion(const double a[3], const double n[3],
-                               double g[3][3], ellipsoid_wall_fit *fit,
-                               double motion[6], double change[3][6])
+void ellipsoid_wall_fit_motion(const ellipsoid_model *model, const dual n[3],
+                               const double g[9], dual motion[6])
 {
-    const double *r = fit->nearest, *w = motion + 3, k = fit->towards;
-    double whole[3][3], strain[3][3], shear[3], bent[3][3], s[3] = {0};
+    const nearest at = set_nearest(model, n);
+    double strain[9];
+    dual shear[3], s[3] = {0};
 
+    for (int i = 0; i < 9; i++)
+    {
+        strain[i] = 0.5 * (g[i] + g[i % 3 * 3 + i / 3]);
+    }
+    ellipsoid_along_wall(strain, n, shear);
     for (int i = 0; i < 3; i++)
     {
         for (int j = 0; j < 3; j++)
         {
-            whole[i][j] = 0.5 * (g[i][j] + g[j][i]);
+            s[i] += left(model->options.semi_axes, i, j)
+                  * (strain[3 * i + j] - shear[i] * n[j] - n[i] * shear[j])
+                  * at.m[j];
         }
     }
-    ellipsoid_along_wall(whole, n, shear, bent);
-    for (int i = 0; i < 3; i++)
-    {
-        for (int j = 0; j < 3; j++)
-        {
-            strain[i][j] = whole[i][j] - shear[i] * n[j] - n[i] * shear[j];
-            s[i] += left(a, i, j) * strain[i][j] * r[j];
-        }
-    }
-    set_motion(fit, s, motion);
-    for (int c = 0; c < 3; c++)
-    {
-        double *u_c = change[c], *w_c = u_c + 3;
-        double r_c[3], s_c[3] = {0}, moment[3], turned[2][3];
-
-        for (int i = 0; i < 3; i++)
-        {
-            r_c[i] = (r[i] * r[c] - (i == c) * a[i] * a[i]) / fit->support;
-        }
-        for (int i = 0; i < 3; i++)
-        {
-            for (int j = 0; j < 3; j++)
-            {
-                const double strain_c = -bent[c][i] * n[j] - n[i] * bent[c][j]
-                                      - shear[i] * (j == c)
-                                      - shear[j] * (i == c);
-
-                s_c[i] +=
-                    left(a, i, j) * (strain_c * r[j] + strain[i][j] * r_c[j]);
-            }
-        }
-        ellipsoid_cross(s_c, r, moment);
-        ellipsoid_cross(s, r_c, turned[0]);
-        ellipsoid_add(moment, turned[0]);
-        for (int i = 0; i < 3; i++)
-        {
-            moment[i] += 2 * ellipsoid_dot(r, r_c) * w[i]
-                       - r_c[i] * ellipsoid_dot(r, w)
-                       - r[i] * ellipsoid_dot(r_c, w);
-            moment[i] *= k * k;
-        }
-        ellipsoid_product(fit->inverse, moment, w_c);
-        ellipsoid_cross(w_c, r, turned[0]);
-        ellipsoid_cross(w, r_c, turned[1]);
-        for (int i = 0; i < 3; i++)
-        {
-            u_c[i] = k * (s_c[i] - turned[0][i] - turned[1][i]);
-        }
-    }
+    set_motion(&at, s, motion);
 }

@@ -77,29 +77,29 @@ void ellipsoid_wall_begin(view *s, const double normal[3], double height,
     const double reach = ELLIPSOID_WALL_BESIDE * s->model->wall_range;
     const double longest = ellipsoid_largest(a);
     kernel *far = &w->seen[FAR], *near = &w->seen[NEAR];
-    double n[3], stretched[3], foot[3];
+    double n[3], stretched[3], foot[3], support;
 
     memset(w, 0, sizeof(*w));
     w->normal = normal;
-    w->height = height;
+    w->height.value = height;
     ellipsoid_product(s->axis, normal, n);
     for (int i = 0; i < 3; i++)
     {
         stretched[i] = a[i] * n[i];
     }
-    w->support = ellipsoid_length(stretched);
-    w->gap = cut_off(height - w->support, s->model->options.lubrication_gap,
-                     &w->gap_slope);
+    w->support.value = support = ellipsoid_length(stretched);
+    w->gap.value = cut_off(height - support, s->model->options.lubrication_gap,
+                           &w->gap_slope);
     far->scale = 1 / height;
-    near->scale = sqrt(0.5 * w->support / w->gap);
+    near->scale = sqrt(0.5 * support / w->gap.value);
     for (int i = 0; i < 3; i++)
     {
         far->shrink[i] = 1;
         far->shift[i] = height * n[i];
         far->normal[i] = n[i];
         near->shrink[i] = 1 / a[i];
-        near->normal[i] = stretched[i] / w->support;
-        near->shift[i] = near->normal[i] + (height - w->support) * n[i] / a[i];
+        near->normal[i] = stretched[i] / support;
+        near->shift[i] = near->normal[i] + (height - support) * n[i] / a[i];
     }
     set_cut(far, reach * far->scale);
     set_cut(near, reach * near->scale / longest);
@@ -207,24 +207,10 @@ static void add_edge(const kernel *k, const double r1[3], const double r2[3],
     }
 }
 
-/* Is all of a facet farther from the foot than anything is seen? */
-static int is_beyond(const kernel *k, const ellipsoid_facet *facet)
-{
-    const double most = k->reach * (1 + 1e-9) + facet->radius;
-    double off[3];
-
-    ellipsoid_difference(k->foot, facet->middle, off);
-    return ellipsoid_dot(off, off) > most * most;
-}
-
 void ellipsoid_wall_add(view *s, const ellipsoid_facet *facet, wall *w)
 {
     double side[2][3]; /* [m] of the foot on the left of each edge */
 
-    if (is_beyond(&w->seen[FAR], facet) && is_beyond(&w->seen[NEAR], facet))
-    {
-        return;
-    }
     for (int i = 0; i < 3; i++)
     {
         const double *from = facet->vertex[i];
@@ -300,12 +286,12 @@ static double sum_slope(view *s, const kernel *k, const rim *sum, int n,
     return by;
 }
 
-/* How gap, parts and fade change with component n of the pose. */
-static void set_slopes(view *s, wall *w, int n, const double fade[2])
+/* How height, gap and parts change with component n of the pose. */
+static void set_slopes(view *s, wall *w, int n)
 {
     const double *a = s->model->options.semi_axes;
     const double *axis = w->seen[FAR].normal, *out = w->seen[NEAR].normal;
-    const double h = w->height, p = w->support;
+    const double h = w->height.value, p = w->support.value;
     const double h_n = n < 3 ? w->normal[n] : 0;
     double *turn = w->normal_by[n], p_n = 0, shift[2][3], scale[2];
 
@@ -314,9 +300,11 @@ static void set_slopes(view *s, wall *w, int n, const double fade[2])
         turn[i] = n < 3 ? 0 : ellipsoid_dot(s->turned[n - 3][i], w->normal);
         p_n += a[i] * out[i] * turn[i];
     }
-    w->gap_by[n] = w->gap_slope * (h_n - p_n);
+    w->height.by[n] = h_n;
+    w->support.by[n] = p_n;
+    w->gap.by[n] = w->gap_slope * (h_n - p_n);
     scale[FAR] = -h_n / h;
-    scale[NEAR] = 0.5 * (p_n / p - w->gap_by[n] / w->gap);
+    scale[NEAR] = 0.5 * (p_n / p - w->gap.by[n] / w->gap.value);
     for (int i = 0; i < 3; i++)
     {
         shift[FAR][i] = h_n * axis[i] + h * turn[i];
@@ -325,30 +313,28 @@ static void set_slopes(view *s, wall *w, int n, const double fade[2])
     }
     for (int m = 0; m < 2; m++)
     {
-        w->part_by[m][n] =
+        w->part[m].by[n] =
             sum_slope(s, &w->seen[m], &w->sum[m], n, scale[m], shift[m]);
     }
-    w->fade_by[n] = fade[0] * h_n + fade[1] * p_n;
 }
 
-void ellipsoid_wall_end(view *s, int slopes, wall *w)
+void ellipsoid_wall_end(view *s, wall *w)
 {
-    const double range = s->model->wall_range, h = w->height;
-    const double p = w->support;
+    const double range = s->model->wall_range;
+    const double h = w->height.value, p = w->support.value;
     double far_slope, beside_slope;
     const double far = 1 - smooth_step(2 * h / range - 1, &far_slope);
     const double cut = smooth_step(h / p, &beside_slope);
-    const double fade[2] = {far * beside_slope / p
-                                - 2 * far_slope / range * cut,
-                            -far * beside_slope * h / (p * p)};
 
-    w->fade = far * cut;
+    for (int n = 0; n < POSE; n++)
+    {
+        set_slopes(s, w, n);
+    }
     for (int m = 0; m < 2; m++)
     {
-        w->part[m] = w->sum[m].inside + w->sum[m].value;
+        w->part[m].value = w->sum[m].inside + w->sum[m].value;
     }
-    for (int n = 0; slopes && n < POSE; n++)
-    {
-        set_slopes(s, w, n, fade);
-    }
+    w->fade = ellipsoid_chain(
+        far * cut, far * beside_slope / p - 2 * far_slope / range * cut,
+        &w->height, -far * beside_slope * h / (p * p), &w->support);
 }

@@ -35,17 +35,18 @@ typedef struct ellipsoid_wall_rim
 /* One wall of a pose. */
 typedef struct ellipsoid_wall
 {
-    const double *normal; /* unit, into the fluid, lab */
-    double height, support;
+    const double *normal;                     /* unit, into the fluid, lab */
+    double normal_by[ELLIPSOID_POSE_SIZE][3]; /* of it in the body frame */
+    ellipsoid_of_pose height,
+        support;           /* [m] of the centre, to the nearest point */
+    ellipsoid_of_pose gap; /* [m] cut off */
+    double gap_slope;      /* its derivative by that which is not */
     double away; /* [m] of its nearest facet, about, from the centre */
-    double gap, gap_slope; /* cut off; its derivative by that which is not */
     ellipsoid_wall_kernel seen[2];
     ellipsoid_wall_rim sum[2];
     /* once it has all its facets: the part of the plane that it covers, by each
-       kernel, and how it fades; with slopes by the pose */
-    double part[2], fade;
-    double normal_by[ELLIPSOID_POSE_SIZE][3], gap_by[ELLIPSOID_POSE_SIZE];
-    double part_by[2][ELLIPSOID_POSE_SIZE], fade_by[ELLIPSOID_POSE_SIZE];
+       kernel, and how it fades */
+    ellipsoid_of_pose part[2], fade;
 } ellipsoid_wall;
 
 typedef struct ellipsoid_wall_view
@@ -55,6 +56,21 @@ typedef struct ellipsoid_wall_view
     double axis[3][3];      /* unit */
     double turned[4][3][3]; /* their derivatives by q */
 } ellipsoid_wall_view;
+
+/* What depends on a and b: of this value, by a and by b. */
+static inline ellipsoid_of_pose ellipsoid_chain(double value, double by_a,
+                                                const ellipsoid_of_pose *a,
+                                                double by_b,
+                                                const ellipsoid_of_pose *b)
+{
+    ellipsoid_of_pose result = {.value = value};
+
+    for (int n = 0; n < ELLIPSOID_POSE_SIZE; n++)
+    {
+        result.by[n] = by_a * a->by[n] + by_b * b->by[n];
+    }
+    return result;
+}
 
 /* Does its wall end at an edge of it, or bend? */
 static inline int ellipsoid_has_seam(const ellipsoid_facet *facet)
@@ -73,7 +89,6 @@ void ellipsoid_wall_add(ellipsoid_wall_view *view, const ellipsoid_facet *facet,
 
 /* When it has all facets: parts, and fade where it goes out of range, and where
    its plane cuts the body, which then is beside it. */
-void ellipsoid_wall_end(ellipsoid_wall_view *view, int slopes,
-                        ellipsoid_wall *wall);
+void ellipsoid_wall_end(ellipsoid_wall_view *view, ellipsoid_wall *wall);
 
 #endif

@@ -34,12 +34,7 @@ enum
 
 typedef ellipsoid_wall wall;
 typedef ellipsoid_wall_view view;
-
-/* A number and its derivatives by the pose. */
-typedef struct slopes
-{
-    double value, by[POSE];
-} slopes;
+typedef ellipsoid_of_pose of_pose;
 
 /* The height of a point over the plane of a facet, and its normal. */
 static double height_over(const ellipsoid_facet *facet, const double x[3],
@@ -117,14 +112,12 @@ static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
     return status;
 }
 
-/* The wall of this plane among those found, or one begun behind them; what of that
-   plane was begun there last, and is not seen, serves if it is the same to the last
-   bit. away: of its facet [m]. */
+/* The wall of this plane among those found, or one begun behind them; away: of its
+   facet [m]. */
 static wall *find_wall(view *s, const double normal[3], double height,
-                       double away, wall *walls, int count, int begun)
+                       double away, wall *walls, int count)
 {
     const double same = in_plane * s->model->wall_range;
-    wall *last = &walls[count];
 
     for (int k = 0; k < count; k++)
     {
@@ -133,19 +126,15 @@ static wall *find_wall(view *s, const double normal[3], double height,
         ellipsoid_difference(normal, walls[k].normal, d);
         if (normal == walls[k].normal
             || (ellipsoid_dot(d, d) < in_plane * in_plane
-                && fabs(height - walls[k].height) < same))
+                && fabs(height - walls[k].height.value) < same))
         {
             walls[k].away = fmin(walls[k].away, away);
             return &walls[k];
         }
     }
-    if (!begun || height != last->height
-        || memcmp(normal, last->normal, 3 * sizeof(*normal)))
-    {
-        ellipsoid_wall_begin(s, normal, height, last);
-    }
-    last->away = away;
-    return last;
+    ellipsoid_wall_begin(s, normal, height, &walls[count]);
+    walls[count].away = away;
+    return &walls[count];
 }
 
 /* Keeps the wall behind those found; of too many the farthest goes. */
@@ -166,20 +155,22 @@ static void keep_wall(wall *walls, int *count)
 }
 
 /* Axes of length one, and their derivatives, from those of any q. */
-static void set_axes(const double q[4], const ellipsoid_frame *frame, view *s)
+static void set_axes(const double q[4], view *s)
 {
     const double per = 1 / ellipsoid_square4(q);
 
-    for (int i = 0; i < 3; i++)
+    ellipsoid_axes(q, s->axis);
+    ellipsoid_axis_derivatives(q, s->turned);
+    for (int i = 0; i < 9; i++)
     {
-        for (int l = 0; l < 3; l++)
+        double *along = &s->axis[i / 3][i % 3];
+
+        *along *= per;
+        for (int n = 0; n < 4; n++)
         {
-            s->axis[i][l] = per * frame->axis[i][l];
-            for (int n = 0; frame->by_q && n < 4; n++)
-            {
-                s->turned[n][i][l] =
-                    per * (frame->by_q[n][i][l] - 2 * q[n] * s->axis[i][l]);
-            }
+            double *by = &s->turned[n][i / 3][i % 3];
+
+            *by = per * (*by - 2 * q[n] * *along);
         }
     }
 }
@@ -201,100 +192,90 @@ static double saturated(double t, double *slope)
     return 1 - rest * rest;
 }
 
+static of_pose product(const of_pose *a, const of_pose *b)
+{
+    return ellipsoid_chain(a->value * b->value, b->value, a, a->value, b);
+}
+
 /* s + c of a wall: the other walls' parts, each by the square of the cosine
    between the normals, and less the deeper it lies, as far as they fill the rest
    of the plane. (Parts of a round wall have a sum below 1, as each is seen from
    the foot on its own plane.) */
-static void set_whole(const wall *walls, int count, const wall *w, int sloped,
-                      slopes *whole)
+static of_pose whole_of(const wall *walls, int count, const wall *w)
 {
-    const double rest = 1 - w->part[NEAR];
-    double others = 0, others_by[POSE] = {0}, t, t_slope, filled;
+    const double own = w->part[NEAR].value, rest = 1 - own;
+    of_pose others = {0};
+    double t, slope, filled;
 
     for (const wall *o = walls; o < walls + count; o++)
     {
         const double cosine = fmax(ellipsoid_dot(w->normal, o->normal), 0);
+        const double square = pow(w->gap.value / o->gap.value, 2);
+        const double level = saturated(square, &slope);
+        const double by_ratio = 2 * square * slope * cosine * cosine;
 
-        if (o == w || !(cosine * o->fade > 0))
+        if (o == w || !(cosine * o->fade.value > 0))
         {
             continue;
         }
 
-        const double ratio = w->gap / o->gap, square = ratio * ratio;
-        const double part = cosine * cosine * o->part[NEAR];
-        double level_slope;
-        const double level = saturated(square, &level_slope);
+        const of_pose seen = product(&o->fade, &o->part[NEAR]);
+        const of_pose deep =
+            ellipsoid_chain(level * cosine * cosine, by_ratio / w->gap.value,
+                            &w->gap, -by_ratio / o->gap.value, &o->gap);
+        const of_pose part = product(&seen, &deep);
 
-        others += o->fade * level * part;
-        for (int n = 0; sloped && n < POSE; n++)
-        {
-            others_by[n] +=
-                o->fade * level * cosine * cosine * o->part_by[NEAR][n]
-                + part
-                      * (o->fade_by[n] * level
-                         + o->fade * level_slope * 2 * square
-                               * (w->gap_by[n] / w->gap
-                                  - o->gap_by[n] / o->gap));
-        }
+        others =
+            ellipsoid_chain(others.value + part.value, 1, &others, 1, &part);
     }
     /* a part may be below 0 by rounding */
-    others = fmax(others, 0);
-    t = rest > others ? others / rest : 1;
-    filled = saturated(t, &t_slope);
-    whole->value = w->part[NEAR] + filled * rest;
-    for (int n = 0; sloped && n < POSE; n++)
-    {
-        whole->by[n] = w->part_by[NEAR][n] * (1 - filled + t_slope * t)
-                     + t_slope * others_by[n];
-    }
+    others.value = fmax(others.value, 0);
+    t = rest > others.value ? others.value / rest : 1;
+    filled = saturated(t, &slope);
+    return ellipsoid_chain(own + filled * rest, 1 - filled + slope * t,
+                           &w->part[NEAR], slope, &others);
 }
 
 /* The plane of a wall; 0 if it does not count. */
 static int set_plane(const view *s, const wall *walls, int count, const wall *w,
-                     int sloped, ellipsoid_plane *plane)
+                     ellipsoid_plane *plane)
 {
-    const double g = w->gap, h = w->height, *s_n = w->part_by[NEAR];
-    const double part = w->part[NEAR], near = 1 / g, away = 1 / (g + h);
-    double square;
-    slopes whole;
+    const double g = w->gap.value, wide = g + w->height.value;
+    double part, rest, square;
+    of_pose whole, seen, beyond, near, far;
 
-    if (w->fade == 0 || (w->part[FAR] == 0 && part == 0))
+    if (w->fade.value == 0
+        || (w->part[FAR].value == 0 && w->part[NEAR].value == 0))
     {
         return 0;
     }
-    set_whole(walls, count, w, sloped, &whole);
-    plane->weight[FAR] = w->fade * w->part[FAR];
-    plane->weight[NEAR] = w->fade * part * whole.value;
-    plane->gap[NEAR] = g;
-    plane->gap[FAR] = 1 / (whole.value * near + (1 - whole.value) * away);
-    square = plane->gap[FAR] * plane->gap[FAR];
-    for (int n = 0; sloped && n < POSE; n++)
-    {
-        const double h_n = n < 3 ? w->normal[n] : 0;
-
-        ellipsoid_copy(w->normal_by[n], plane->normal_slope[n]);
-        plane->weight_slope[FAR][n] =
-            w->fade_by[n] * w->part[FAR] + w->fade * w->part_by[FAR][n];
-        plane->weight_slope[NEAR][n] =
-            w->fade_by[n] * part * whole.value
-            + w->fade * (s_n[n] * whole.value + part * whole.by[n]);
-        plane->gap_slope[NEAR][n] = w->gap_by[n];
-        plane->gap_slope[FAR][n] =
-            square
-            * (whole.by[n] * (away - near)
-               + whole.value * near * near * w->gap_by[n]
-               + (1 - whole.value) * away * away * (w->gap_by[n] + h_n));
-    }
-    ellipsoid_plane_effect_set(&s->model->plane, w->seen[FAR].normal,
-                               plane->gap, sloped, &plane->effect);
-    ellipsoid_wall_fit_set(s->model, w->seen[FAR].normal, &plane->fit);
+    whole = whole_of(walls, count, w);
+    seen = product(&w->fade, &w->part[NEAR]);
+    plane->weight[FAR] = product(&w->fade, &w->part[FAR]);
+    plane->weight[NEAR] = product(&seen, &whole);
+    part = whole.value;
+    rest = 1 - part;
+    beyond = ellipsoid_chain(wide, 1, &w->gap, 1, &w->height);
+    near = ellipsoid_chain(part / g, 1 / g, &whole, -part / (g * g), &w->gap);
+    far = ellipsoid_chain(rest / wide, -1 / wide, &whole, -rest / (wide * wide),
+                          &beyond);
+    square = pow(near.value + far.value, -2);
+    plane->gap[NEAR] = w->gap;
+    plane->gap[FAR] = ellipsoid_chain(1 / (near.value + far.value), -square,
+                                      &near, -square, &far);
+    memcpy(plane->normal_by, w->normal_by, sizeof(plane->normal_by));
+    ellipsoid_plane_effect_set(
+        &s->model->plane, w->seen[FAR].normal,
+        (double[]){plane->gap[FAR].value, plane->gap[NEAR].value},
+        &plane->effect);
     return 1;
 }
 
-ellipsoid_status ellipsoid_find_planes(
-    const ellipsoid_model *model, const ellipsoid_surroundings *surroundings,
-    const ellipsoid_state *state, const ellipsoid_frame *frame,
-    ellipsoid_facet_cache *cache, ellipsoid_planes *planes)
+ellipsoid_status
+ellipsoid_find_planes(const ellipsoid_model *model,
+                      const ellipsoid_surroundings *surroundings,
+                      const ellipsoid_state *state,
+                      ellipsoid_facet_cache *cache, ellipsoid_planes *planes)
 {
     const double *a = model->options.semi_axes, *x = state->x;
     const double range = model->wall_range;
@@ -303,14 +284,14 @@ ellipsoid_status ellipsoid_find_planes(
         collect(surroundings, x, range, looked * range + longest, cache);
     wall walls[ELLIPSOID_MAX_PLANES + 1];
     view s = {.model = model, .x = x};
-    int count = 0, begun = 0;
+    int count = 0;
 
     planes->count = 0;
     if (status != ELLIPSOID_OK || cache->near_count == 0)
     {
         return status;
     }
-    set_axes(state->q, frame, &s);
+    set_axes(state->q, &s);
     for (int k = 0; k < cache->near_count; k++)
     {
         const ellipsoid_facet *facet =
@@ -334,28 +315,22 @@ ellipsoid_status ellipsoid_find_planes(
             continue;
         }
         w = find_wall(&s, normal, height, sqrt(square) - facet->radius, walls,
-                      count, begun);
+                      count);
         ellipsoid_wall_add(&s, facet, w);
-        if (w != &walls[count])
-        {
-            continue;
-        }
         /* whose plane it is must not depend on which facets are listed */
-        begun = is_unseen(w);
-        if (!begun)
+        if (w == &walls[count] && !is_unseen(w))
         {
             keep_wall(walls, &count);
         }
     }
     for (int k = 0; k < count; k++)
     {
-        ellipsoid_wall_end(&s, frame->by_q != NULL, &walls[k]);
+        ellipsoid_wall_end(&s, &walls[k]);
     }
     for (int k = 0; k < count; k++)
     {
         planes->count +=
-            set_plane(&s, walls, count, &walls[k], frame->by_q != NULL,
-                      &planes->at[planes->count]);
+            set_plane(&s, walls, count, &walls[k], &planes->at[planes->count]);
     }
     return ELLIPSOID_OK;
 }

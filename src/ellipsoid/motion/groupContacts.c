@@ -37,8 +37,7 @@ static ellipsoid_status add_wrench(const ellipsoid_cell *p,
     ellipsoid_copy(c->cell_torque, push + 3);
     if (ellipsoid_has_near_walls(m, &p->surroundings) && at->walls.planes > 0)
     {
-        status =
-            ellipsoid_add_wall_mobility(m, &at->walls, &frame, push, &change);
+        status = ellipsoid_add_wall_mobility(&at->walls, &frame, push, &change);
     }
     else
     {

@@ -332,7 +332,7 @@ ellipsoid_status ellipsoid_judge_expansions(const ellipsoid_group *g, double h,
         }
 
         const ellipsoid_status status = ellipsoid_wall_expansion_error(
-            p->model, &g->start[cell].walls, &g->next[cell].walls, wrong);
+            &g->start[cell].walls, &g->next[cell].walls, wrong);
 
         if (status != ELLIPSOID_OK)
         {
