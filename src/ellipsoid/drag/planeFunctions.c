@@ -40,6 +40,8 @@ enum
 
 typedef ellipsoid_dual dual;
 
+static inline dual times(dual a, dual b) { return ellipsoid_times(a, b); }
+
 /* The functions of the table, and 12 pi S^3/tau = 12 pi b^3/(p^3 (b^2 + p^2)). */
 static void set_values(const ellipsoid_plane_table *own, double nu,
                        const double gap[2], ellipsoid_plane_values *v)
@@ -68,7 +70,7 @@ static void set_values(const ellipsoid_plane_table *own, double nu,
     }
     for (int j = 0; j < TILTS; j++)
     {
-        double value[FUNCTIONS] = {0}, by_x[FUNCTIONS] = {0};
+        double value[FUNCTIONS] = {0};
 
         for (int k = 0; k < GAPS; k++)
         {
@@ -81,14 +83,13 @@ static void set_values(const ellipsoid_plane_table *own, double nu,
         {
             for (int n = 0; n < FUNCTIONS; n++)
             {
-                by_x[n] += slope_x[k] * own->at[j][k][n];
+                sum[2][n] += in_w[j] * slope_x[k] * own->at[j][k][n];
             }
         }
         for (int n = 0; n < FUNCTIONS; n++)
         {
             sum[0][n] += in_w[j] * value[n];
             sum[1][n] += slope_w[j] * value[n];
-            sum[2][n] += in_w[j] * by_x[n];
         }
     }
     ellipsoid_plane_scales(b, own->free, p, scale, scale_p);
@@ -129,37 +130,40 @@ static void set_columns(const ellipsoid_plane_table *own, const dual *f,
 {
     const int k = own->axis, i = (k + 1) % 3, j = (k + 2) % 3;
     const dual nu = normal[k], x = normal[i], y = normal[j];
+    const dual xx = times(x, x), xy = times(x, y), yy = times(y, y);
+    const dual bent = times(nu, f[10]), along = times(nu, f[9]);
+    const dual sheared = times(nu, f[14]);
 
     memset(column, 0, 9 * sizeof(*column));
     for (int at = 0; at < 6; at += 3)
     {
-        const dual *part = at == 0 ? f : f + 4;
+        const dual *part = at == 0 ? f : f + 4, turned = times(nu, part[3]);
 
-        column[at + i][at + i] = part[0] + part[1] * x * x;
-        column[at + j][at + j] = part[0] + part[1] * y * y;
+        column[at + i][at + i] = part[0] + times(part[1], xx);
+        column[at + j][at + j] = part[0] + times(part[1], yy);
         column[at + k][at + k] = part[2];
-        set_pair(column, at + i, at + j, part[1] * x * y);
-        set_pair(column, at + i, at + k, nu * part[3] * x);
-        set_pair(column, at + j, at + k, nu * part[3] * y);
+        set_pair(column, at + i, at + j, times(part[1], xy));
+        set_pair(column, at + i, at + k, times(turned, x));
+        set_pair(column, at + j, at + k, times(turned, y));
     }
-    set_pair(column, i, 3 + i, -nu * f[10] * x * y);
-    set_pair(column, j, 3 + j, nu * f[10] * x * y);
-    set_pair(column, i, 3 + j, nu * (f[10] * x * x - f[9]));
-    set_pair(column, j, 3 + i, nu * (f[9] - f[10] * y * y));
-    set_pair(column, i, 3 + k, -f[11] * y);
-    set_pair(column, j, 3 + k, f[11] * x);
-    set_pair(column, k, 3 + i, -f[8] * y);
-    set_pair(column, k, 3 + j, f[8] * x);
+    set_pair(column, i, 3 + i, -times(bent, xy));
+    set_pair(column, j, 3 + j, times(bent, xy));
+    set_pair(column, i, 3 + j, times(bent, xx) - along);
+    set_pair(column, j, 3 + i, along - times(bent, yy));
+    set_pair(column, i, 3 + k, -times(f[11], y));
+    set_pair(column, j, 3 + k, times(f[11], x));
+    set_pair(column, k, 3 + i, -times(f[8], y));
+    set_pair(column, k, 3 + j, times(f[8], x));
     column[6 + i][i] = column[6 + j][j] = f[12];
-    column[6 + k][i] = nu * f[14] * x;
-    column[6 + k][j] = nu * f[14] * y;
+    column[6 + k][i] = times(sheared, x);
+    column[6 + k][j] = times(sheared, y);
     column[6 + k][k] = f[12] + f[13];
-    column[6 + j][3 + i] = -f[15] * nu;
-    column[6 + i][3 + j] = f[15] * nu;
-    column[6 + k][3 + i] = (f[15] - f[17]) * y;
-    column[6 + k][3 + j] = (f[17] - f[15]) * x;
-    column[6 + j][3 + k] = f[16] * x;
-    column[6 + i][3 + k] = -f[16] * y;
+    column[6 + i][3 + j] = times(nu, f[15]);
+    column[6 + j][3 + i] = -column[6 + i][3 + j];
+    column[6 + k][3 + i] = times(f[15] - f[17], y);
+    column[6 + k][3 + j] = times(f[17] - f[15], x);
+    column[6 + j][3 + k] = times(f[16], x);
+    column[6 + i][3 + k] = -times(f[16], y);
 }
 
 void ellipsoid_plane_matrix_at(const ellipsoid_plane_effect *e,
@@ -209,9 +213,7 @@ void ellipsoid_plane_action(const ellipsoid_plane_matrix *of,
         action[FAR][m] = 0;
         for (int n = 0; n < 9; n++)
         {
-            /* the product without that of the derivatives */
-            action[FAR][m] += creal(motion[n]) * of->column[n][m]
-                            + cimag(motion[n]) * creal(of->column[n][m]) * I;
+            action[FAR][m] += times(motion[n], of->column[n][m]);
         }
     }
     for (int m = 0; m < 6; m++)

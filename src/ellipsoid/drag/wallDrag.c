@@ -38,10 +38,13 @@ static void add_plane(const ellipsoid_model *model,
         model->viscosity * plane->weight[NEAR].value * creal(of->squeeze);
     double column[9][6], row[6], by_flow[MOTION - GRADIENT][6];
 
-    for (int n = 0; n < 54; n++)
+    for (int i = 0; i < 6; i++)
     {
-        column[n / 6][n % 6] = creal(of->column[n / 6][n % 6]);
-        row[n % 6] = creal(of->row[n % 6]);
+        row[i] = creal(of->row[i]);
+        for (int n = 0; n < 9; n++)
+        {
+            column[n][i] = creal(of->column[n][i]);
+        }
     }
     for (int m = 0; m < 6; m++)
     {
@@ -118,14 +121,15 @@ static void add_lab(double axis[3][3], const double body[3], double lab[3])
 /* What a body does in the flow, from the lab: outrun by a free one, and along its
    axes the gradient, at the centre and averaged. Angular velocities are those of
    the body frame. */
-typedef struct seen
+typedef struct lab_motion
 {
     double outrun[3], turn[3], u[3], omega[3], along[2][3][3];
-} seen;
+} lab_motion;
 
-static seen see(const ellipsoid_near_walls *near, const ellipsoid_state *state)
+static lab_motion lab_motion_of(const ellipsoid_near_walls *near,
+                                const ellipsoid_state *state)
 {
-    seen from = {.u = {0}};
+    lab_motion from = {.u = {0}};
 
     ellipsoid_difference(near->free->u, state->u, from.outrun);
     ellipsoid_difference(near->free->omega, state->omega, from.turn);
@@ -144,7 +148,7 @@ static seen see(const ellipsoid_near_walls *near, const ellipsoid_state *state)
 }
 
 /* Adds R^T of it. */
-static void add_motion(double axis[3][3], const seen *from,
+static void add_motion(double axis[3][3], const lab_motion *from,
                        double motion[MOTION])
 {
     for (int i = 0; i < 3; i++)
@@ -169,7 +173,7 @@ void ellipsoid_add_wall_drag(const ellipsoid_near_walls *near,
                              double motion[MOTION], double action[6],
                              ellipsoid_body_wrench *wrench)
 {
-    const seen from = see(near, state);
+    const lab_motion from = lab_motion_of(near, state);
 
     memset(motion, 0, MOTION * sizeof(*motion));
     memset(action, 0, 6 * sizeof(*action));
@@ -218,15 +222,18 @@ static void add_slopes(const ellipsoid_model *model,
 
             for (int i = 0; i < 6; i++)
             {
-                value[i] = by < 2 ? 0 : model->viscosity * creal(action[m][i]);
+                value[i] = model->viscosity * creal(action[m][i]);
                 change[i] = model->viscosity * plane->weight[m].value
                           * cimag(action[m][i]) / ELLIPSOID_DUAL_STEP;
             }
-            for (int l = 0; l < POSE; l++)
+            for (int l = 3; by < 2 && l < POSE; l++)
             {
-                ellipsoid_add6(by < 2 ? ellipsoid_dot(plane->normal_by[l], t)
-                                      : plane->gap[m].by[l],
-                               change, e->by_pose[l]);
+                ellipsoid_add6(ellipsoid_dot(plane->normal_by[l], t), change,
+                               e->by_pose[l]);
+            }
+            for (int l = 0; by == 2 && l < POSE; l++)
+            {
+                ellipsoid_add6(plane->gap[m].by[l], change, e->by_pose[l]);
                 ellipsoid_add6(plane->weight[m].by[l], value, e->by_pose[l]);
             }
         }
@@ -267,7 +274,7 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
     ellipsoid_flow_sample *flow = near->flow;
     const int averaged = near->model->flow_points > 0;
     double(*axis)[3] = near->frame->axis, matrix[6][6];
-    seen from = see(near, state);
+    lab_motion from = lab_motion_of(near, state);
 
     ellipsoid_wall_matrix(e, matrix);
     for (int l = 0; l < 3; l++)
@@ -287,7 +294,7 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
     {
         const int n = l - 3;
         double motion[MOTION] = {0}, by[6], lab[3] = {0};
-        seen changes = {.u = {0}};
+        lab_motion changes = {.u = {0}};
 
         memcpy(by, e->by_pose[l], sizeof(by));
         for (int i = 0; i < 3; i++)
@@ -382,11 +389,11 @@ ellipsoid_status ellipsoid_balance_wall_drag(
     const ellipsoid_body_wrench *wrench, ellipsoid_state *state)
 {
     double push[6] = {0}, motion[MOTION] = {0};
-    seen from;
+    lab_motion from;
 
     ellipsoid_copy(near->free->u, state->u);
     ellipsoid_copy(near->free->omega, state->omega);
-    from = see(near, state);
+    from = lab_motion_of(near, state);
     add_motion(near->frame->axis, &from, motion);
     ellipsoid_product(near->frame->axis, wrench->force, push);
     ellipsoid_copy(wrench->torque, push + 3);

@@ -37,9 +37,12 @@ static double left(const double a[3], int i, int j)
 
 static void cross(const dual a[3], const dual b[3], dual result[3])
 {
-    result[0] = a[1] * b[2] - a[2] * b[1];
-    result[1] = a[2] * b[0] - a[0] * b[2];
-    result[2] = a[0] * b[1] - a[1] * b[0];
+    for (int i = 0; i < 3; i++)
+    {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+
+        result[i] = ellipsoid_times(a[j], b[k]) - ellipsoid_times(a[k], b[j]);
+    }
 }
 
 void ellipsoid_along_wall(const double m[9], const dual n[3], dual value[3])
@@ -57,28 +60,31 @@ void ellipsoid_along_wall(const double m[9], const dual n[3], dual value[3])
     }
 }
 
-/* Where a body is nearest to a wall. */
+/* Where a body is nearest to a wall: m = -n/p, p = sqrt(sum a_i^2 n_i^2), r_i =
+   a_i^2 m_i; and d_i = J_i - k^2 r.r, with which
+       (diag(d) + k^2 r r^T) w = k^2 s x r,   s = G' r. */
 typedef struct nearest
 {
-    double towards;     /* k */
-    dual m[3], r[3];    /* -n/p, p = sqrt(sum a_i^2 n_i^2), r_i = a_i^2 m_i */
-    dual inverse[3][3]; /* by which moments turn */
+    double towards;                  /* k */
+    dual m[3], r[3], d[3], minor[3]; /* d_j d_k */
+    dual determinant;
 } nearest;
+
+/* 1/x to the first order of its derivative. */
+static dual inverse(dual x) { return (2 - x / creal(x)) / creal(x); }
 
 static nearest set_nearest(const ellipsoid_model *model, const dual n[3])
 {
     const double *a = model->options.semi_axes;
-    const double k = model->flow_points > 0 ? towards : 0, k2 = k * k;
+    const double k = model->flow_points > 0 ? towards : 0;
     nearest at = {.towards = k};
-    dual matrix[3][3], per, square = 0;
+    dual square = 0, per;
 
     for (int i = 0; i < 3; i++)
     {
         square += a[i] * a[i] * n[i] * n[i];
     }
-    /* a root's and a quotient's first order */
-    per = 1 / sqrt(creal(square));
-    per *= 1.5 - 0.5 * square * creal(per) * creal(per);
+    per = inverse(sqrt(creal(square)) * (1 + square / creal(square)) / 2);
     square = 0;
     for (int i = 0; i < 3; i++)
     {
@@ -88,44 +94,40 @@ static nearest set_nearest(const ellipsoid_model *model, const dual n[3])
     }
     for (int i = 0; i < 3; i++)
     {
-        for (int j = 0; j < 3; j++)
-        {
-            matrix[i][j] = k2 * at.r[i] * at.r[j];
-        }
-        matrix[i][i] += (ellipsoid_dot(a, a) - a[i] * a[i]) / 3 - k2 * square;
+        at.d[i] = (ellipsoid_dot(a, a) - a[i] * a[i]) / 3 - k * k * square;
     }
+    at.determinant = at.d[0] * at.d[1] * at.d[2];
     for (int i = 0; i < 3; i++)
     {
-        cross(matrix[(i + 1) % 3], matrix[(i + 2) % 3], at.inverse[i]);
-    }
-    square = 0;
-    for (int i = 0; i < 3; i++)
-    {
-        square += matrix[0][i] * at.inverse[0][i];
-    }
-    per = (2 - square / creal(square)) / creal(square);
-    for (int i = 0; i < 9; i++)
-    {
-        at.inverse[i / 3][i % 3] *= k2 * per;
+        at.minor[i] = at.d[(i + 1) % 3] * at.d[(i + 2) % 3];
+        at.determinant += k * k * at.r[i] * at.r[i] * at.minor[i];
     }
     return at;
 }
 
-/* The motion by s = G' r. */
+/* The motion by s: w = k^2/det (minor_i mu_i - k^2 r x diag(d) (r x mu)), mu = s x
+   r. */
 static void set_motion(const nearest *at, const dual s[3], dual motion[6])
 {
-    dual *w = motion + 3, moment[3], turned[3];
+    const double k = at->towards;
+    const dual per = k * k * inverse(at->determinant);
+    dual *w = motion + 3, moment[3], turned[3], back[3];
 
     cross(s, at->r, moment);
+    cross(at->r, moment, turned);
     for (int i = 0; i < 3; i++)
     {
-        w[i] = at->inverse[i][0] * moment[0] + at->inverse[i][1] * moment[1]
-             + at->inverse[i][2] * moment[2];
+        turned[i] *= at->d[i];
+    }
+    cross(at->r, turned, back);
+    for (int i = 0; i < 3; i++)
+    {
+        w[i] = per * (at->minor[i] * moment[i] - k * k * back[i]);
     }
     cross(w, at->r, turned);
     for (int i = 0; i < 3; i++)
     {
-        motion[i] = at->towards * (s[i] - turned[i]);
+        motion[i] = k * (s[i] - turned[i]);
     }
 }
 

@@ -79,7 +79,7 @@ void ellipsoid_wall_begin(view *s, const double normal[3], double height,
     kernel *far = &w->seen[FAR], *near = &w->seen[NEAR];
     double n[3], stretched[3], foot[3], support;
 
-    memset(w, 0, sizeof(*w));
+    memset(w->sum, 0, sizeof(w->sum));
     w->normal = normal;
     w->height.value = height;
     ellipsoid_product(s->axis, normal, n);

@@ -17,10 +17,8 @@
 */
 #include "drag/wallParts.h"
 
-/* How far from a body facets are looked for, in ranges; how far the centre may
-   move before they are listed again, the less where there are too many. */
+/* How far from a body facets are looked for, in ranges. */
 static const double looked = 1.25;
-static const double margin_parts[] = {0.6, 0.1};
 
 /* What makes two planes one: an angle [rad], a part of the range. */
 static const double in_plane = 1e-6;
@@ -35,82 +33,6 @@ enum
 typedef ellipsoid_wall wall;
 typedef ellipsoid_wall_view view;
 typedef ellipsoid_of_pose of_pose;
-
-/* The height of a point over the plane of a facet, and its normal. */
-static double height_over(const ellipsoid_facet *facet, const double x[3],
-                          const double **normal)
-{
-    const double(*plane)[3] =
-        (const double(*)[3])((const char *)facet + facet->plane);
-    const int own = facet->plane == 0;
-    double d[3];
-
-    *normal = own ? facet->normal : plane[1];
-    ellipsoid_difference(x, own ? facet->middle : plane[0], d);
-    return ellipsoid_dot(d, *normal);
-}
-
-/* Lists facets anew if the centre has moved too far. Where walls are refused
-   far off, or too many, those nearer may do. */
-static ellipsoid_status collect(const ellipsoid_surroundings *surroundings,
-                                const double x[3], double range, double reach,
-                                ellipsoid_facet_cache *cache)
-{
-    const int tries = sizeof(margin_parts) / sizeof(*margin_parts);
-    ellipsoid_status status = ELLIPSOID_OK;
-    double d[3];
-
-    ellipsoid_difference(x, cache->near_x, d);
-    if (cache->near_count >= 0
-        && ellipsoid_dot(d, d) <= cache->near_margin * cache->near_margin)
-    {
-        return ELLIPSOID_OK;
-    }
-    for (int k = 0; k < tries; k++)
-    {
-        const double margin = margin_parts[k] * range;
-        ellipsoid_facet_list list;
-
-        cache->near_count = -1;
-        status = ellipsoid_list_facets(surroundings, x, reach + margin, &list);
-        if (status == ELLIPSOID_STEP_UNDERFLOW)
-        {
-            continue;
-        }
-        if (status != ELLIPSOID_OK)
-        {
-            return status;
-        }
-        cache->near_facets = list.facets;
-        ellipsoid_copy(x, cache->near_x);
-        cache->near_count = 0;
-        for (int i = 0; i < list.count; i++)
-        {
-            const ellipsoid_facet *facet = &list.facets[list.index[i]];
-            const double *normal, height = height_over(facet, x, &normal);
-
-            if (facet->mirror || !(height > -margin && height < range + margin))
-            {
-                continue;
-            }
-            if (cache->near_count == ELLIPSOID_MAX_NEAR)
-            {
-                status = ELLIPSOID_TOO_MANY_FACETS;
-                break;
-            }
-            cache->near_facet[cache->near_count++] = list.index[i];
-        }
-        if (status == ELLIPSOID_OK)
-        {
-            cache->near_margin = list.count == 0 && list.reach > reach + margin
-                                   ? list.reach - reach
-                                   : margin;
-            return ELLIPSOID_OK;
-        }
-    }
-    cache->near_count = -1;
-    return status;
-}
 
 /* The wall of this plane among those found, or one begun behind them; away: of its
    facet [m]. */
@@ -280,8 +202,8 @@ ellipsoid_find_planes(const ellipsoid_model *model,
     const double *a = model->options.semi_axes, *x = state->x;
     const double range = model->wall_range;
     const double longest = ellipsoid_largest(a);
-    const ellipsoid_status status =
-        collect(surroundings, x, range, looked * range + longest, cache);
+    const ellipsoid_status status = ellipsoid_near_facets(
+        surroundings, x, range, looked * range + longest, cache);
     wall walls[ELLIPSOID_MAX_PLANES + 1];
     view s = {.model = model, .x = x};
     int count = 0;
@@ -296,7 +218,7 @@ ellipsoid_find_planes(const ellipsoid_model *model,
     {
         const ellipsoid_facet *facet =
             &cache->near_facets[cache->near_facet[k]];
-        const double *normal, height = height_over(facet, x, &normal);
+        const double *normal, height = ellipsoid_height_over(facet, x, &normal);
         double d[3], square, off, width;
         wall *w;
 

@@ -35,6 +35,10 @@ static const double about = 8;
    narrowest. */
 static const double smaller = 0.5;
 
+/* How far the centre may move before the near ones are listed again, in ranges:
+   the less where there are too many, or walls are refused far off. */
+static const double near_margins[] = {0.6, 0.1};
+
 /* Clears what is kept of beads. */
 static void invalidate(ellipsoid_facet_cache *cache)
 {
@@ -352,4 +356,66 @@ ellipsoid_status ellipsoid_facet_cache_update(
     }
     *moved = 0;
     return fill(cache, model, surroundings, x, q, horizon);
+}
+
+ellipsoid_status
+ellipsoid_near_facets(const ellipsoid_surroundings *surroundings,
+                      const double x[3], double range, double reach,
+                      ellipsoid_facet_cache *cache)
+{
+    const int tries = sizeof(near_margins) / sizeof(*near_margins);
+    ellipsoid_status status = ELLIPSOID_OK;
+    double d[3];
+
+    ellipsoid_difference(x, cache->near_x, d);
+    if (cache->near_count >= 0
+        && ellipsoid_dot(d, d) <= cache->near_margin * cache->near_margin)
+    {
+        return ELLIPSOID_OK;
+    }
+    for (int k = 0; k < tries; k++)
+    {
+        const double margin = near_margins[k] * range;
+        ellipsoid_facet_list list;
+
+        cache->near_count = -1;
+        status = ellipsoid_list_facets(surroundings, x, reach + margin, &list);
+        if (status == ELLIPSOID_STEP_UNDERFLOW)
+        {
+            continue;
+        }
+        if (status != ELLIPSOID_OK)
+        {
+            return status;
+        }
+        cache->near_facets = list.facets;
+        ellipsoid_copy(x, cache->near_x);
+        cache->near_count = 0;
+        for (int i = 0; i < list.count; i++)
+        {
+            const ellipsoid_facet *facet = &list.facets[list.index[i]];
+            const double *normal,
+                height = ellipsoid_height_over(facet, x, &normal);
+
+            if (facet->mirror || !(height > -margin && height < range + margin))
+            {
+                continue;
+            }
+            if (cache->near_count == ELLIPSOID_MAX_NEAR)
+            {
+                status = ELLIPSOID_TOO_MANY_FACETS;
+                break;
+            }
+            cache->near_facet[cache->near_count++] = list.index[i];
+        }
+        if (status == ELLIPSOID_OK)
+        {
+            cache->near_margin = list.count == 0 && list.reach > reach + margin
+                                   ? list.reach - reach
+                                   : margin;
+            return ELLIPSOID_OK;
+        }
+    }
+    cache->near_count = -1;
+    return status;
 }

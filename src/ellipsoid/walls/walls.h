@@ -52,6 +52,21 @@ struct ellipsoid_facet_cache
                                            there with near walls */
 };
 
+/* The height [m] of a point over the plane of a facet, and its unit normal. */
+static inline double ellipsoid_height_over(const ellipsoid_facet *facet,
+                                           const double x[3],
+                                           const double **normal)
+{
+    const double(*plane)[3] =
+        (const double(*)[3])((const char *)facet + facet->plane);
+    const int own = facet->plane == 0;
+    double d[3];
+
+    *normal = own ? facet->normal : plane[1];
+    ellipsoid_difference(x, own ? facet->middle : plane[0], d);
+    return ellipsoid_dot(d, *normal);
+}
+
 /* Where the distance from a point to the wall has a local minimum. */
 typedef struct ellipsoid_nearest
 {
@@ -122,6 +137,13 @@ typedef struct ellipsoid_candidates
     const float *away;
     double moved;
 } ellipsoid_candidates;
+
+/* Lists in the cache the facets within `reach` [m] of the centre x over whose planes
+   it is by less than `range` [m], and more; anew if it has moved too far. */
+ellipsoid_status
+ellipsoid_near_facets(const ellipsoid_surroundings *surroundings,
+                      const double x[3], double range, double reach,
+                      ellipsoid_facet_cache *cache);
 
 /*
     Makes the cache hold all facets within `horizon` [m] of a bead in this pose
