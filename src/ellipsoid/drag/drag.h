@@ -259,12 +259,10 @@ void ellipsoid_wall_expansion_set(const ellipsoid_model *model,
 void ellipsoid_wall_matrix(const ellipsoid_wall_expansion *expansion,
                            double matrix[6][6]);
 
-/* Adds to the state's u and omega what force and torque, both in the body frame,
-   do against that. NON_FINITE: it is singular. */
-ellipsoid_status
-ellipsoid_add_wall_mobility(const ellipsoid_wall_expansion *expansion,
-                            ellipsoid_frame *frame, const double push[6],
-                            ellipsoid_state *state);
+/* The velocities [m/s, rad/s] at which that meets force and torque, all in the body
+   frame. NON_FINITE: it is singular, and they are not set. */
+ellipsoid_status ellipsoid_wall_rates(const ellipsoid_wall_expansion *expansion,
+                                      const double push[6], double rates[6]);
 
 /* Sets the state's u and omega to those that balance this wrench. NON_FINITE, as
    above. */

@@ -336,9 +336,8 @@ void ellipsoid_add_wall_drag_blocks(const ellipsoid_near_walls *near,
     }
 }
 
-/* Velocities by which the resistance meets a push. */
-static ellipsoid_status solve(const ellipsoid_wall_expansion *e,
-                              const double push[6], double rates[6])
+ellipsoid_status ellipsoid_wall_rates(const ellipsoid_wall_expansion *e,
+                                      const double push[6], double rates[6])
 {
     double matrix[6][6];
 
@@ -365,30 +364,15 @@ ellipsoid_wall_expansion_error(const ellipsoid_wall_expansion *about,
     add_action(about, there->x, there->q, there->motion, action);
     add_action(there, there->x, there->q, there->motion, wrong);
     ellipsoid_add6(-1, action, wrong);
-    return solve(about, wrong, error);
-}
-
-ellipsoid_status ellipsoid_add_wall_mobility(const ellipsoid_wall_expansion *e,
-                                             ellipsoid_frame *frame,
-                                             const double push[6],
-                                             ellipsoid_state *state)
-{
-    double rates[6];
-    const ellipsoid_status status = solve(e, push, rates);
-
-    if (status == ELLIPSOID_OK)
-    {
-        add_lab(frame->axis, rates, state->u);
-        ellipsoid_add(state->omega, rates + 3);
-    }
-    return status;
+    return ellipsoid_wall_rates(about, wrong, error);
 }
 
 ellipsoid_status ellipsoid_balance_wall_drag(
     const ellipsoid_near_walls *near, const ellipsoid_wall_expansion *e,
     const ellipsoid_body_wrench *wrench, ellipsoid_state *state)
 {
-    double push[6] = {0}, motion[MOTION] = {0};
+    double push[6], rates[6], motion[MOTION] = {0};
+    ellipsoid_status status;
     lab_motion from;
 
     ellipsoid_copy(near->free->u, state->u);
@@ -398,5 +382,11 @@ ellipsoid_status ellipsoid_balance_wall_drag(
     ellipsoid_product(near->frame->axis, wrench->force, push);
     ellipsoid_copy(wrench->torque, push + 3);
     add_action(e, state->x, state->q, motion, push);
-    return ellipsoid_add_wall_mobility(e, near->frame, push, state);
+    status = ellipsoid_wall_rates(e, push, rates);
+    if (status == ELLIPSOID_OK)
+    {
+        add_lab(near->frame->axis, rates, state->u);
+        ellipsoid_add(state->omega, rates + 3);
+    }
+    return status;
 }

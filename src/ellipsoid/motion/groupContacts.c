@@ -17,9 +17,8 @@ static ellipsoid_status add_wrench(const ellipsoid_cell *p,
     const ellipsoid_model *m = p->model;
     const ellipsoid_contact *c = &at->contact;
     ellipsoid_state *slope = &at->derivative, *state = &at->state;
-    ellipsoid_state change = *state;
-    ellipsoid_frame frame = {.by_q = NULL};
-    double push[6], turned[4]; /* body frame */
+    double axis[3][3], push[6], rates[6]; /* body frame */
+    double lab[3], turned[4];
     ellipsoid_status status = ELLIPSOID_OK;
 
     if (!balanced)
@@ -31,28 +30,23 @@ static ellipsoid_status add_wrench(const ellipsoid_cell *p,
         }
         return ELLIPSOID_OK;
     }
-    ellipsoid_set_no_rates(&change);
-    ellipsoid_axes(state->q, frame.axis);
-    ellipsoid_product(frame.axis, c->cell_force, push);
+    ellipsoid_axes(state->q, axis);
+    ellipsoid_product(axis, c->cell_force, push);
     ellipsoid_copy(c->cell_torque, push + 3);
+    for (int i = 0; i < 3; i++)
+    {
+        rates[i] = m->mobility[i] * push[i];
+        rates[i + 3] = m->rotation_mobility[i] * push[i + 3];
+    }
     if (ellipsoid_has_near_walls(m, &p->surroundings) && at->walls.planes > 0)
     {
-        status = ellipsoid_add_wall_mobility(&at->walls, &frame, push, &change);
+        status = ellipsoid_wall_rates(&at->walls, push, rates);
     }
-    else
-    {
-        ellipsoid_combination(frame.axis, m->mobility[0] * push[0],
-                              m->mobility[1] * push[1],
-                              m->mobility[2] * push[2], change.u);
-        for (int i = 0; i < 3; i++)
-        {
-            change.omega[i] = m->rotation_mobility[i] * push[i + 3];
-        }
-    }
-    ellipsoid_add(state->u, change.u);
-    ellipsoid_add(state->omega, change.omega);
+    ellipsoid_combination(axis, rates[0], rates[1], rates[2], lab);
+    ellipsoid_add(state->u, lab);
+    ellipsoid_add(state->omega, rates + 3);
     ellipsoid_copy(state->u, slope->x);
-    ellipsoid_spin(change.omega, state->q, turned);
+    ellipsoid_spin(rates + 3, state->q, turned);
     for (int n = 0; n < 4; n++)
     {
         slope->q[n] += 0.5 * turned[n];
