@@ -4,9 +4,9 @@
 /*
     wallParts.c - how much of a plane a wall covers.
 
-    A wall counts by the part of the plane that it
-    covers, with a weight that falls off like the body's action on it: 1/(pi (1 +
-    r^2)^2), r in the plane in units of the height, about the foot of the centre
+    A wall counts by the part of the plane that it covers, with a weight that
+    falls off like the body's action on it: 1/(pi (1 + r^2)^2), r in the plane in
+    units of the height, about the foot of the centre
     (the flow about a force near a plane presses on it like r^-3, and is felt
     back like 1/r); for squeezing, whose pressure falls off so, in units of
     sqrt(2 g R) along each curvature, about the foot of the nearest point. With

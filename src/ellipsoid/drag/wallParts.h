@@ -37,10 +37,10 @@ typedef struct ellipsoid_wall
 {
     const double *normal;                     /* unit, into the fluid, lab */
     double normal_by[ELLIPSOID_POSE_SIZE][3]; /* of it in the body frame */
-    ellipsoid_of_pose height,
-        support;           /* [m] of the centre, to the nearest point */
-    ellipsoid_of_pose gap; /* [m] cut off */
-    double gap_slope;      /* its derivative by that which is not */
+    ellipsoid_of_pose height;                 /* [m] of the centre */
+    ellipsoid_of_pose support; /* [m] of that over the nearest point */
+    ellipsoid_of_pose gap;     /* [m] cut off */
+    double gap_slope;          /* its derivative by that which is not */
     double away; /* [m] of its nearest facet, about, from the centre */
     ellipsoid_wall_kernel seen[2];
     ellipsoid_wall_rim sum[2];
