@@ -17,6 +17,44 @@ Description
 #include "IOPosition.H"
 #include "passiveParticle.H"
 
+namespace Foam
+{
+
+//- What is written of OpenFOAM's Cloud, which would end a run in which a
+//- cyclicAMI patch is on several processors, whether or not a particle is near
+class writtenParticles
+:
+    public cloud,
+    public IDLList<passiveParticle>
+{
+    const polyMesh& mesh_;
+
+public:
+
+    typedef passiveParticle particleType;
+
+    using IDLList<passiveParticle>::append;
+    using IDLList<passiveParticle>::begin;
+    using IDLList<passiveParticle>::end;
+    using IDLList<passiveParticle>::size;
+
+    writtenParticles(const polyMesh& mesh, const word& name)
+    :
+        cloud(mesh, name),
+        mesh_(mesh)
+    {
+        // Ranks meet in it, also those without a particle
+        mesh_.tetBasePtIs();
+    }
+
+    const polyMesh& pMesh() const
+    {
+        return mesh_;
+    }
+};
+
+} // End namespace Foam
+
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::List<Foam::ellipsoidCloud::particle> Foam::ellipsoidCloud::particles() const
@@ -45,7 +83,7 @@ void Foam::ellipsoidCloud::writeParticles() const
     const List<particle> cells(particles());
     const label n = cells.size();
 
-    Cloud<passiveParticle> c(mesh_, name(), IDLList<passiveParticle>());
+    writtenParticles c(mesh_, name());
     labelField& origId = createIOField<label>("origId", n, c);
     createIOField<label>("origProcId", n, c) = 0;
 
@@ -56,12 +94,12 @@ void Foam::ellipsoidCloud::writeParticles() const
         const label celli = cells[i].second;
         const vector inwards(1e-6*(mesh_.cellCentres()[celli] - x));
 
-        c.addParticle(new passiveParticle(mesh_, x + inwards, celli));
+        c.append(new passiveParticle(mesh_, x + inwards, celli));
         origId[i] = cells[i].first.id;
     }
     for (const auto type : {geometryType::COORDINATES, geometryType::POSITIONS})
     {
-        IOPosition<Cloud<passiveParticle>> places(c, type);
+        IOPosition<writtenParticles> places(c, type);
         atomicWrite(places, n > 0);
     }
 
