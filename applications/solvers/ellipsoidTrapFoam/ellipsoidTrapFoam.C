@@ -208,6 +208,12 @@ int main(int argc, char *argv[])
 
     #include "createTime.H"
 
+    // Not that of the last time step of another solver
+    if (runTime.isAdjustTimeStep())
+    {
+        runTime.setDeltaT(runTime.controlDict().get<scalar>("deltaT"), false);
+    }
+
     if (dryRun && !start.empty())
     {
         runTime.setTime(readScalar(start), 0);

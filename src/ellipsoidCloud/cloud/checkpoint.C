@@ -133,7 +133,8 @@ namespace Foam
                     << "the cells of this time are in the directory "
                     << other.name() << ", which by timeFormat and timePrecision"
                     << " of controlDict is now " << time.timeName() << nl
-                    << "    Put these entries back, or rename the directory"
+                    << "    Put these entries back, or raise timePrecision, as"
+                    << " OpenFOAM did in the run; or rename the directory"
                     << exit(FatalError);
             }
         }

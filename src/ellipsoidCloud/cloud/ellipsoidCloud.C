@@ -347,6 +347,7 @@ Foam::ellipsoidCloud::~ellipsoidCloud() = default;
 
 void Foam::ellipsoidCloud::setFlow(const solverFields& flow, const bool asItIs)
 {
+    start_ = time_;
     undecomposed_->gather(flow);
 
     const inletFlux through(flow.U, flow.phi);
@@ -362,6 +363,10 @@ void Foam::ellipsoidCloud::setFlow(const solverFields& flow, const bool asItIs)
 
     reportFlow(through);
 
+    if (flowType_ == OWN)
+    {
+        noteFlow();
+    }
     if (flowType_ != UNSTEADY)
     {
         reportApertures(through.inflow);

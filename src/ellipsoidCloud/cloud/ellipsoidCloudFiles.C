@@ -9,12 +9,14 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "ellipsoidCloud.H"
+#include "caseFiles.H"
 #include "cellPoses.H"
 #include "masterGate.H"
 #include "atomicWrite.H"
 #include "fvMesh.H"
 #include "OSspecific.H"
 #include "StringStream.H"
+#include "surfaceFields.H"
 
 #include <cmath>
 
@@ -65,6 +67,22 @@ void Foam::ellipsoidCloud::makeTables()
         (
             new occupancy(blocking_, criterion_, set, earlier_.notes())
         );
+    }
+}
+
+
+void Foam::ellipsoidCloud::noteFlow()
+{
+    flowTime_ = caseFiles::flowInstance(mesh_);
+
+    const string then(earlier_.notes().getOrDefault("flow", flowTime_));
+    if (then != flowTime_)
+    {
+        Warning
+            << "The flow is that of " << flowTime_.c_str() << ", and cells went"
+            << " through that of " << then.c_str() << " so far. To go on in"
+            << " it, move U, p and phi of " << flowTime_.c_str() << " elsewhere"
+            << nl << endl;
     }
 }
 
@@ -151,11 +169,10 @@ void Foam::ellipsoidCloud::report()
         return;
     }
 
-    const scalar start = mesh_.time().startTime().value();
     const scalar end = mesh_.time().endTime().value();
     // The last time step of another solver may end after endTime
     const scalar left =
-        trackingTime_*max(end - time_, scalar(0))/max(time_ - start, VSMALL);
+        trackingTime_*max(end - time_, scalar(0))/max(time_ - start_, VSMALL);
 
     Info<< "t = " << mesh_.time().timeName() << " s, ";
     statistics_->report(Info);
@@ -236,6 +253,7 @@ void Foam::ellipsoidCloud::writeTime()
     notes.add("time", time_);
     notes.add("deltaT", time.deltaTValue());
     notes.add("folder", string(firstTime_));
+    notes.add("flow", flowTime_);
     notes.add("mesh", meshText_);
     notes.add("shape", population_.text());
     notes.add("plan", plan_);

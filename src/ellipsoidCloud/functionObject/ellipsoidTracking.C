@@ -234,7 +234,6 @@ Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
 {
     const trackingScope scope;
 
-    read(dict);
     caseFiles::checkMesh(runTime, true);
 
     // One of the same name takes the place of that which was
@@ -250,6 +249,7 @@ Foam::functionObjects::ellipsoidTracking::ellipsoidTracking
         return;
     }
     first = this;
+    read(dict);
     if (outputPrefix == "postProcessing-dry-run")
     {
         checkDryRun();
@@ -280,6 +280,15 @@ Foam::functionObjects::ellipsoidTracking::~ellipsoidTracking()
     if (first == this)
     {
         first = nullptr;
+    }
+    if (!idle_)
+    {
+        Warning
+            << type() << ' ' << name() << " was not called at the end of the"
+            << " run: " << (steady_ ? "no cell was tracked" : "the tables lack"
+            " their end") << nl << "    OpenFOAM calls an object that executes"
+            << " or writes in the last time step: correct executeControl,"
+            << " executeInterval, timeStart or timeEnd" << nl << endl;
     }
 }
 
@@ -362,6 +371,7 @@ bool Foam::functionObjects::ellipsoidTracking::end()
     }
     const trackingScope scope;
 
+    idle_ = true;
     if (steady_)
     {
         trackThroughEnd();
@@ -372,7 +382,6 @@ bool Foam::functionObjects::ellipsoidTracking::end()
 
         // A solver's mesh is gone before its function objects are
         cells_.clear();
-        idle_ = true;
     }
 
     return true;
