@@ -278,7 +278,5 @@ bool Foam::meshFlow::reach
         }
     }
 
-    const locationType location = walk(x, at, c);
-
-    return location == pInside || location == pBeyondOpen;
+    return walk(x, at, c) != pBeyondWall;
 }

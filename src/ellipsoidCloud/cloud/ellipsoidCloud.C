@@ -43,13 +43,12 @@ namespace Foam
         Info<< "ellipsoidCloud: cell " << cell.state.id << " is lost at t = "
             << set.timeText(cell.state.time, 6).c_str() << " s, "
             << cell.state.centre() << " m: "
-            << ellipsoid_status_text(ellipsoid_status(cell.status));
-
-        if (cell.refused == meshFlow::pBeyondCoupled)
-        {
-            Info<< " at a cyclic or symmetry patch, which it must not reach";
-        }
-        Info<< endl;
+            << (
+                   cell.refused == meshFlow::pBeyondCoupled
+                 ? "at a cyclic or symmetry patch, which it must not reach"
+                 : ellipsoid_status_text(ellipsoid_status(cell.status))
+               )
+            << endl;
     }
 }
 

@@ -122,13 +122,18 @@ struct Foam::groupAdvance::member
             std::copy_n(contact.cell_id, cell.nCells, cell.cells);
         }
 
-        //- A cell that passed an open patch is stopped there, one that is
-        //  elsewhere outside is lost
+        //- A cell that passed a patch is stopped there; all but those that
+        //  passed an open one are lost
         void remove(const ellipsoid_status status)
         {
-            if (location == meshFlow::pBeyondOpen)
+            const bool escaped = location == meshFlow::pBeyondOpen;
+
+            if (escaped || location == meshFlow::pBeyondCoupled)
             {
                 stopAtPatch();
+            }
+            if (escaped)
+            {
                 cell.state.fate = cellState::escaped;
             }
             else
@@ -136,11 +141,11 @@ struct Foam::groupAdvance::member
                 cell.state.patch = -1;
                 cell.state.fate = cellState::lost;
                 cell.status = status;
-                cell.refused = here.refused;
+                cell.refused = location;
             }
         }
 
-        //- Put a cell where its last step passed an open patch
+        //- Put a cell where its last step passed a patch
         void stopAtPatch()
         {
             // Bisection: inside at the start of the step, beyond at its end
