@@ -28,7 +28,7 @@ def text_of(file, above=()):
     if os.path.realpath(file) in above:
         raise ValueError(f"{file} includes itself")
     try:
-        with open(file, encoding="utf-8", errors="replace") as source:
+        with open(file, encoding="utf-8-sig", errors="replace") as source:
             text = HEADER.sub(" ", without_comments(source.read()))
     except OSError as error:
         raise ValueError(f"cannot read {file}: {error.strerror}") from None

@@ -13,6 +13,7 @@ FILE = f"{FRAGMENTS}/plan.png"
 MARK = "Written by makeGeometry"
 COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
 FLUID, RED = "#E3F0F8", "#C00000"
+STYLES = ("-", (0, (4, 1)), (0, (1, 1)))
 MOST_PLACES = 200
 
 
@@ -26,7 +27,7 @@ def is_ours():
 
 
 def draw_plan(axes, plan):
-    """The fluid, and the edges of every patch in a colour of its own."""
+    """The fluid, and the edges of every patch: in a colour and style of its own, or with its name if there are too many."""
     from matplotlib.collections import LineCollection
 
     for ring in plan:
@@ -35,10 +36,14 @@ def draw_plan(axes, plan):
     for ring in plan:
         for edge in rings.edges(ring):
             lines.setdefault(ring.patches[edge.index], []).append((edge.start, edge.end))
+    many = len(lines) > len(COLOURS)*len(STYLES)
     for i, (name, some) in enumerate(lines.items()):
-        style = ("-", (0, (4, 1)), (0, (1, 1)))[i//len(COLOURS) % 3]
-        axes.add_collection(LineCollection(some, colors=COLOURS[i % len(COLOURS)], linewidths=1.5, linestyles=[style],
-                                           label=name, zorder=2))
+        colour, style = COLOURS[i % len(COLOURS)], STYLES[i//len(COLOURS) % len(STYLES)]
+        axes.add_collection(LineCollection(some, colors=colour, linewidths=0.5 if many else 1.5, zorder=2,
+                                           linestyles=[style], label=None if many else name))
+        if many:
+            x, y = zip(*(point for edge in some for point in edge))
+            axes.text((min(x) + max(x))/2, max(y), name, size=4, horizontalalignment="center", verticalalignment="bottom")
 
 
 def draw(lines, plan, places):
@@ -65,9 +70,9 @@ def draw(lines, plan, places):
     axes.margins(0.05)
     axes.set_xlabel("x [µm]")
     axes.set_ylabel("y [µm]")
-    if plan or places:
+    if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="upper left", bbox_to_anchor=(1, 1), frameon=False)
     os.makedirs(FRAGMENTS, exist_ok=True)
-    figure.savefig(FILE, dpi=120, metadata={"Description": MARK, "Software": None})
+    figure.savefig(FILE, dpi=240, metadata={"Description": MARK, "Software": None})
     plt.close(figure)
     return f"; see {FILE}"

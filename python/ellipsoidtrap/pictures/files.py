@@ -19,7 +19,7 @@ from ..geometry.foamDictionary import spelled, without_comments  # noqa: F401  (
 def read_text(file):
     """The text of a file, gzipped or not."""
     try:
-        with (gzip.open if file.endswith(".gz") else open)(file, "rt", encoding="utf-8", errors="replace") as f:
+        with (gzip.open if file.endswith(".gz") else open)(file, "rt", encoding="utf-8-sig", errors="replace") as f:
             return f.read()
     except OSError as error:
         raise CaseError(f"{file}: {error.strerror or error}") from None
@@ -66,7 +66,7 @@ def read_csv(file, types):
     """The named columns of a CSV file with a header, as a structured array."""
     if not os.path.isfile(file):
         raise CaseError(f"{file}: not there")
-    with open(file, newline="", encoding="utf-8", errors="replace") as f:
+    with open(file, newline="", encoding="utf-8-sig", errors="replace") as f:
         table = csv.reader(f)
         header = next(table, [])
         missing = [name for name, _ in types if name not in header]
@@ -102,26 +102,32 @@ def read_measured(file, names, words=()):
         with open(file, newline="", encoding="utf-8-sig") as f:
             table = csv.DictReader(f, skipinitialspace=True)
             table.fieldnames = [name.strip() for name in table.fieldnames or ()]
-            rows = list(table)
+            # Spreadsheets write rows of separators alone
+            rows = [(table.line_num, row) for row in table if any(str(word or "").strip() for word in row.values())]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise CaseError(f"{file}: {getattr(error, 'strerror', None) or error}") from None
+    if ";" in (table.fieldnames + [""])[0]:
+        raise CaseError(f"{file}: line 1: {table.fieldnames[0]}: allowed: commas between columns, a point in numbers")
     if not rows:
         raise CaseError(f"{file}: no rows below a header")
+    for line, row in rows:
+        if any(map(str.strip, row.get(None, ()))):
+            raise CaseError(f"{file}: line {line}: more fields than the {len(table.fieldnames)} of the header")
     columns = {}
     for name in names:
-        if name not in rows[0]:
+        if name not in table.fieldnames:
             continue
         if name in words:
-            columns[name] = [(row[name] or "").strip() for row in rows]
+            columns[name] = [(row[name] or "").strip() for _, row in rows]
             continue
         columns[name] = np.full(len(rows), np.nan)
-        for i, row in enumerate(rows):
+        for i, (line, row) in enumerate(rows):
             word = (row[name] or "").strip()
             try:
                 if word:
                     columns[name][i] = finite(word)
             except ValueError:
-                raise CaseError(f"{file}: line {i + 2}: {name} is no number: {word}") from None
+                raise CaseError(f"{file}: line {line}: {name} is no number: {word}") from None
     return columns
 
 

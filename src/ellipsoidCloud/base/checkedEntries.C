@@ -57,6 +57,30 @@ static string complaintOf(const std::function<void()>& act)
     return complaint;
 }
 
+
+//- End the run at a comma in a number: a field is read up to it, without a word
+static void refuseCommas(const dictionary& dict)
+{
+    for (const entry& e : dict)
+    {
+        if (e.isDict())
+        {
+            refuseCommas(e.dict());
+            continue;
+        }
+        for (const token& part : e.stream())
+        {
+            if (part == token::COMMA)
+            {
+                FatalErrorInFunction
+                    << "line " << e.startLineNumber() << ": " << e.keyword()
+                    << " has a comma in a number" << nl
+                    << "    allowed: a point, as in 1.5" << exit(FatalError);
+            }
+        }
+    }
+}
+
 } // End namespace Foam
 
 
@@ -134,7 +158,7 @@ void Foam::checkPatterns(const std::string& text, const fileName& file)
     (
         complaintOf
         (
-            [&] { dictionaryOf(text, file); }
+            [&] { refuseCommas(dictionaryOf(text, file)); }
         )
     );
     throwErrors(FatalIOError, throwing);

@@ -100,8 +100,9 @@ namespace Foam
         {
             for (std::size_t i = 0; i < lines.size(); ++i)
             {
-                // Kept for the numbers of the lines after it
-                if (stringOps::trim(lines[i]).empty())
+                // Kept for the numbers of the lines after it; as spreadsheets
+                // write it, too
+                if (lines[i].find_first_not_of(", \t") == std::string::npos)
                 {
                     continue;
                 }

@@ -401,11 +401,17 @@ Foam::word Foam::caseFiles::flowInstance(const fvMesh& mesh)
     // decomposePar has read those of a rank
     for (const IOobject& field : {U, p})
     {
-        const std::string text(textOf(field.objectPath()));
+        std::string text(textOf(field.objectPath()));
         const std::size_t patches = text.find("boundaryField");
         if (!Pstream::parRun() && patches != std::string::npos)
         {
-            checkPatterns(text.substr(patches), field.objectPath());
+            // Lines keep their numbers
+            const auto end = text.begin() + patches;
+            text.replace
+            (
+                0, patches, std::string(std::count(text.begin(), end, '\n'), '\n')
+            );
+            checkPatterns(text, field.objectPath());
         }
     }
 
