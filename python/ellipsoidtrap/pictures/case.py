@@ -232,9 +232,10 @@ class Case:
 
     @cached_property
     def end_time(self):
-        """The time that the run has reached."""
+        """The time that the run has reached, which may be later than what was written last."""
         last = [value for value, _ in self.times()[-1:]]
-        return max(last + [self.events["t"].max(initial=0)])
+        tracks = self.tracks if os.path.isfile(os.path.join(self.results, "tracks.csv")) else {}
+        return max(last + [self.events["t"].max(initial=0)] + [track.t[-1] for track in tracks.values()])
 
     # -- cells ---------------------------------------------------------------
 

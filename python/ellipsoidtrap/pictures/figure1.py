@@ -97,6 +97,31 @@ def holdings_against(case, folder):
     return holdings(other)
 
 
+def draw_steps(ax, held, most, marks):
+    """The cells that a sieve holds against time."""
+    ax.fill_between(*held, step="post", color=style.SKY, alpha=0.6, linewidth=0)
+    marks["cells held"], = ax.step(*held, where="post", color=style.BLUE)
+    ax.set_ylim(0, 1.2 * most)
+    ax.yaxis.set_major_locator(MaxNLocator(3, integer=True))
+    ax.grid(True)
+
+
+def draw_bars(side, held, thirds, most):
+    """The cells that a sieve holds after each third of the loading."""
+    counts = [number_at(held, t) for t in thirds]
+    bars = side.barh(
+        range(3), counts, height=0.75, color=("0.85", style.SKY, style.BLUE),
+        edgecolor="black", linewidth=0.6,
+    )
+    side.bar_label(bars, [f"{n} at {t:.4g} s" for n, t in zip(counts, thirds)],
+                   padding=2, fontsize=7)
+    side.set_xlim(0, 1.9 * most)
+    side.set_yticks([])
+    side.invert_yaxis()
+    side.xaxis.set_major_locator(MaxNLocator(3, integer=True))
+    side.spines[["top", "right"]].set_visible(False)
+
+
 def draw(case, measured=None, against=None):
     """The figure."""
     if not case.sieves:
@@ -108,8 +133,9 @@ def draw(case, measured=None, against=None):
     most = max(1, max(numbers.max() for _, numbers in (*held.values(), *other.values())))
     thirds = [case.loading * k / 3 for k in (1, 2, 3)]
 
+    shown, others = style.with_room({name: (name in seen, numbers.max()) for name, (_, numbers) in held.items()})
     figure, rows = plt.subplots(
-        len(held), 2, figsize=(7.4, 1.5 + 0.65 * len(held)), sharex="col", squeeze=False,
+        len(shown), 2, figsize=(7.4, 1.5 + 0.65 * len(shown)), sharex="col", squeeze=False,
         width_ratios=(4, 1.5), layout="constrained",
     )
     marks = {}
@@ -118,9 +144,9 @@ def draw(case, measured=None, against=None):
         table[0].append(whose)
     if other:
         table[0].append(f"{against} at the end")
-    for (name, (times, numbers)), (ax, side) in zip(held.items(), rows):
-        ax.fill_between(times, numbers, step="post", color=style.SKY, alpha=0.6, linewidth=0)
-        marks["cells held"], = ax.step(times, numbers, where="post", color=style.BLUE)
+    for name, (ax, side) in zip(shown, rows):
+        ax.set_ylabel(name, rotation=0, ha="right", va="center", fontweight="bold")
+        draw_steps(ax, held[name], most, marks)
         if other:
             marks[f"in {against}"], = ax.step(
                 *other[name], where="post", color=style.VERMILLION, linestyle="--", linewidth=1
@@ -136,24 +162,9 @@ def draw(case, measured=None, against=None):
                 **style.MEASURED,
             )
         ax.set_xlim(0, max(case.end_time, thirds[-1]))
-        ax.set_ylim(0, 1.2 * most)
-        ax.yaxis.set_major_locator(MaxNLocator(3, integer=True))
-        ax.set_ylabel(name, rotation=0, ha="right", va="center", fontweight="bold")
-        ax.grid(True)
-
-        counts = [number_at(held[name], t) for t in thirds]
-        bars = side.barh(
-            range(3), counts, height=0.75, color=("0.85", style.SKY, style.BLUE),
-            edgecolor="black", linewidth=0.6,
-        )
-        side.bar_label(bars, [f"{n} at {t:g} s" for n, t in zip(counts, thirds)],
-                       padding=2, fontsize=7)
-        side.set_xlim(0, 1.9 * most)
-        side.set_yticks([])
-        side.invert_yaxis()
-        side.xaxis.set_major_locator(MaxNLocator(3, integer=True))
-        side.spines[["top", "right"]].set_visible(False)
-        row = [name, *counts, int(numbers[-1])]
+        draw_bars(side, held[name], thirds, most)
+    for name, (_, numbers) in held.items():
+        row = [name, *(number_at(held[name], t) for t in thirds), int(numbers[-1])]
         if seen:
             row.append("; ".join(
                 f"{in_words(low, high)} by {t:g} s" for t, low, high in seen.get(name, ())
@@ -180,5 +191,5 @@ def draw(case, measured=None, against=None):
     style.describe(figure, f"""Cells held by each sieve{design} against time, and how many after
         one, two and three thirds of the loading of {case.loading:g} s; the dashed line is when
         the last cell entered. {sums[-1]} of {injected} cells are held at {case.end_time:g} s.
-        {told}""", drawn(held, other, seen), table)
+        {others} {told}""", drawn(held, other, seen), table)
     return figure

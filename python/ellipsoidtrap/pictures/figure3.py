@@ -6,6 +6,7 @@ with its velocity and angular velocity; the paper's Figure 3. --cell is as in fi
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.collections import LineCollection
 from matplotlib.patches import Rectangle
 
 from . import account
@@ -81,7 +82,7 @@ def numbered(symbol):
     return [f"${symbol}_{i}$" for i in (1, 2, 3)]
 
 
-def draw_frames(ax, semi_axes, scale):
+def draw_frames(ax, semi_axes, scale, along):
     """Lab, motion and body frame."""
     bare(ax, (-3.2, 8.4), (-2.4, 6.4), "A  frames: lab, motion and body")
     q, centre = poses.quaternion_from_euler(*POSE), np.array((-4.2, 2.6, 3.0))
@@ -91,7 +92,8 @@ def draw_frames(ax, semi_axes, scale):
     triad(ax, centre, poses.rotation(q), numbered(r"\hat{x}"), BODY, 2.9)
     arrow(ax, np.zeros(3), centre, "", style.VERMILLION)
     ax.annotate("x", flat(0.5 * centre)[0] + (0.1, -0.6), color=style.VERMILLION)
-    ax.annotate("flow along $x_2$; motion frame: parallel to the lab's,\n"
+    flow = "" if along is None else f"flow along $x_{along + 1}$; "
+    ax.annotate(f"{flow}motion frame: parallel to the lab's,\n"
                 "moves with the cell; O is the unit vector of $\\hat{x}_2$",
                 (0, 0), xycoords="axes fraction", fontsize=7.5, va="top")
 
@@ -246,10 +248,9 @@ def draw_sequence(ax, case, cell, scale):
          f"D  cell {cell} at discrete times (ms since injection)")
     for name, lines in case.plane.outlines.items():
         if case.patches[name] == "wall" and not apart:
-            ends = np.dstack((lines, np.full(lines.shape[:2], height))) @ view.T
-            for part in ends:
-                ax.plot(part[:, 0], part[:, 1], color="black", linewidth=1.4, zorder=0)
-                taken += list(part[0, :2] + WAY * (part[1, :2] - part[0, :2]))
+            ends = (np.dstack((lines, np.full(lines.shape[:2], height))) @ view.T)[:, :, :2]
+            ax.add_collection(LineCollection(ends, colors="black", linewidths=1.4, capstyle="projecting", zorder=0))
+            taken += list((ends[:, :1] + WAY * np.diff(ends, axis=1)).reshape(-1, 2))
     bodies.show(ax, [
         bodies.Body(x, q, semi_axes, AHEAD, BEHIND) for x, q in zip(shown.x, shown.q)
     ], view, scale, zorder=1)
@@ -291,7 +292,7 @@ def draw(case, cell=None):
     figure.set_constrained_layout_pads(h_pad=0.12, w_pad=0.05)
     panels = figure.subplot_mosaic("AB;CD", height_ratios=(1, 1.05))
     cell_axes = np.array((0.5, 2, 0.5)) * 0.9
-    draw_frames(panels["A"], cell_axes, 60)
+    draw_frames(panels["A"], cell_axes, 60, case.plane.flow_axis)
     draw_angles(panels["B"])
     draw_surface(panels["C"], case, 200)
     draw_sequence(panels["D"], case, cell, 30)

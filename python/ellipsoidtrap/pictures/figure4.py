@@ -71,7 +71,7 @@ def draw(case, designs=()):
     if not all(one.tracks for one in cases):
         raise NotApplicable("no cell has been injected")
 
-    figure, axes = plt.subplots(2, 1, figsize=(7, 6), sharex=True, layout="constrained")
+    figure, axes = plt.subplots(2, 1, figsize=(max(7, 0.35 * len(names)), 6), sharex=True, layout="constrained")
     labels = [one.design or one.folder.rsplit("/", 1)[-1] for one in cases]
     rows = []
     table = [["held of reached"] + labels] + [[name] for name in [*names, "all, of injected"]]

@@ -49,27 +49,33 @@ def draw(case):
     if not names:
         raise NotApplicable("occupancy names no apertures")
 
+    shown, others = style.with_room({name: rows["cells"][rows["sieve"] == name].max() for name in names})
     figure, axes = plt.subplots(
-        len(names), 1, figsize=(6.4, 1.3 + 0.8 * len(names)), sharex=True, sharey=True,
+        len(shown), 1, figsize=(6.4, 1.3 + 0.8 * len(shown)), sharex=True, sharey=True,
         squeeze=False, layout="constrained",
     )
     top = 108 * rows["share"].max()
     marks, drawn = {}, []
     table = [["sieve", "share at the start", "at the end", "cells"]]
-    for name, ax in zip(names, axes[:, 0]):
+    panels = dict(zip(shown, axes[:, 0]))
+    for name in names:
         own = rows[rows["sieve"] == name]
         times = np.append(own["t"], max(case.end_time, own["t"][-1]))
         share = 100 * np.append(own["share"], own["share"][-1])
+        events = changes(case, name)
+        drawn += [(name, event, t, "") for event, times_of in events.items() for t in times_of]
+        drawn += [(name, "share", float(t), float(one)) for t, one in zip(times, share)]
+        table.append([name, f"{share[0]:.3g} %", f"{share[-1]:.3g} %", int(own["cells"][-1])])
+        if name not in panels:
+            continue
+        ax = panels[name]
         marks["share of the flow"], = ax.step(times, share, where="post", color=style.BLUE)
         ax.fill_between(times, share, step="post", color=style.SKY, alpha=0.4, linewidth=0)
-        for event, times_of in changes(case, name).items():
-            drawn += [(name, event, t, "") for t in times_of]
+        for event, times_of in events.items():
             if times_of:
                 # The share from then on
                 after = np.searchsorted(own["t"], times_of, side="right") - 1
                 marks[f"cell {event}"], = ax.plot(times_of, share[after], **EVENT_MARKS[event])
-        drawn += [(name, "share", float(t), float(one)) for t, one in zip(times, share)]
-        table.append([name, f"{share[0]:.3g} %", f"{share[-1]:.3g} %", int(own["cells"][-1])])
         ax.set_ylabel(name, rotation=0, ha="right", va="center", fontweight="bold")
         ax.set_ylim(0, top)
         ax.grid(True)
@@ -79,7 +85,7 @@ def draw(case):
     for label, mark in marks.items():
         mark.set_label(label)
     style.legend_below(axes[-1, 0], list(marks.values()))
-    style.describe(figure, """Share of the flow into the device that passes each sieve against
+    style.describe(figure, f"""Share of the flow into the device that passes each sieve against
         time, as the flow is solved again with the cells that are held; triangles: a cell is
-        caught, or let go.""", (("sieve", "what", "t [s]", "share [%]"), drawn), table)
+        caught, or let go. {others}""", (("sieve", "what", "t [s]", "share [%]"), drawn), table)
     return figure

@@ -74,6 +74,13 @@ class Plane:
         cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
         return 0.5 * np.abs(np.add.reduceat(cross, self.offsets[:-1]))
 
+    @property
+    def flow_axis(self):
+        """The axis of the plan along which most of the fluid flows, 0 or 1, if any."""
+        mean = np.abs(self.areas @ self.velocity[:, :2]) / self.areas.sum()
+        along = int(np.argmax(mean))
+        return None if mean[along] < 0.1 * np.linalg.norm(self.velocity, axis=1).max() else along
+
     @cached_property
     def point_velocity(self):
         """Velocity at every corner, the mean of the polygons about it."""

@@ -104,6 +104,20 @@ def bounded(share, low, high):
     return f"{share:.4f} ({low:.4f}-{high:.4f})"
 
 
+def draw_panel(ax, marks, share, limits, alone, confidence):
+    """What is known of one sieve, for every N."""
+    ax.vlines(marks, *limits[marks - 1].T, color="0.75", linewidth=1.2, label=f"{100 * confidence:g} % interval")
+    ax.plot(marks, share[marks - 1], label="P(exactly one)", **POINTS, color="black")
+    # No peak is missed between the marks
+    ax.plot(np.arange(1, len(share) + 1), share, color="black", linewidth=0.6)
+    if len(share) > MARKS:
+        ax.set_xscale("log")
+    if alone is not None:
+        ax.plot(marks, alone[marks - 1], label="N independent cells", **POINTS, color=style.VERMILLION,
+                markerfacecolor="none")
+    ax.grid(True)
+
+
 def draw(case, members=(), cells=None, precision=0.05, confidence=0.95):
     """The figure."""
     cases = [Case(folder) for folder in members] or [case]
@@ -127,16 +141,18 @@ def draw(case, members=(), cells=None, precision=0.05, confidence=0.95):
         "cells for p", "runs for P",
     ]]
     drawn, marks = [], whole_numbers(fewest)
-    columns = min(len(sieves), 4)
-    rows = -(-len(sieves) // columns)
+    counts = {name: sum(int(np.sum(run == name)) for run in runs) for name in sieves}
+    shown, others = style.with_room(counts)
+    columns = min(len(shown), 4)
+    rows = -(-len(shown) // columns)
     figure, grid = plt.subplots(
         rows, columns, figsize=(1.2 + 2.1 * columns, 0.9 + 1.9 * rows), sharex=True,
         sharey=True, squeeze=False, layout="constrained",
     )
-    for ax in grid.flat[len(sieves):]:
+    for ax in grid.flat[len(shown):]:
         ax.set_visible(False)
-    for name, ax in zip(sieves, grid.flat):
-        held = sum(int(np.sum(run == name)) for run in runs)
+    panels = dict(zip(shown, grid.flat))
+    for name, held in counts.items():
         wide = spread(case, runs, name) if members else cases[0].dispersion
         p, ends = held / injected, wilson(held, injected, confidence, wide)
         if members:
@@ -146,23 +162,13 @@ def draw(case, members=(), cells=None, precision=0.05, confidence=0.95):
         else:
             share = exactly_one(p, numbers)
             limits = np.array([exactly_one_within(*ends, n) for n in numbers])
-        shown = marks - 1
-        ax.vlines(marks, *limits[shown].T, color="0.75", linewidth=1.2,
-                  label=f"{100 * confidence:g} % interval")
-        ax.plot(marks, share[shown], label="P(exactly one)", **POINTS, color="black")
-        # No peak is missed between the marks
-        ax.plot(numbers, share, color="black", linewidth=0.6)
-        if fewest > MARKS:
-            ax.set_xscale("log")
         alone = exactly_one(p, numbers)
-        if members:
-            ax.plot(marks, alone[shown], label="N independent cells", **POINTS, color=style.VERMILLION,
-                    markerfacecolor="none")
+        if name in panels:
+            panels[name].set_title(name)
+            draw_panel(panels[name], marks, share, limits, alone if members else None, confidence)
         drawn += [
             (name, int(n), *map(float, (share[n - 1], *limits[n - 1], alone[n - 1]))) for n in numbers
         ]
-        ax.set_title(name)
-        ax.grid(True)
         at = cells - 1
         table.append([
             name, f"{held}/{injected}", bounded(p, *ends), bounded(share[at], *limits[at]),
@@ -176,7 +182,7 @@ def draw(case, members=(), cells=None, precision=0.05, confidence=0.95):
                   bbox_to_anchor=(0.5, 0))
     columns = ("sieve", "N", "P(exactly one)", "low", "high", "of N independent cells")
     style.describe(
-        figure, caption(cases, members, precision, confidence), (columns, drawn), table
+        figure, f"{caption(cases, members, precision, confidence)} {others}", (columns, drawn), table
     )
     return figure
 

@@ -190,21 +190,13 @@ PLAN = {
 }
 
 
-def direction(case):
-    """Along which axis of the plan most of the fluid flows, if any."""
-    plane = case.plane
-    mean = np.abs(plane.areas @ plane.velocity[:, :2]) / plane.areas.sum()
-    along = int(np.argmax(mean))
-    if mean[along] < 0.1 * np.linalg.norm(plane.velocity, axis=1).max():
-        return ""
-    return f", flow along {'xy'[along]}"
-
-
 def device(case):
     """The geometry."""
     low, high = case.depth
     (x0, x1), (y0, y1) = case.plane.bounds
-    rows = [("Size", f"{x1 - x0:.4g} x {y1 - y0:.4g} x {high - low:.4g} µm{direction(case)}")]
+    along = case.plane.flow_axis
+    direction = "" if along is None else f", flow along {'xy'[along]}"
+    rows = [("Size", f"{x1 - x0:.4g} x {y1 - y0:.4g} x {high - low:.4g} µm{direction}")]
     if case.chamber:
         given = read_dictionary(case.path("constant", "generated", "chamber"))
         rows += [("chamber: " + key, f"{value} µm") for key, value in given.items()]

@@ -112,12 +112,16 @@ def draw(case):
                 *ends.T, linestyle="none", markerfacecolor=line["color"], **style.LAST_POINT
             )
 
+    # The names of more would hide the flow
+    many = len(case.sieves) > style.MOST_SIEVES
     for name in case.sieves:
+        if many and not case.count("caught", name):
+            continue
         (left, _), (right, top) = case.box(name)
         ax.annotate(
             f"{name}: {case.count('caught', name)}", ((left + right) / 2, top),
             xytext=(0, 3), textcoords="offset points", ha="center", va="bottom",
-            fontsize=8, fontweight="bold", path_effects=style.framed("white", 2),
+            fontsize=4 if many else 8, fontweight="bold", path_effects=style.framed("white", 1 if many else 2),
         )
     keys.append(Patch(facecolor=style.SOLID, edgecolor="black", label="no fluid"))
     # Wider than the plan it would part that from its colour bar
@@ -130,5 +134,5 @@ def draw(case):
     style.describe(figure, f"""Speed of the flow at half depth, and the paths of the cells' centres
         by fate, of those that escaped {SHOWN} at most, and of others no larger a share, but {FEW};
         points mark where cells are that have not left. Numbers beside the sieves are the cells that
-        they hold. {warning}""", rows_of(plane, drawn))
+        they hold{", where they hold any" * many}. {warning}""", rows_of(plane, drawn))
     return figure

@@ -31,6 +31,8 @@ FORMATS = ("png", "pdf", "svg")
 UNDATED = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
 # A side of a picture: matplotlib draws up to 65 536
 MOST_DOTS = 30000
+# For so many sieves a picture has room
+MOST_SIEVES = 20
 # What may lie beside one another under the name of a picture
 SUFFIXES = (*FORMATS, "webp", "mp4", "json", "csv")
 
@@ -89,6 +91,13 @@ plt.rcParams.update({
     "grid.color": "0.88",
     "grid.linewidth": 0.5,
 })
+
+
+def with_room(ranks):
+    """Of a rank of every sieve, the names of those that a picture shows, and words on the others."""
+    highest = sorted(ranks, key=ranks.get, reverse=True)[:MOST_SIEVES]
+    told = f"Of {len(ranks)} sieves, the {MOST_SIEVES} that held most." if len(ranks) > MOST_SIEVES else ""
+    return [name for name in ranks if name in highest], told
 
 
 def plan_axes(ax, xlim, ylim):

@@ -74,10 +74,10 @@ def draw_cells(ax, case, cells, across, colour_of):
 def draw_mouth(ax, case, name, xlim):
     """What a sieve's side view shows besides cells: its upright edges."""
     low, high = case.depth
-    corners = case.plane.outlines.get(name, np.empty(0)).reshape(-1, 2)
-    # Corners of the plan are the ends of long runs of one x
-    xs, counts = np.unique(corners[:, 0].round(2), return_counts=True)
-    ax.vlines(xs[counts > 4], low, high, color="0.75", linewidth=0.6, zorder=0)
+    lines = case.plane.outlines.get(name, np.empty((0, 2, 2)))
+    dx, dy = np.abs(np.diff(lines, axis=1)[:, 0]).T
+    edges = np.unique(lines[dx < 0.05 * dy][:, 0, 0].round(2))
+    ax.vlines(edges, low, high, color="0.75", linewidth=0.6, zorder=0)
     ax.set_aspect("equal")
     ax.set_xlim(xlim)
     ax.set_ylim(low, high)
@@ -104,7 +104,8 @@ def draw(case):
     at_rest = [
         cell for cell, fate in case.fates.items() if fate.name in DASHES and cell in case.tracks
     ]
-    holding = [name for name in case.sieves if case.count("caught", name)]
+    counts = {name: case.count("caught", name) for name in case.sieves}
+    holding, others = style.with_room({name: count for name, count in counts.items() if count})
     if not holding:
         raise NotApplicable("no sieve holds a cell")
 
@@ -136,7 +137,7 @@ def draw(case):
         style.plan_axes(above, xlim, ylim)
         image = style.draw_speed(above, plane, norm=scale, cmap=FLOW_MAP)
         style.draw_outlines(above, case, linewidth=1)
-        number = case.count("caught", name)
+        number = counts[name]
         above.set_title(f"{name}: {number} cell{'s' if number > 1 else ''}")
         above.set_xlabel(None)
         draw_mouth(mouth, case, name, xlim)
@@ -162,8 +163,8 @@ def draw(case):
     ]
     keys.append(Patch(facecolor=style.SOLID, edgecolor="black", label="no fluid"))
     style.legend_below(axes[-1, 0], keys)
-    style.describe(figure, """The cells at rest in the sieves, their true outlines, coloured by the
+    style.describe(figure, f"""The cells at rest in the sieves, their true outlines, coloured by the
         height of their centres: from above over the flow's speed at half depth, whose colours are
-        those of its square root, and below from the mouth of the sieve, along the flow, with the
-        sieve's upright edges in grey.""", rows_of(case, at_rest))
+        those of its square root, and below along y, with the sieve's upright edges in grey.
+        {others}""", rows_of(case, at_rest))
     return figure
