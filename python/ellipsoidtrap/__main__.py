@@ -36,7 +36,7 @@ def main():
     except CaseError as error:
         sys.exit(f"{name}: {error}")
     except OSError as error:
-        sys.exit(f"{name}: {error.filename}: {error.strerror}" if error.filename else f"{name}: {error}")
+        sys.exit(f"{name}: {error.filename or os.getcwd()}: {error.strerror or error}")
     except ModuleNotFoundError as error:
         sys.exit(f"{name}: {sys.executable} has no module {error.name}; what Python needs is at the end of README.md")
 

@@ -82,6 +82,7 @@ plt.rcParams.update({
     "font.size": 9,
     "axes.titlesize": 9,
     "axes.linewidth": 0.7,
+    "axes.formatter.offset_threshold": 3,     # labels of six digits would meet
     "axes.axisbelow": True,
     "xtick.major.width": 0.7,
     "ytick.major.width": 0.7,
