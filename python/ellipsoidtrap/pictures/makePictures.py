@@ -5,8 +5,10 @@
 
 usage: makePictures CASE [--format LIST]          the report and all pictures but captureMap,
                                                   figure4 and probability
-       makePictures CASE PICTURE [OPTION...]      one; --help tells its options
+       makePictures [CASE] PICTURE... [OPTION...] these; --help tells the options of one
        makePictures CASE report                   the report of the pictures that are there
+
+Without CASE, that of the present folder.
 
 PICTURE is one of
     captureMap      where a cell must enter to be caught, by ellipsoidCaptureMap
@@ -80,24 +82,29 @@ def main(words):
     """The command; whether it went well."""
     if not words or words[0].startswith("-"):
         sys.exit(__doc__.strip())
+    names = (*PICTURES, *BY_ITSELF, "report")
+    if words[0] in names and not os.path.isdir(words[0]):
+        words = [".", *words]
     folder, *rest = words
-    options = []
-    if rest and rest[0].startswith("-"):
-        rest, options = [], rest
-    if rest and rest[0] not in (*PICTURES, *BY_ITSELF, "report"):
-        sys.exit(f"makePictures: no picture {rest[0]}; there are "
-                 f"{' '.join(sorted((*PICTURES, *BY_ITSELF)))}")
+    many = next((i for i, word in enumerate(rest) if word.startswith("-")), len(rest))
+    pictures, options = rest[:many], rest[many:]
+    for name in pictures:
+        if name not in names:
+            sys.exit(f"makePictures: no picture {name}; there are "
+                     f"{' '.join(sorted((*PICTURES, *BY_ITSELF)))}")
     try:
         case = case_of(folder)
-        if not rest:
+        if not pictures:
             parser = argparse.ArgumentParser(prog="makePictures CASE")
             style.add_format(parser)
             return make_all(folder, parser.parse_args(options).format)
     except CaseError as error:
-        sys.exit(f"{rest[0] if rest else 'makePictures'}: {error}")
-    if rest == ["report"]:
-        return report.make(case)
-    return style.command(importlib.import_module("." + rest[0], __package__), case, rest[1:])
+        sys.exit(f"{pictures[0] if pictures else 'makePictures'}: {error}")
+    return all([
+        report.make(case) if name == "report"
+        else style.command(importlib.import_module("." + name, __package__), case, options)
+        for name in pictures
+    ])
 
 
 def command(words):
