@@ -12,6 +12,7 @@ nested lists, with checked look-up. What is wrong ends the script with one line.
 import math
 import re
 import sys
+from itertools import zip_longest
 
 from . import foamDictionary
 from .foamDictionary import spelled
@@ -20,8 +21,9 @@ from .foamDictionary import spelled
 def chosen(arguments, usage, names):
     """Options '-name VALUE' of a command line; None where not given."""
     options = dict.fromkeys(names)
-    if len(arguments) % 2 or any(a not in options for a in arguments[::2]):
-        sys.exit(usage)
+    for option, value in zip_longest(arguments[::2], arguments[1::2]):
+        if option not in options or value is None:
+            sys.exit(f"{usage}makeGeometry: {option}: allowed: -quick, -fine, {' NAME, '.join(names)} NAME")
     options.update(zip(arguments[::2], arguments[1::2]))
     return options
 

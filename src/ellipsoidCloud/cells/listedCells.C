@@ -54,10 +54,16 @@ namespace Foam
                 head.push_back(stringOps::lower(stringOps::trim(column)));
             }
             lines.erase(lines.begin());
-            if (lines.empty())
+            if (std::all_of(lines.begin(), lines.end(), isBlank))
             {
                 refuse(1, "no line of a cell follows");
             }
+        }
+
+        //- Does a line have nothing, or, as spreadsheets write it, separators alone?
+        static bool isBlank(const std::string& line)
+        {
+            return line.find_first_not_of(", \t") == std::string::npos;
         }
 
         static fileName path(fileName file, const fileName& caseFolder)
@@ -100,9 +106,8 @@ namespace Foam
         {
             for (std::size_t i = 0; i < lines.size(); ++i)
             {
-                // Kept for the numbers of the lines after it; as spreadsheets
-                // write it, too
-                if (lines[i].find_first_not_of(", \t") == std::string::npos)
+                // Kept for the numbers of the lines after it
+                if (isBlank(lines[i]))
                 {
                     continue;
                 }
