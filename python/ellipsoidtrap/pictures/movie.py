@@ -29,8 +29,8 @@ MARGIN = 9.0        # shown about the sieve, in micrometres
 LONG = 60.0         # of a sieve at most
 WIDEST = 8000       # pixels
 NARROWEST = 760     # of them, so that the keys have room
-LINES = 1080        # of the MP4 at least; the WebP has half as many
-LEFT, RIGHT, BELOW, ABOVE = 116, 156, 232, 64   # pixels about the window
+LINES = 1080        # of the MP4 at least; the WebP beside it has half as many, one alone two thirds
+LEFT, RIGHT, BELOW, ABOVE = 117, 156, 231, 63   # pixels about the window, multiples of three
 STEP = 0.5e-3       # s between frames
 FRAME = 50          # ms that a frame is seen
 LONGEST = 0.1       # s that are shown at most, and
@@ -56,18 +56,38 @@ ENCODE = "ffmpeg -y -loglevel error -f rawvideo -pix_fmt rgb24 -s {}x{} -r {:g} 
     "-crf 18 -pix_fmt yuv420p -movflags +faststart -bitexact"
 
 
-def smaller(frame):
-    """A frame with two thirds of its lines, where there is nothing but a WebP."""
-    return frame.resize((frame.width * 2 // 3, frame.height * 2 // 3), Image.BOX)
+def is_encoded():
+    """Whether there is an MP4, too."""
+    return shutil.which("ffmpeg") is not None
+
+
+class Reel(Image.Image):
+    """Frames as one image, each made when it is written: all of a long device take a gigabyte."""
+
+    def __init__(self, frames, number):
+        super().__init__()
+        self.frames = iter(frames)
+        self.n_frames = number
+        self.show_next()
+
+    def show_next(self):
+        """Become the next frame."""
+        self.__dict__.update(next(self.frames).__dict__)
+
+    def seek(self, frame):
+        """Pillow asks for one after the other, and at the end for the first again, of which it takes nothing."""
+        if frame > 0:
+            self.show_next()
 
 
 class Film:
     """Frames that are saved like a figure."""
 
-    def __init__(self, frames):
-        self.frames = frames   # a function that yields them, as images
+    def __init__(self, frames, number):
+        self.frames = frames   # a function that yields so many, as images
+        self.number = number
         self.halves = None
-        self.suffixes = ("mp4", "webp") if shutil.which("ffmpeg") else ("webp",)
+        self.suffixes = ("mp4", "webp") if is_encoded() else ("webp",)
         if len(self.suffixes) == 1:
             print("movie: no MP4, as ffmpeg is not installed")
 
@@ -76,11 +96,8 @@ class Film:
         if file.endswith(".mp4"):
             self.encode(file)
             return
-        first, *others = self.halves or [smaller(frame) for frame in self.frames()]
-        first.save(
-            file, save_all=True, append_images=others, duration=FRAME, loop=0,
-            quality=QUALITY, method=1,
-        )
+        reel = Reel(self.halves or self.frames(), self.number)
+        reel.save(file, save_all=True, duration=FRAME, loop=0, quality=QUALITY, method=1)
 
     def encode(self, file):
         """The MP4; keeps the frames of the WebP, which have half as many lines."""
@@ -155,12 +172,13 @@ def in_view(case, sieve):
     return middle - half, middle + half
 
 
-def draw_stage(case, sieve, window, scale, caption):
-    """What does not move, as an image, with LEFT and ABOVE pixels before its axes."""
+def draw_stage(case, sieve, window, scale, share, caption):
+    """What does not move, as an image of that share of its pixels each way; scale in pixels of the image."""
     (x0, x1), (y0, y1) = window
-    width, height = (int(round(scale * (high - low))) for low, high in window)
+    width, height = (int(round(scale * (high - low))) / share for low, high in window)
     size = np.array((LEFT + width + RIGHT, BELOW + height + ABOVE))
-    figure = plt.figure(figsize=size / 200, dpi=200)
+    # A little more, as what is cut off must not be a whole pixel
+    figure = plt.figure(figsize=(size + 1e-3) / 200, dpi=200 * share)
     ax = figure.add_axes((
         LEFT / size[0], BELOW / size[1], width / size[0], height / size[1]
     ))
@@ -291,8 +309,11 @@ def film_of(case, sieve, window, times, actors, caption):
     scale = min(-(-(LINES - BELOW - ABOVE + 1) // np.ptp(window[1])), WIDEST / np.ptp(window[0]))
     beside = max(0, NARROWEST / scale - np.ptp(window[0])) / 2
     window = ((window[0][0] - beside, window[0][1] + beside), window[1])
-    stage = draw_stage(case, sieve, window, scale, caption)
-    font = ImageFont.truetype(font_manager.findfont("DejaVu Sans"), 30)
+    share = 1 if is_encoded() else 2/3
+    scale *= share
+    left, above, begin, size = (round(share * pixels) for pixels in (LEFT, ABOVE, 15, 30))
+    stage = draw_stage(case, sieve, window, scale, share, caption)
+    font = ImageFont.truetype(font_manager.findfont("DejaVu Sans"), size)
 
     def frames():
         for i, t in enumerate(times):
@@ -302,15 +323,15 @@ def film_of(case, sieve, window, times, actors, caption):
             ]
             frame = stage.copy()
             for rows, columns, over in bodies.parts(cells, bodies.FROM_ABOVE, *window, scale):
-                rows = slice(ABOVE + rows.start, ABOVE + rows.stop)
-                columns = slice(LEFT + columns.start, LEFT + columns.stop)
+                rows = slice(above + rows.start, above + rows.stop)
+                columns = slice(left + columns.start, left + columns.stop)
                 colour, alpha = over[..., :3], over[..., 3:]
                 frame[rows, columns] = 255 * colour * alpha + stage[rows, columns] * (1 - alpha)
             image = Image.fromarray(frame)
-            ImageDraw.Draw(image).text((LEFT, 16), f"{MILLI * t:5.1f} ms", "black", font)
+            ImageDraw.Draw(image).text((left, begin), f"{MILLI * t:5.1f} ms", "black", font)
             yield image
 
-    film = Film(frames)
+    film = Film(frames, len(times))
     style.describe(
         film, caption + (f" Cells: {', '.join(str(cell) for cell, *_ in actors)}." if sieve else ""),
         rows_of(times, actors)
