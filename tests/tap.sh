@@ -12,11 +12,13 @@
 
 tap_count=0
 tap_failed=0
-tap_folder=$(mktemp -d "${TMPDIR:-/tmp}/ellipsoidTest.XXXXXX") || exit
+tap_folder=
+# Before there is a folder: a signal may come as soon as it is made
 trap 'rm -rf "$tap_folder"' EXIT
+trap 'exit 143' INT TERM HUP
+tap_folder=$(mktemp -d "${TMPDIR:-/tmp}/ellipsoidTest.XXXXXX") || exit
 # shellcheck disable=SC2034
 tap_comma=(env LOCPATH="$tap_folder" LC_ALL=comma)
-trap 'exit 143' INT TERM HUP
 
 tap_ok()     { echo "ok $((++tap_count)) - $1"; }
 tap_skip()   { echo "ok $((++tap_count)) - $1 # SKIP $2"; }
