@@ -76,7 +76,7 @@ set_input()     # FILE SETTING
 try_input()     # FILE SETTING STATUS FRAGMENTS [OPTION...]
 {
     local file=$1 setting=$2 status=$3 fragments=$4 failed=0
-    local before found message text
+    local before found message text lines
     shift 4
 
     set_input "$file" "$setting" || { cat log.set; return 1; }
@@ -97,24 +97,25 @@ try_input()     # FILE SETTING STATUS FRAGMENTS [OPTION...]
     fi
     message=$(tr -s '\n ' '  ' <<< "$message")
     while read -r text; do
-        if [ "$text" = line ]; then text="${file##*/}.* line $(awk 'END { print NR }' "$file")\b"; fi
-        if ! grep -qE -- "$text" <<< "$message"; then echo "not said: $text"; failed=1; fi
+        if [ "$text" = line ]; then mapfile -t lines < "$file" && text="${file##*/}.* line ${#lines[@]}\b"; fi
+        if ! [[ $message =~ $text ]]; then echo "not said: $text"; failed=1; fi
     done <<< "${fragments// ; /$'\n'}"
     return "$failed"
 }
 
 shown()         # FOLDER: verdict of a row
 {
-    cat "$1/log.row"
-    return "$(cat "$1/log.status")"
+    echo "$(< "$1/log.row")"
+    return "$(< "$1/log.status")"
 }
 
 # A table of the standard input
 inputs()        # GOOD_CASE FILE STATUS [OPTION...]
 {
     local good=$1 file=$2 status=$3 name setting fragments folder good_digests
-    local folders=() names=()
+    local folders=() names=() most running=0
     shift 3
+    most=$(nproc)
     good_digests=$(cd "$good" && digests) || return
 
     while IFS='|' read -r name setting fragments; do
@@ -123,7 +124,7 @@ inputs()        # GOOD_CASE FILE STATUS [OPTION...]
         folder=$tap_folder/row.$((tap_count + ${#names[@]}))
         names+=("$name: $setting")
         folders+=("$folder")
-        while [ "$(jobs -rp | wc -l)" -ge "$(nproc)" ]; do wait -n; done
+        if [ "$((running++))" -ge "$most" ]; then wait -n; fi
         (
             cp -r "$good" "$folder" && cd "$folder" || exit
             try_input "$file" "$setting" "$status" "$fragments" "$@" > log.row 2>&1
