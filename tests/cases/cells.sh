@@ -280,6 +280,18 @@ same_tables()   # CASE OTHER [CONDITIONS]
     [ "$differ" -eq 0 ]
 }
 
+# Starts Python with these modules, once for many commands of the package: of a line 'FOLDER COMMAND WORD...' to $ask
+# the exit status comes from $answer, and said.out and said.error are what it wrote
+# shellcheck disable=SC2034
+start_server()  # MODULE...
+{
+    ask='' answer=''
+    coproc server { "${ELLIPSOID_PYTHON:-python3}" "$cases/commandServer.py" "$tap_folder"/said.{out,error} "$@"; }
+    # Those of a coprocess are not there in a subshell
+    exec {ask}>&"${server[1]}" {answer}<&"${server[0]}" || exit
+    eval "exec ${server[1]}>&-"
+}
+
 # Runs Python from the standard input in a case, after checks.py, which is what all checks need
 numbers()       # CASE ARGUMENT...
 (
