@@ -13,8 +13,20 @@ Description
 
 \*---------------------------------------------------------------------------*/
 
-#include "fvCFD.H"
+#include "argList.H"
+#include "columnFvMesh.H"
 #include "coupledStokes.H"
+#include "fvcFlux.H"
+#include "fvcSurfaceIntegrate.H"
+#include "fvmDiv.H"
+#include "fvMesh.H"
+#include "fvmLaplacian.H"
+#include "fvmSup.H"
+#include "surfaceFields.H"
+#include "Time.H"
+#include "volFields.H"
+
+using namespace Foam;
 
 int main(int argc, char *argv[])
 {

@@ -12,11 +12,18 @@ Description
 
 \*---------------------------------------------------------------------------*/
 
-#include "fvCFD.H"
+#include "argList.H"
+#include "columnFvMesh.H"
 #include "flowOfField.H"
+#include "fvMesh.H"
 #include "interpolation.H"
 #include "Random.H"
 #include "StringStream.H"
+#include "surfaceFields.H"
+#include "Time.H"
+#include "volFields.H"
+
+using namespace Foam;
 
 static void print(const char* what, const volVectorField& U)
 {

@@ -11,11 +11,19 @@ Description
 
 \*---------------------------------------------------------------------------*/
 
-#include "fvCFD.H"
+#include "argList.H"
+#include "columnFvMesh.H"
+#include "fixedValueFvPatchFields.H"
+#include "fvMesh.H"
 #include "sigFpe.H"
 #include "steadyCriterion.H"
+#include "surfaceFields.H"
+#include "Time.H"
+#include "volFields.H"
 
 #include <limits>
+
+using namespace Foam;
 
 static void holds(const char* name, const bool does, const string& found)
 {
