@@ -25,6 +25,7 @@ from . import walls
 from .case import MILLI, NotApplicable
 from .files import CaseError
 
+# Lengths and times of a film at a sieve are those of the default cell: size_of() times as much for others
 MARGIN = 9.0        # shown about the sieve, in micrometres
 LONG = 60.0         # of a sieve at most
 WIDEST = 8000       # pixels
@@ -129,14 +130,20 @@ def visit(track, window):
     return track.t[inside[0]], track.t[inside[-1]]
 
 
+def size_of(case):
+    """Length of a cell by the default cell's, 1 for shorter ones."""
+    return max(1.0, case.semi_axes.max() / 2)
+
+
 def cast(case, sieve, window):
     """(cell, when its visit begins and ends) of the cells to show: one caught, and those that pass
     nearest to the sieve."""
     passing, staying = [], []
-    reach = 0.7 * MARGIN
+    size = size_of(case)
+    reach = 0.7 * size * MARGIN
     tracks = {
         cell: track for cell, track in
-        ((cell, track.until(track.t[0] + 1)) for cell, track in case.tracks.items())
+        ((cell, track.until(track.t[0] + size)) for cell, track in case.tracks.items())
         if visit(track, window)
     }
     for cell, track in tracks.items():
@@ -144,7 +151,7 @@ def cast(case, sieve, window):
         begin, end = visit(track, window)
         if fate.name == "escaped":
             near = walls.distance(case, [sieve], track.finer(3).x, within=reach).min()
-            if np.isfinite(near) and end - begin < LONGEST / 2:
+            if np.isfinite(near) and end - begin < size * LONGEST / 2:
                 passing.append((near, cell, begin, end))
         elif fate.name == "caught" and fate.patch == sieve:
             staying.append((fate.t, cell, begin, begin))
@@ -167,7 +174,7 @@ def in_view(case, sieve):
     held = [(one.t, cell) for cell, one in case.fates.items()
             if one.name == "caught" and one.patch == sieve and cell in case.tracks]
     at = case.tracks[min(held)[1]].x[-1, :2] if held else (low + high) / 2
-    half = np.minimum(LONG, high - low) / 2
+    half = np.minimum(size_of(case) * LONG, high - low) / 2
     middle = np.clip(at, low + half, high - half)
     return middle - half, middle + half
 
@@ -208,12 +215,15 @@ def draw_stage(case, sieve, window, scale, share, caption):
 def follow(case, shown):
     """The times of the frames, and of every cell to show: at which it is there, its track at
     them, its semi-axes and colours."""
-    last = max(end - begin + k * APART - BEFORE for k, (_, begin, end) in enumerate(shown))
-    times = np.arange(0, np.clip(last, SHORTEST, LONGEST), STEP)
+    size = size_of(case)
+    # The last one enters in view, however fast all of them pass
+    before = min(BEFORE, (len(shown) - 1) * APART)
+    last = max((end - begin) / size + k * APART - before for k, (_, begin, end) in enumerate(shown))
+    times = size * np.arange(0, np.clip(last, SHORTEST, LONGEST), STEP)
     actors = []
     for k, (cell, begin, _) in enumerate(shown):
         track = case.tracks[cell]
-        clock = begin + BEFORE + times - k * APART
+        clock = begin + size * before + times - k * size * APART
         there = (clock >= track.t[0]) & (clock <= track.t[-1])
         colours = STAYS if case.fates[cell].name == "caught" else PASSES
         actors.append((cell, there, track.at(clock), case.semi_axes_of(cell), colours))
@@ -290,14 +300,15 @@ def draw(case, sieve=None, device=False, begin=None, end=None, frames=None):
         return draw_device(case, begin, end, frames)
     sieve = sieve or busiest(case)
     low, high = in_view(case, sieve)
-    window = tuple(zip(low - MARGIN, high + MARGIN))
+    size = size_of(case)
+    window = tuple(zip(low - size * MARGIN, high + size * MARGIN))
     shown = cast(case, sieve, window)
     if not shown:
         raise NotApplicable(f"no cell comes near {sieve}")
 
     caught = sum(case.fates[cell].name == "caught" for cell, *_ in shown)
     caption = f"""{len(shown) - caught} cells that pass {sieve} and {caught} that it catches, true
-        ellipsoids seen from above, {FRAME / (MILLI * STEP):.0f} times slowed down. Light and dark
+        ellipsoids seen from above, {FRAME / (MILLI * size * STEP):.3g} times slowed down. Light and dark
         halves tell the ends of a cell apart. The cells came at different times of the run and are
         put together; they do not see one another."""
     caption = " ".join(caption.split())

@@ -24,7 +24,7 @@ from . import account
 from . import figure1
 from .case import MILLI, Case, NotApplicable
 from .files import CaseError, read_csv
-from .nearWall import APART, CLOSE, moving_rows
+from .nearWall import APART, CLOSE, moving_rows, unit
 from .report import logged
 from .shares import mcnemar, wilson
 
@@ -131,8 +131,9 @@ def of_model(case):
 def of_tumbling(case):
     """Spin at walls and flips after a sieve's edge."""
     rows = moving_rows(case)
+    close, apart = CLOSE * unit(case), APART * unit(case)
     spin = [np.median(rows.spin[rows.passing & rows.middle & there])
-            for there in (rows.distance < CLOSE, rows.distance > APART)]
+            for there in (rows.distance < close, rows.distance > apart)]
     passed, turns = 0, []
     for cell, sieve in itertools.product(case.tracks, case.sieves):
         near = account.detour(case, cell, sieve)
@@ -148,7 +149,7 @@ def of_tumbling(case):
         exits += [abs(track.axis[out[0], 1])] if len(out) else []
     return [
         ("cells near an obstacle's wall rotate fast",
-         f"within {CLOSE:g} µm {spin[0]:.0f} rad/s, farther than {APART:g} µm {spin[1]:.0f} (medians of those that pass "
+         f"within {close:g} µm {spin[0]:.0f} rad/s, farther than {apart:g} µm {spin[1]:.0f} (medians of those that pass "
          "in the middle third of the depth)", verdict(spin[0] > TWOFOLD * spin[1], spin[0] > (1 + FIFTH) * spin[1])),
         ("cells flip soon after a sieve's edge",
          f"{len(turns)} of {passed} that pass within {account.NEAR:g} µm, within {MILLI * account.AFTER:g} ms",
