@@ -314,7 +314,7 @@ Foam::ellipsoidCloud::ellipsoidCloud(const fvMesh& mesh, const flowType type)
             // The function object has reported it before the solver began
             if (flowType_ != STEADY)
             {
-                reportSize(whole.nCells(), whole.bounds(), population_);
+                reportSize(whole.nCells(), meshedBox(whole), population_);
             }
             reportCapture(images);
 

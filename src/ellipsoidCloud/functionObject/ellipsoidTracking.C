@@ -7,6 +7,7 @@
 #include "checkedEntries.H"
 #include "caseSummary.H"
 #include "cellPopulation.H"
+#include "domainImages.H"
 #include "ellipsoidCloud.H"
 #include "flowChecks.H"
 #include "masterGate.H"
@@ -108,6 +109,8 @@ void Foam::functionObjects::ellipsoidTracking::check(const fvMesh& mesh) const
     const caseProperties properties(mesh);
     const cellPopulation population(properties);
     const label nMeshCells = returnReduce(mesh.nCells(), sumOp<label>());
+    boundBox bounds(meshedBox(mesh));
+    bounds.reduce();
 
     // Whether walls leave listed cells room is known with the flow
     const meshSearch search(mesh);
@@ -127,8 +130,8 @@ void Foam::functionObjects::ellipsoidTracking::check(const fvMesh& mesh) const
                 FatalIOErrorInFunction(e.dict())
                     << "positions of injection " << e.keyword() << ": "
                     << shortText(x) << " lies outside the mesh, which"
-                    << " reaches from " << shortText(mesh.bounds().min())
-                    << " to " << shortText(mesh.bounds().max()) << " m"
+                    << " reaches from " << shortText(bounds.min())
+                    << " to " << shortText(bounds.max()) << " m"
                     << exit(FatalIOError);
             }
         }
@@ -137,7 +140,7 @@ void Foam::functionObjects::ellipsoidTracking::check(const fvMesh& mesh) const
     const masterGate once;
     if (Pstream::master())
     {
-        reportSize(nMeshCells, mesh.bounds(), population);
+        reportSize(nMeshCells, bounds, population);
     }
 }
 

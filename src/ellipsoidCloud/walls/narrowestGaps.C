@@ -239,7 +239,7 @@ static void narrow
     meshLine line{mesh, mesh.cellCentres()[celli], rim.out, celli, -1};
     narrow(images, line, from, GREAT, gap);
 
-    const boundBox& bounds = mesh.bounds();
+    const boundBox bounds(meshedBox(mesh));
     for (const isometry& image : images.near(bounds, bounds.mag()))
     {
         for (const baffleRim& other : others)

@@ -85,7 +85,7 @@ Foam::List<Foam::scalar> Foam::wallFacets::createWalls
 {
     const polyMesh& mesh = undecomposed.mesh();
     const tetDecomposition& decomposition = undecomposed.decomposition();
-    const boundBox box(mesh.points(), false);
+    const boundBox box(meshedBox(mesh));
     const boundBox wide(widened(box, known_ + beyond_));
 
     wallTriangles triangles;
@@ -185,7 +185,7 @@ Foam::wallFacets::wallFacets
     if (Pstream::master())
     {
         made = createWalls(undecomposed, length, images, mirrors);
-        span_ = boundBox(undecomposed.mesh().points(), false);
+        span_ = meshedBox(undecomposed.mesh());
     }
     broadcast(span_);
     memory_.reset(made.size());

@@ -36,7 +36,6 @@ namespace Foam
     //- A plane of symmetry. Ends the run if it is none.
     static domainImages::seam symmetry(const polyPatch& pp)
     {
-        const pointField& points = pp.boundaryMesh().mesh().points();
         vector n(sum(vectorField(pp.faceAreas())));
         n /= max(mag(n), VSMALL);
 
@@ -48,7 +47,7 @@ namespace Foam
         n /= mag(n);
 
         const scalarField heights(pp.localPoints() & n);
-        const scalar size = boundBox(points, false).mag();
+        const scalar size = meshedBox(pp.boundaryMesh().mesh()).mag();
 
         if (max(heights) - min(heights) > offness*size)
         {
@@ -61,7 +60,12 @@ namespace Foam
         }
 
         const scalar height = 0.5*(max(heights) + min(heights));
-        if (max(points & n) - height > offness*size)
+        scalar highest = height;
+        for (const polyPatch& other : pp.boundaryMesh())
+        {
+            highest = max(highest, max(other.localPoints() & n));
+        }
+        if (highest - height > offness*size)
         {
             refuse
             (
@@ -83,8 +87,7 @@ namespace Foam
 
         const vectorField shifts(other.faceCentres() - half.faceCentres());
         vector shift(sum(shifts)/scalar(half.size()));
-        const pointField& points = half.boundaryMesh().mesh().points();
-        const scalar size = boundBox(points, false).mag();
+        const scalar size = meshedBox(half.boundaryMesh().mesh()).mag();
 
         // Halves that lie on one another are a membrane within the device
         if (mag(shift) < offness*size)
@@ -234,4 +237,18 @@ Foam::DynamicList<Foam::isometry> Foam::domainImages::near
     }
 
     return found;
+}
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+Foam::boundBox Foam::meshedBox(const polyMesh& mesh)
+{
+    boundBox box(boundBox::invertedBox);
+    for (const polyPatch& pp : mesh.boundaryMesh())
+    {
+        box.add(pp.localPoints());
+    }
+
+    return box;
 }

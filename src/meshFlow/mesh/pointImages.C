@@ -16,7 +16,7 @@ void Foam::pointImages::findImages
 )
 {
     const pointField& x = mesh.points();
-    const scalar size = boundBox(x, false).mag();
+    const scalar size = meshedBox(mesh).mag();
     Map<DynamicList<isometry>> mirrors;
 
     for (const domainImages::seam& seam : images.seams())
