@@ -34,8 +34,8 @@ static void mobility_at(test_walk *w, double matrix[6][6])
     ellipsoid_planes planes;
     ellipsoid_wall_expansion here;
 
-    assert_ok(ellipsoid_find_planes(&w->model, &w->around, &w->state, w->cache,
-                                    &planes));
+    assert_ok(ellipsoid_find_planes(&w->model, &w->around, &w->state, 0,
+                                    w->cache, &planes));
     ellipsoid_wall_expansion_set(&w->model, &planes, &w->state, &here);
     ellipsoid_wall_matrix(&here, matrix);
     assert_true(ellipsoid_invert6(matrix));

@@ -87,7 +87,7 @@ static double squeezing(const ellipsoid_model *model, const made_walls *m,
     *planes_found = 0;
     ellipsoid_copy(x, state.x);
     ellipsoid_facet_cache_clear(&cache);
-    assert_ok(ellipsoid_find_planes(model, &s, &state, &cache, &planes));
+    assert_ok(ellipsoid_find_planes(model, &s, &state, 0, &cache, &planes));
     for (int p = 0; p < planes.count; p++)
     {
         double action[2][6];

@@ -57,7 +57,7 @@ static void evaluate_plane(scene *s, double gap, double resistance[6][6],
 {
     ellipsoid_plane_effect effect;
 
-    ellipsoid_plane_effect_set(&s->own, s->normal, (double[]){gap, gap},
+    ellipsoid_plane_effect_set(&s->own, s->normal, (double[]){gap, gap}, 0,
                                &effect);
     for (int m = 0; m < 8; m++)
     {
@@ -359,7 +359,7 @@ static void test_change(void **unused)
             ellipsoid_set(normal, normal[0] / length, normal[1] / length,
                           normal[2] / length);
         }
-        ellipsoid_plane_effect_set(&own, normal, gap, &effect);
+        ellipsoid_plane_effect_set(&own, normal, gap, 1, &effect);
         for (int by = 0; by < 4; by++)
         {
             const double step = 1e-4;
@@ -390,7 +390,7 @@ static void test_change(void **unused)
                 {
                     moved[by] += k * step;
                 }
-                ellipsoid_plane_effect_set(&own, moved, farther, &other);
+                ellipsoid_plane_effect_set(&own, moved, farther, 0, &other);
                 action_of(&other, rates, velocity, there);
                 for (int m = 0; m < 12; m++)
                 {

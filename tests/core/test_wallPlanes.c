@@ -104,7 +104,8 @@ static void test_jacobian(void **unused)
         {
             state.x[2] = fabs(state.x[2]);
         }
-        assert_ok(ellipsoid_find_planes(&model, &s, &state, &cache, &planes));
+        assert_ok(
+            ellipsoid_find_planes(&model, &s, &state, 0, &cache, &planes));
         several += planes.count >= 6;
         for (int l = 0; l < 4; l++)
         {

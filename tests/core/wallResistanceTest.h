@@ -58,7 +58,7 @@ static inline ellipsoid_planes planes_at(const ellipsoid_model *model,
     ellipsoid_planes planes;
 
     ellipsoid_facet_cache_clear(&cache);
-    assert_ok(ellipsoid_find_planes(model, &s, state, &cache, &planes));
+    assert_ok(ellipsoid_find_planes(model, &s, state, 0, &cache, &planes));
     return planes;
 }
 

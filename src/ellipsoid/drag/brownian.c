@@ -123,7 +123,8 @@ ellipsoid_status ellipsoid_wall_noise_begin(
     ellipsoid_axes(state->q, frame.axis);
     ellipsoid_product(frame.axis, load->force, in_body.force);
     ellipsoid_product(frame.axis, load->push, in_body.push);
-    status = ellipsoid_find_planes(model, surroundings, state, cache, &planes);
+    status =
+        ellipsoid_find_planes(model, surroundings, state, 0, cache, &planes);
     noise->near = status == ELLIPSOID_OK && planes.count > 0;
     if (!noise->near)
     {

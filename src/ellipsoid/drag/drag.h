@@ -178,17 +178,18 @@ typedef struct ellipsoid_planes
     ellipsoid_plane at[ELLIPSOID_MAX_PLANES];
 } ellipsoid_planes;
 
-/* The planes at the pose of a state (wallPlanes.c). */
+/* The planes at the pose of a state; derivatives are wrong unless slopes is 1
+   (wallPlanes.c). */
 ellipsoid_status
 ellipsoid_find_planes(const ellipsoid_model *model,
                       const ellipsoid_surroundings *surroundings,
-                      const ellipsoid_state *state,
+                      const ellipsoid_state *state, int slopes,
                       ellipsoid_facet_cache *cache, ellipsoid_planes *planes);
 
-/* gap: of each action. */
+/* gap: of each action; slopes: as above. */
 void ellipsoid_plane_effect_set(const ellipsoid_plane_table *own,
                                 const double normal[3], const double gap[2],
-                                ellipsoid_plane_effect *effect);
+                                int slopes, ellipsoid_plane_effect *effect);
 
 /* That of a normal and gaps which differ from those of the effect in their
    derivatives. */

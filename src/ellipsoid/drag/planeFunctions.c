@@ -44,9 +44,11 @@ static inline dual times(dual a, dual b) { return ellipsoid_times(a, b); }
 
 /* The functions of the table, and 12 pi S^3/tau = 12 pi b^3/(p^3 (b^2 + p^2)). */
 static void set_values(const ellipsoid_plane_table *own, double nu,
-                       const double gap[2], ellipsoid_plane_values *v)
+                       const double gap[2], int slopes,
+                       ellipsoid_plane_values *v)
 {
-    const double a = own->radius, b = own->ratio, more = b * b - 1;
+    const double a = own->radius, per = 1 / a, b = own->ratio;
+    const double more = b * b - 1, area = a * a, volume = area * a;
     const double p = sqrt(1 + more * nu * nu), p_nu = more * nu / p;
     const double g = gap[FAR] / a, h = p + g, close = p / h;
     const double close_nu = p_nu * g / (h * h), close_gap = -p / (h * h);
@@ -62,7 +64,7 @@ static void set_values(const ellipsoid_plane_table *own, double nu,
     double scale[FUNCTIONS], scale_p[FUNCTIONS];
 
     ellipsoid_chebyshev(fmin(x, depth) / depth, GAPS, in_x, slope_x);
-    ellipsoid_chebyshev(w, TILTS, in_w, slope_w);
+    ellipsoid_chebyshev(w, TILTS, in_w, slopes ? slope_w : NULL);
     for (int k = 0; k < GAPS; k++)
     {
         slope_x[k] /= depth;
@@ -79,7 +81,7 @@ static void set_values(const ellipsoid_plane_table *own, double nu,
                 value[n] += in_x[k] * own->at[j][k][n];
             }
         }
-        for (int k = 1; k < GAPS; k++)
+        for (int k = 1; slopes && k < GAPS; k++)
         {
             for (int n = 0; n < FUNCTIONS; n++)
             {
@@ -89,24 +91,24 @@ static void set_values(const ellipsoid_plane_table *own, double nu,
         for (int n = 0; n < FUNCTIONS; n++)
         {
             sum[0][n] += in_w[j] * value[n];
+        }
+        for (int n = 0; slopes && n < FUNCTIONS; n++)
+        {
             sum[1][n] += slope_w[j] * value[n];
         }
     }
     ellipsoid_plane_scales(b, own->free, p, scale, scale_p);
     for (int n = 0; n < FUNCTIONS; n++)
     {
-        const double size = n < 4  ? a
-                          : n < 8  ? a * a * a
-                          : n < 15 ? a * a
-                                   : a * a * a;
-        const double of_p = scale_p[n] * p_nu * close + scale[n] * close_nu;
+        const double size = n < 4 ? a : n < 8 || n >= 15 ? volume : area;
+        const double of_p =
+            size * (scale_p[n] * p_nu * close + scale[n] * close_nu);
 
-        v->f[n] = size * scale[n] * close * sum[0][n];
-        v->by_nu[n] =
-            size
-            * (of_p * sum[0][n]
-               + scale[n] * close * (w_nu * sum[1][n] + x_nu * sum[2][n]));
-        v->by_gap[n] = size / a * scale[n]
+        scale[n] *= size;
+        v->f[n] = scale[n] * close * sum[0][n];
+        v->by_nu[n] = of_p * sum[0][n]
+                    + scale[n] * close * (w_nu * sum[1][n] + x_nu * sum[2][n]);
+        v->by_gap[n] = scale[n] * per
                      * (close_gap * sum[0][n] + close * x_gap * sum[2][n]);
     }
     v->squeeze[0] = a * ellipsoid_squeeze(b, p) * pow(p / over, 3) / s;
@@ -190,14 +192,14 @@ void ellipsoid_plane_matrix_at(const ellipsoid_plane_effect *e,
 
 void ellipsoid_plane_effect_set(const ellipsoid_plane_table *own,
                                 const double normal[3], const double gap[2],
-                                ellipsoid_plane_effect *e)
+                                int slopes, ellipsoid_plane_effect *e)
 {
     const dual here[3] = {normal[0], normal[1], normal[2]};
 
     e->own = own;
     ellipsoid_copy(normal, e->normal);
     memcpy(e->gap, gap, sizeof(e->gap));
-    set_values(own, normal[own->axis], gap, &e->values);
+    set_values(own, normal[own->axis], gap, slopes, &e->values);
     ellipsoid_plane_matrix_at(e, here, ELLIPSOID_DUAL_STEP * I, &e->by_gap);
 }
 

@@ -79,7 +79,7 @@ void ellipsoid_wall_begin(view *s, const double normal[3], double height,
     kernel *far = &w->seen[FAR], *near = &w->seen[NEAR];
     double n[3], stretched[3], foot[3], support;
 
-    memset(w->sum, 0, sizeof(w->sum));
+    memset(w, 0, sizeof(*w));
     w->normal = normal;
     w->height.value = height;
     ellipsoid_product(s->axis, normal, n);
@@ -326,7 +326,7 @@ void ellipsoid_wall_end(view *s, wall *w)
     const double far = 1 - smooth_step(2 * h / range - 1, &far_slope);
     const double cut = smooth_step(h / p, &beside_slope);
 
-    for (int n = 0; n < POSE; n++)
+    for (int n = 0; s->slopes && n < POSE; n++)
     {
         set_slopes(s, w, n);
     }

@@ -53,6 +53,7 @@ typedef struct ellipsoid_wall_view
 {
     const ellipsoid_model *model;
     const double *x;
+    int slopes;             /* are derivatives wanted? else they are 0 */
     double axis[3][3];      /* unit */
     double turned[4][3][3]; /* their derivatives by q */
 } ellipsoid_wall_view;

@@ -82,13 +82,16 @@ static void set_axes(const double q[4], view *s)
     const double per = 1 / ellipsoid_square4(q);
 
     ellipsoid_axes(q, s->axis);
-    ellipsoid_axis_derivatives(q, s->turned);
+    if (s->slopes)
+    {
+        ellipsoid_axis_derivatives(q, s->turned);
+    }
     for (int i = 0; i < 9; i++)
     {
         double *along = &s->axis[i / 3][i % 3];
 
         *along *= per;
-        for (int n = 0; n < 4; n++)
+        for (int n = 0; s->slopes && n < 4; n++)
         {
             double *by = &s->turned[n][i / 3][i % 3];
 
@@ -188,7 +191,7 @@ static int set_plane(const view *s, const wall *walls, int count, const wall *w,
     memcpy(plane->normal_by, w->normal_by, sizeof(plane->normal_by));
     ellipsoid_plane_effect_set(
         &s->model->plane, w->seen[FAR].normal,
-        (double[]){plane->gap[FAR].value, plane->gap[NEAR].value},
+        (double[]){plane->gap[FAR].value, plane->gap[NEAR].value}, s->slopes,
         &plane->effect);
     return 1;
 }
@@ -196,7 +199,7 @@ static int set_plane(const view *s, const wall *walls, int count, const wall *w,
 ellipsoid_status
 ellipsoid_find_planes(const ellipsoid_model *model,
                       const ellipsoid_surroundings *surroundings,
-                      const ellipsoid_state *state,
+                      const ellipsoid_state *state, int slopes,
                       ellipsoid_facet_cache *cache, ellipsoid_planes *planes)
 {
     const double *a = model->options.semi_axes, *x = state->x;
@@ -205,7 +208,7 @@ ellipsoid_find_planes(const ellipsoid_model *model,
     const ellipsoid_status status = ellipsoid_near_facets(
         surroundings, x, range, looked * range + longest, cache);
     wall walls[ELLIPSOID_MAX_PLANES + 1];
-    view s = {.model = model, .x = x};
+    view s = {.model = model, .x = x, .slopes = slopes};
     int count = 0;
 
     planes->count = 0;

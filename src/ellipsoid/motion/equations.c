@@ -41,7 +41,7 @@ static ellipsoid_status add_wall_drag(evaluation *e, const ellipsoid_cell *cell,
     if (!cell->about)
     {
         status = ellipsoid_find_planes(e->model, &cell->surroundings, e->state,
-                                       cell->cache, &planes);
+                                       blocks != NULL, cell->cache, &planes);
         ellipsoid_wall_expansion_set(e->model, &planes, e->state, &at->walls);
     }
     *acted = status == ELLIPSOID_OK && about->planes > 0;
