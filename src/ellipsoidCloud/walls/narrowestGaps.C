@@ -224,11 +224,13 @@ static DynamicList<baffleRim> baffleRims(const polyMesh& mesh)
 }
 
 
-//- Make a gap that from a rim to a wall or to another rim, if it is narrower
+//- Make a gap that from a rim to a wall or to another rim, of the mesh or of an
+//  image of it around, if it is narrower
 static void narrow
 (
     const polyMesh& mesh,
     const domainImages& images,
+    const UList<isometry>& around,
     const baffleRim& rim,
     const UList<baffleRim>& others,
     narrowGap& gap
@@ -239,8 +241,7 @@ static void narrow
     meshLine line{mesh, mesh.cellCentres()[celli], rim.out, celli, -1};
     narrow(images, line, from, GREAT, gap);
 
-    const boundBox bounds(meshedBox(mesh));
-    for (const isometry& image : images.near(bounds, bounds.mag()))
+    for (const isometry& image : around)
     {
         for (const baffleRim& other : others)
         {
@@ -273,6 +274,12 @@ Foam::List<Foam::narrowGap> Foam::narrowestGaps
 {
     List<narrowGap> gaps(patches.size(), narrowGap{GREAT, Zero, 0});
     const DynamicList<baffleRim> rims(baffleRims(mesh));
+    DynamicList<isometry> around;
+    if (rims.size())
+    {
+        const boundBox bounds(meshedBox(mesh));
+        around = images.near(bounds, bounds.mag());
+    }
 
     forAll(patches, k)
     {
@@ -290,7 +297,7 @@ Foam::List<Foam::narrowGap> Foam::narrowestGaps
         {
             if (patch.range().found(rim.facei))
             {
-                narrow(mesh, images, rim, rims, gaps[k]);
+                narrow(mesh, images, around, rim, rims, gaps[k]);
             }
         }
     }
