@@ -7,34 +7,42 @@
 */
 #include "contact/contact.h"
 
-/* v = (dR/dq_n) body: derivative of the polynomial R(q), n = 0..3. */
-static void rotation_derivative(const double q[4], int n, const double body[3],
-                                double v[3])
+/* v = (dR/dq_n) body: derivative of the polynomial R(q), n = 0..3, that is
+   2 (-eps_n + e_n eps^T + eps e_n^T + eta [e_n]x) and 2 (eta + [eps]x). */
+static inline void rotation_derivative(const double q[4], int n,
+                                       const double b[3], double v[3])
 {
-    const double along = ellipsoid_dot(q, body);
-    double cross[3];
+    const double along = 2 * ellipsoid_dot(q, b);
 
-    if (n == 3) /* 2 eta + 2 [eps]x */
+    switch (n)
     {
-        ellipsoid_cross(q, body, cross);
-        for (int i = 0; i < 3; i++)
-        {
-            v[i] = 2 * (q[3] * body[i] + cross[i]);
-        }
-        return;
+    case 0:
+        ellipsoid_set(v, along, 2 * (q[1] * b[0] - q[0] * b[1] - q[3] * b[2]),
+                      2 * (q[2] * b[0] - q[0] * b[2] + q[3] * b[1]));
+        break;
+    case 1:
+        ellipsoid_set(v, 2 * (q[0] * b[1] - q[1] * b[0] + q[3] * b[2]), along,
+                      2 * (q[2] * b[1] - q[1] * b[2] - q[3] * b[0]));
+        break;
+    case 2:
+        ellipsoid_set(v, 2 * (q[0] * b[2] - q[2] * b[0] - q[3] * b[1]),
+                      2 * (q[1] * b[2] - q[2] * b[1] + q[3] * b[0]), along);
+        break;
+    default:
+        ellipsoid_set(v, 2 * (q[3] * b[0] + (q[1] * b[2] - q[2] * b[1])),
+                      2 * (q[3] * b[1] + (q[2] * b[0] - q[0] * b[2])),
+                      2 * (q[3] * b[2] + (q[0] * b[1] - q[1] * b[0])));
     }
+}
 
-    /* 2 (-eps_n + e_n eps^T + eps e_n^T + eta [e_n]x) */
-    double axis[3] = {0, 0, 0};
-
-    axis[n] = 1;
-    ellipsoid_cross(axis, body, cross);
-    for (int i = 0; i < 3; i++)
-    {
-        v[i] = 2
-             * (q[i] * body[n] - q[n] * body[i] + q[3] * cross[i]
-                + axis[i] * along);
-    }
+/* For all n; written out, as compilers then share what they have in common. */
+static inline void rotation_derivatives(const double q[4], const double b[3],
+                                        double v[4][3])
+{
+    rotation_derivative(q, 0, b, v[0]);
+    rotation_derivative(q, 1, b, v[1]);
+    rotation_derivative(q, 2, b, v[2]);
+    rotation_derivative(q, 3, b, v[3]);
 }
 
 void ellipsoid_add_wrench_jacobian(const double arm[3], const double q[4],
@@ -42,52 +50,38 @@ void ellipsoid_add_wrench_jacobian(const double arm[3], const double q[4],
                                    double force_x[3][3],
                                    ellipsoid_wrench_jacobian *jacobian)
 {
-    const double conjugate[4] = {-q[0], -q[1], -q[2], q[3]};
-    double column[3], body[3], torque[3];
+    const double opposite[4] = {q[0], q[1], q[2], -q[3]};
+    double moved[4][3], turned[4][3], column[3], body[3], torque[3];
 
-    for (int n = 0; n < 7; n++)
+    for (int n = 0; n < 3; n++)
     {
-        double turned[3];
-
-        if (n < 3)
-        {
-            for (int i = 0; i < 3; i++)
-            {
-                column[i] = force_x[i][n];
-                jacobian->force_x[i][n] += column[i];
-            }
-        }
-        else
-        {
-            rotation_derivative(q, n - 3, arm, turned);
-            for (int i = 0; i < 3; i++)
-            {
-                column[i] = ellipsoid_dot(force_x[i], turned);
-                jacobian->force_q[i][n - 3] += column[i];
-            }
-        }
+        ellipsoid_set(column, force_x[0][n], force_x[1][n], force_x[2][n]);
         ellipsoid_to_body(r, column, body);
-        if (n >= 3)
+        ellipsoid_cross(arm, body, torque);
+        for (int i = 0; i < 3; i++)
         {
-            /* the frame rotates relative to the force: (dR/dq_n)^T F, and
-               R^T(q) is R of the conjugate */
-            rotation_derivative(conjugate, n - 3, force, turned);
-            for (int i = 0; i < 3; i++)
-            {
-                body[i] += n == 6 ? turned[i] : -turned[i];
-            }
+            jacobian->force_x[i][n] += column[i];
+            jacobian->torque_x[i][n] += torque[i];
+        }
+    }
+
+    /* the frame rotates relative to the force: (dR/dq_n)^T F, and R^T(q) is R of
+       the opposite */
+    rotation_derivatives(q, arm, moved);
+    rotation_derivatives(opposite, force, turned);
+    for (int n = 0; n < 4; n++)
+    {
+        ellipsoid_product(force_x, moved[n], column);
+        ellipsoid_to_body(r, column, body);
+        for (int i = 0; i < 3; i++)
+        {
+            body[i] += n == 3 ? -turned[n][i] : turned[n][i];
         }
         ellipsoid_cross(arm, body, torque);
         for (int i = 0; i < 3; i++)
         {
-            if (n < 3)
-            {
-                jacobian->torque_x[i][n] += torque[i];
-            }
-            else
-            {
-                jacobian->torque_q[i][n - 3] += torque[i];
-            }
+            jacobian->force_q[i][n] += column[i];
+            jacobian->torque_q[i][n] += torque[i];
         }
     }
 }
