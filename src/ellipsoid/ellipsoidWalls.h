@@ -34,6 +34,8 @@ typedef struct ellipsoid_facet
     double middle[3], radius; /* [m] lab, of a sphere that contains it */
     double normal[3];         /* unit, into the fluid */
     double vertex[3][3]; /* [m] lab, counter-clockwise seen from the fluid */
+    double inward[3][3]; /* [m] in its plane, perpendicular to edge k, pointing
+                            into it, as long as the edge */
     ellipsoid_edge edge[3];
     double edge_inward[3][3]; /* unit, perpendicular to edge k, in the plane of
                                  the facet ACROSS edge k, pointing into it; zero

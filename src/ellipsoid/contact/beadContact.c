@@ -27,34 +27,42 @@ static void find_contacts(const ellipsoid_bead *bead,
                           double *gap, ellipsoid_contact *report)
 {
     const double r = bead->radius, range = r + bead->laws->range;
-    contact found, behind = {.height = -r};
-    double clear = r;
+    contact found, behind;
+    double clear = r, deep = -r, reach = r + *gap > range ? r + *gap : range;
     int surface = 0, inside = 0;
 
     all->count = 0;
     for (int k = 0; k < from->count; k++)
     {
-        const ellipsoid_facet *facet = &from->facets[from->index[k]];
-        const double reach = r + *gap > range ? r + *gap : range;
+        const ellipsoid_facet *facet;
 
-        if ((from->away && from->away[k] - from->moved > reach)
-            || !ellipsoid_facet_nearest(facet, bead->centre, reach, &found))
+        if (from->away && from->away[k] > reach + from->moved)
+        {
+            continue;
+        }
+        facet = &from->facets[from->index[k]];
+        if (!ellipsoid_facet_nearest(facet, bead->centre, reach, &found))
         {
             continue;
         }
         found.mirror = facet->mirror;
         if (found.height < 0)
         {
-            if (found.height > behind.height)
+            if (found.height > deep)
             {
                 behind = found;
+                deep = found.height;
                 surface = facet->surface;
                 inside = 1;
             }
             continue;
         }
-        clear = fmin(clear, found.height);
-        *gap = fmin(*gap, found.height - r);
+        clear = found.height < clear ? found.height : clear;
+        if (found.height - r < *gap)
+        {
+            *gap = found.height - r;
+            reach = r + *gap > range ? r + *gap : range;
+        }
         if (found.height < (found.mirror ? r : range))
         {
             add_contact(all, &found, r);
@@ -64,10 +72,10 @@ static void find_contacts(const ellipsoid_bead *bead,
             }
         }
     }
-    if (inside && -behind.height < (1 - coincidence) * clear)
+    if (inside && -deep < (1 - coincidence) * clear)
     {
         add_contact(all, &behind, r);
-        *gap = fmin(*gap, behind.height - r);
+        *gap = fmin(*gap, deep - r);
         if (report)
         {
             list_surface(report, surface);
@@ -78,15 +86,15 @@ static void find_contacts(const ellipsoid_bead *bead,
 /* Derivatives of a contact's normal by the centre: (I - nn - tt)/h. */
 static void set_normal_slope(const contact *c, double slope[3][3])
 {
+    if (c->feature == ELLIPSOID_ON_FACE)
+    {
+        memset(slope, 0, 3 * sizeof *slope);
+        return;
+    }
     for (int i = 0; i < 3; i++)
     {
         for (int j = 0; j < 3; j++)
         {
-            if (c->feature == ELLIPSOID_ON_FACE)
-            {
-                slope[i][j] = 0;
-                continue;
-            }
             slope[i][j] = (i == j) - c->normal[i] * c->normal[j];
             if (c->feature == ELLIPSOID_ON_EDGE)
             {
@@ -117,39 +125,64 @@ static scalar redundancy(const contacts *all, const blend *m, int i, int j)
     return cosine(all, m, i, j);
 }
 
-/* Adds the forces of one law along the normals (sign 1) or against. */
-static void add_blended(const contacts *all, const blend *m, double sign,
-                        int derivatives, ellipsoid_bead_forces *forces)
+/* Of one law at a contact; its sign is -1 if it attracts. */
+static inline scalar force_at(const contact *c,
+                              const ellipsoid_contact_law *law, double radius)
 {
-    scalar size[MAX_CONTACTS];
+    const ellipsoid_normal_force f =
+        ellipsoid_contact_normal_force(law, c->height - radius);
+    /* A cell does not adhere to its mirror image. */
+    const double factor = !law->attractive ? 1 : c->mirror ? 0 : -1;
+    const double slope = factor * f.slope;
 
-    blend_forces(all, m, size);
-    for (int c = 0; c < m->count; c++)
+    return (scalar){
+        factor * f.force,
+        {slope * c->normal[0], slope * c->normal[1], slope * c->normal[2]}};
+}
+
+/* Adds a force of this size along the normal, or against if it attracts. */
+static inline void add_force(const contact *c, const ellipsoid_contact_law *law,
+                             const scalar *size, double normal_slope[3][3],
+                             int derivatives, ellipsoid_bead_forces *forces)
+{
+    const double sign = law->attractive ? -1 : 1;
+    ellipsoid_point_force *sum = c->mirror       ? &forces->mirrored
+                               : law->attractive ? &forces->attraction
+                                                 : &forces->repulsion;
+
+    for (int i = 0; i < 3; i++)
     {
-        ellipsoid_point_force *sum = all->at[c].mirror ? &forces->mirrored
-                                   : sign < 0          ? &forces->attraction
-                                                       : &forces->repulsion;
+        const double n = sign * c->normal[i];
 
-        for (int i = 0; i < 3; i++)
+        sum->force[i] += size->value * n;
+        for (int j = 0; derivatives && j < 3; j++)
         {
-            const double n = sign * all->at[c].normal[i];
-
-            sum->force[i] += size[c].value * n;
-            for (int j = 0; derivatives && j < 3; j++)
-            {
-                sum->force_x[i][j] +=
-                    n * size[c].gradient[j]
-                    + sign * size[c].value * m->normal_slope[c][i][j];
-            }
+            sum->force_x[i][j] +=
+                n * size->gradient[j] + sign * size->value * normal_slope[i][j];
         }
     }
 }
 
-static void set_normal_slopes(const contacts *all, blend *m)
+/* Most beads in contact have but one. */
+static void add_laws_at(const ellipsoid_bead *bead, const contact *c,
+                        int derivatives, ellipsoid_bead_forces *sum)
 {
-    for (int i = 0; i < all->count; i++)
+    double normal_slope[3][3];
+
+    if (derivatives)
     {
-        set_normal_slope(&all->at[i], m->normal_slope[i]);
+        set_normal_slope(c, normal_slope);
+    }
+    for (int n = 0; n < bead->laws->count; n++)
+    {
+        const ellipsoid_contact_law *law = &bead->laws->law[n];
+
+        if (c->height < bead->radius + law->range)
+        {
+            const scalar size = force_at(c, law, bead->radius);
+
+            add_force(c, law, &size, normal_slope, derivatives, sum);
+        }
     }
 }
 
@@ -157,33 +190,29 @@ static void add_laws(const ellipsoid_bead *bead, contacts *all, int derivatives,
                      ellipsoid_bead_forces *sum)
 {
     int count[ELLIPSOID_LAW_COUNT];
+    scalar size[MAX_CONTACTS];
     blend m; /* large: set where it is read */
 
     order_by_range(all, bead->laws, bead->radius, count);
-    set_normal_slopes(all, &m);
+    m.count = all->count;
+    for (int i = 0; i < m.count; i++)
+    {
+        set_normal_slope(&all->at[i], m.normal_slope[i]);
+    }
     for (int n = 0; n < bead->laws->count; n++)
     {
         const ellipsoid_contact_law *law = &bead->laws->law[n];
-        const double sign = law->attractive ? -1 : 1;
 
         m.count = count[n];
         for (int i = 0; i < m.count; i++)
         {
-            const contact *c = &all->at[i];
-            const ellipsoid_normal_force f =
-                ellipsoid_contact_normal_force(law, c->height - bead->radius);
-            /* A cell does not adhere to its mirror image. */
-            const double factor = c->mirror && law->attractive ? 0 : sign;
-
-            m.force[i].value = factor * f.force;
-            for (int k = 0; k < 3; k++)
-            {
-                m.force[i].gradient[k] = factor * f.slope * c->normal[k];
-            }
+            m.force[i] = force_at(&all->at[i], law, bead->radius);
         }
-        if (m.count > 0)
+        blend_forces(all, &m, size);
+        for (int i = 0; i < m.count; i++)
         {
-            add_blended(all, &m, sign, derivatives, sum);
+            add_force(&all->at[i], law, &size[i], m.normal_slope[i],
+                      derivatives, sum);
         }
     }
 }
@@ -196,13 +225,28 @@ int ellipsoid_bead_contact(const ellipsoid_bead *bead,
     contacts all;
 
     find_contacts(bead, from, &all, gap, report);
-    if (all.count > 0)
+    if (all.count == 0)
+    {
+        return 0;
+    }
+    if (derivatives)
     {
         memset(forces, 0, sizeof *forces);
-        for (int i = 0; i < all.count; i++)
-        {
-            forces->mirrors += all.at[i].mirror;
-        }
+    }
+    ellipsoid_set(forces->repulsion.force, 0, 0, 0);
+    ellipsoid_set(forces->mirrored.force, 0, 0, 0);
+    ellipsoid_set(forces->attraction.force, 0, 0, 0);
+    forces->mirrors = 0;
+    for (int i = 0; i < all.count; i++)
+    {
+        forces->mirrors += all.at[i].mirror;
+    }
+    if (all.count == 1)
+    {
+        add_laws_at(bead, all.at, derivatives, forces);
+    }
+    else
+    {
         add_laws(bead, &all, derivatives, forces);
     }
     return all.count;

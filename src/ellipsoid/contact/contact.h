@@ -21,10 +21,12 @@ static inline int ellipsoid_in_contact(const ellipsoid_contact *contact)
 /* That of a cell that nothing touches. */
 static inline ellipsoid_contact ellipsoid_no_contact(void)
 {
-    return (ellipsoid_contact){.gap = HUGE_VAL,
-                               .slip = HUGE_VAL,
-                               .cell_gap = HUGE_VAL,
-                               .cell_slip = HUGE_VAL};
+    static const ellipsoid_contact none = {.gap = HUGE_VAL,
+                                           .slip = HUGE_VAL,
+                                           .cell_gap = HUGE_VAL,
+                                           .cell_slip = HUGE_VAL};
+
+    return none;
 }
 
 /* ------------------------------------------------- a bead and walls */

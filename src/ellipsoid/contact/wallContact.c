@@ -65,9 +65,9 @@ static ellipsoid_bead bead_of(const ellipsoid_wall_contact *at, int b)
 /* Looks for gaps below `range`, which is no more than the smallest so far, and
    for contacts; returns how many of these there are. clear: how far beyond the
    bead no facet is, as its move tells */
-static int look_at_bead(ellipsoid_wall_contact *at,
-                        const ellipsoid_facet_cache *cache, int b, double clear,
-                        double range)
+static inline int look_at_bead(ellipsoid_wall_contact *at,
+                               const ellipsoid_facet_cache *cache, int b,
+                               double clear, double range)
 {
     const ellipsoid_bead bead = bead_of(at, b);
     const ellipsoid_candidates from = {
@@ -103,78 +103,56 @@ static void add_beads(ellipsoid_wall_contact *at,
     /* the bounds are rounded, too */
     const double radius = (1 + 1e-9) * at->model->options.bead_radius;
     ellipsoid_contact *contact = at->contact;
-    double clear[ELLIPSOID_MAX_BEADS], least = HUGE_VAL, range;
+    double clear[ELLIPSOID_MAX_BEADS];
     ellipsoid_pose_change change;
-    int nearest = -1;
+    int near[ELLIPSOID_MAX_BEADS], count = 0, next = 0;
 
     ellipsoid_wall_laws_set(&at->laws, &at->model->options);
     ellipsoid_rotation_inline(at->state->q, at->r);
     ellipsoid_pose_change_set(cache, at->state->x, at->r, &change);
-    range = at->laws.range;
+
+    const double range = at->laws.range, far = moved + radius + range;
+
     for (int n = 0; n < cache->bead_count; n++)
     {
-        const int b = cache->bead[n];
+        near[count] = n;
+        count += cache->nearest[cache->bead[n]] <= far;
+    }
+    for (int k = 0; k < count; k++)
+    {
+        const int n = near[k], b = cache->bead[n];
+        const double look = contact->gap < range ? contact->gap : range;
 
-        clear[n] = cache->nearest[b] - moved - radius;
-        if (clear[n] <= range)
-        {
-            clear[n] =
-                cache->nearest[b] - radius
-                - sqrt(ellipsoid_squared_move(&change, at->model->bead[b]));
-        }
-        if (clear[n] <= range
-            && look_at_bead(at, cache, b, clear[n], fmin(contact->gap, range))
-                   > 0)
+        clear[n] = cache->nearest[b] - radius
+                 - sqrt(ellipsoid_squared_move(&change, at->model->bead[b]));
+        if (clear[n] <= range && look_at_bead(at, cache, b, clear[n], look) > 0)
         {
             clear[n] = HUGE_VAL; /* its gap is known */
         }
-        if (clear[n] < least)
+    }
+    for (int n = 0; n < cache->bead_count && contact->gap > 0; n++)
+    {
+        const double nearest = cache->nearest[cache->bead[n]];
+
+        clear[n] = nearest <= far ? clear[n] : nearest - moved - radius;
+    }
+    while (contact->gap > 0 && next >= 0)
+    {
+        double least = contact->gap;
+
+        next = -1;
+        for (int n = 0; n < cache->bead_count; n++)
         {
-            least = clear[n];
-            nearest = n;
+            next = clear[n] < least ? n : next;
+            least = clear[n] < least ? clear[n] : least;
+        }
+        if (next >= 0)
+        {
+            look_at_bead(at, cache, cache->bead[next], least, contact->gap);
+            clear[next] = HUGE_VAL;
         }
     }
-    if (least < contact->gap && contact->gap > 0)
-    {
-        look_at_bead(at, cache, cache->bead[nearest], least, contact->gap);
-    }
-    for (int n = 0;
-         n < cache->bead_count && least < contact->gap && contact->gap > 0; n++)
-    {
-        if (n != nearest && clear[n] < contact->gap)
-        {
-            look_at_bead(at, cache, cache->bead[n], clear[n], contact->gap);
-        }
-    }
-    contact->deepest = fmax(0, -contact->gap);
-}
-
-/* When a bead reaches the first facet that it is not in contact with, moving on
-   at `velocity`, and is `depth` beyond; at most `time`, in which it travels so
-   far. */
-static double bead_landing(const ellipsoid_facet_cache *cache, int b,
-                           const ellipsoid_bead *bead, const double velocity[3],
-                           double depth, double time)
-{
-    const double range = bead->radius + bead->laws->range;
-    const double travel = (1 + 1e-9) * time * ellipsoid_length(velocity);
-    const double look = fmin(2 * bead->radius, range + travel);
-
-    for (int k = cache->first[b]; k < cache->first[b + 1]; k++)
-    {
-        const ellipsoid_facet *facet = &cache->facets[cache->facet[k]];
-        ellipsoid_nearest found;
-
-        if (ellipsoid_facet_nearest(facet, bead->centre, look, &found)
-            && found.height > range)
-        {
-            const double closing = -ellipsoid_dot(found.normal, velocity);
-            const double way = found.height - range + depth;
-
-            time = closing * time > way ? way / closing : time;
-        }
-    }
-    return time;
+    contact->deepest = contact->gap < 0 ? -contact->gap : 0;
 }
 
 double ellipsoid_landing(const ellipsoid_model *model,
@@ -182,31 +160,48 @@ double ellipsoid_landing(const ellipsoid_model *model,
                          const ellipsoid_facet_cache *cache, double moved,
                          double depth, double time)
 {
+    const double radius = model->options.bead_radius;
     const double speed = ellipsoid_length(state->u)
                        + model->reach * ellipsoid_length(state->omega);
     ellipsoid_wall_contact at = {.model = model, .state = state};
 
     ellipsoid_wall_laws_set(&at.laws, &model->options);
     ellipsoid_rotation_inline(state->q, at.r);
+
+    const double range = radius + at.laws.range, beyond = moved + range;
+
     for (int n = 0; n < cache->bead_count; n++)
     {
         const int b = cache->bead[n];
+        double turn[3], velocity[3], look;
         ellipsoid_bead bead;
-        double turn[3], velocity[3];
 
-        if (cache->nearest[b] - moved - model->options.bead_radius
-                - at.laws.range
-            > time * speed)
+        if (cache->nearest[b] - beyond > time * speed)
         {
             continue;
         }
         bead = bead_of(&at, b);
         ellipsoid_cross(state->omega, model->bead[b], turn);
-        for (int i = 0; i < 3; i++)
+        ellipsoid_product(at.r, turn, velocity);
+        ellipsoid_add(velocity, state->u);
+        /* how far the bead travels at most, until it is in contact */
+        look = range + (1 + 1e-9) * time * ellipsoid_length(velocity);
+        look = look < 2 * radius ? look : 2 * radius;
+        for (int k = cache->first[b]; k < cache->first[b + 1]; k++)
         {
-            velocity[i] = state->u[i] + ellipsoid_dot(at.r[i], turn);
+            ellipsoid_nearest found;
+
+            if (cache->away[k] <= look + moved
+                && ellipsoid_facet_nearest(&cache->facets[cache->facet[k]],
+                                           bead.centre, look, &found)
+                && found.height > range)
+            {
+                const double closing = -ellipsoid_dot(found.normal, velocity);
+                const double way = found.height - range + depth;
+
+                time = closing * time > way ? way / closing : time;
+            }
         }
-        time = bead_landing(cache, b, &bead, velocity, depth, time);
     }
     return time;
 }

@@ -123,55 +123,32 @@ static int nearest_on_edge(const ellipsoid_facet *facet, int k, double foot,
                                 nearest);
 }
 
-int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
-                            const double centre[3], double reach,
-                            ellipsoid_nearest *nearest)
+int ellipsoid_boundary_nearest(const ellipsoid_facet *facet,
+                               const double centre[3], double reach,
+                               ellipsoid_nearest *nearest)
 {
-    const double *n = facet->normal;
-    double from[3][3], along[3][3], squared, length;
-    int outside = 0, closest = 0;
-
-    ellipsoid_difference(centre, facet->vertex[0], from[0]);
-
-    const double height = ellipsoid_dot(from[0], n);
-
-    if (!(fabs(height) < reach))
-    {
-        return 0;
-    }
-    ellipsoid_difference(centre, facet->vertex[1], from[1]);
-    ellipsoid_difference(centre, facet->vertex[2], from[2]);
+    double from[3][3], squared = HUGE_VAL, length;
+    int closest = 0;
 
     for (int k = 0; k < 3; k++)
     {
-        double inward[3];
-
-        ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
-                             along[k]);
-        ellipsoid_cross(n, along[k], inward);
-        if (ellipsoid_dot(inward, from[k]) < 0)
+        ellipsoid_difference(centre, facet->vertex[k], from[k]);
+        if (ellipsoid_dot(facet->inward[k], from[k]) < 0)
         {
-            const double foot = ellipsoid_dot(from[k], along[k]);
-            const double size = ellipsoid_dot(along[k], along[k]);
+            double along[3], foot, size;
 
+            ellipsoid_difference(facet->vertex[(k + 1) % 3], facet->vertex[k],
+                                 along);
+            foot = ellipsoid_dot(from[k], along);
+            size = ellipsoid_dot(along, along);
             if (foot >= 0 && foot <= size)
             {
-                return nearest_on_edge(facet, k, foot / size, reach, along[k],
+                return nearest_on_edge(facet, k, foot / size, reach, along,
                                        from[k], nearest);
             }
-            outside = 1;
         }
     }
-    if (!outside)
-    {
-        nearest->feature = ELLIPSOID_ON_FACE;
-        nearest->height = height;
-        ellipsoid_copy(n, nearest->normal);
-        return 1;
-    }
-
-    squared = ellipsoid_dot(from[0], from[0]);
-    for (int k = 1; k < 3; k++)
+    for (int k = 0; k < 3; k++)
     {
         const double other = ellipsoid_dot(from[k], from[k]);
 
@@ -185,7 +162,8 @@ int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
     nearest->feature = length > 0 ? ELLIPSOID_ON_VERTEX : ELLIPSOID_ON_FACE;
     return length < reach
         && (ellipsoid_facet_owns_vertex(facet, closest)
-            || fabs(height) >= (1 - rounding) * length)
+            || fabs(ellipsoid_dot(from[0], facet->normal))
+                   >= (1 - rounding) * length)
         && ellipsoid_facet_is_apex(facet, closest, from[closest],
                                    rounding * length)
         && set_boundary_nearest(facet, from[closest], length,
@@ -305,6 +283,8 @@ int ellipsoid_facet_set(ellipsoid_facet *facet, const double vertex[3][3])
         ellipsoid_difference(vertex[k], facet->middle, d);
         squared = fmax(squared, ellipsoid_dot(d, d));
 
+        ellipsoid_difference(vertex[(k + 1) % 3], vertex[k], d);
+        ellipsoid_cross(facet->normal, d, facet->inward[k]);
         facet->edge[k] = ELLIPSOID_EDGE_CONVEX;
         memset(facet->edge_inward[k], 0, sizeof facet->edge_inward[k]);
         memcpy(facet->neighbour_normal[k], facet->normal, sizeof facet->normal);

@@ -82,11 +82,40 @@ typedef struct ellipsoid_nearest
     int mirror;       /* of the facet; whoever keeps it sets it */
 } ellipsoid_nearest;
 
+/* As ellipsoid_facet_nearest(), for a point beside the facet (facets.c). */
+int ellipsoid_boundary_nearest(const ellipsoid_facet *facet,
+                               const double centre[3], double reach,
+                               ellipsoid_nearest *nearest);
+
 /* Fills *nearest and returns 1 if there is one nearer than reach [m] on this
-   facet (facets.c). */
-int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
-                            const double centre[3], double reach,
-                            ellipsoid_nearest *nearest);
+   facet; inlined, as most points have none or are over a face. */
+static inline int ellipsoid_facet_nearest(const ellipsoid_facet *facet,
+                                          const double centre[3], double reach,
+                                          ellipsoid_nearest *nearest)
+{
+    double from[3];
+
+    ellipsoid_difference(centre, facet->vertex[0], from);
+
+    const double height = ellipsoid_dot(from, facet->normal);
+
+    if (!(fabs(height) < reach))
+    {
+        return 0;
+    }
+    for (int k = 0; k < 3; k++)
+    {
+        ellipsoid_difference(centre, facet->vertex[k], from);
+        if (ellipsoid_dot(facet->inward[k], from) < 0)
+        {
+            return ellipsoid_boundary_nearest(facet, centre, reach, nearest);
+        }
+    }
+    nearest->feature = ELLIPSOID_ON_FACE;
+    nearest->height = height;
+    ellipsoid_copy(facet->normal, nearest->normal);
+    return 1;
+}
 
 /* What of a facet's edges serves many points. */
 typedef struct ellipsoid_facet_sides
