@@ -68,42 +68,30 @@ void ellipsoid_facet_cache_clear(ellipsoid_facet_cache *cache)
     memset(cache->near_x, 0, sizeof cache->near_x);
 }
 
-/*
-    How far any bead can have moved since the cache was filled. The box that
-    holds the beads bounds it: a spin about a long axis moves them little. If
-    that is more than the margin, it is each bead's own move that counts.
-*/
+/* How far any bead can have moved since the cache was filled, at most: a bead b
+   of the box that holds them has moved by d + Rb, R the change of rotation. */
 static double farthest_move(const ellipsoid_facet_cache *cache,
-                            const ellipsoid_model *model, const double x[3],
-                            const double q[4])
+                            const double x[3], const double q[4])
 {
+    const double *half = cache->half_box;
     ellipsoid_pose_change change;
-    double r[3][3], sum = 0, bound, farthest = 0;
+    double r[3][3], squared;
 
     ellipsoid_rotation_inline(q, r);
     ellipsoid_pose_change_set(cache, x, r, &change);
+    squared = ellipsoid_dot(change.x, change.x);
     for (int i = 0; i < 3; i++)
     {
-        const double d = fabs(change.r[i][0]) * cache->half_box[0]
-                       + fabs(change.r[i][1]) * cache->half_box[1]
-                       + fabs(change.r[i][2]) * cache->half_box[2];
+        const double turn = fabs(change.r[i][0]) * half[0]
+                          + fabs(change.r[i][1]) * half[1]
+                          + fabs(change.r[i][2]) * half[2];
+        const double along = change.x[0] * change.r[0][i]
+                           + change.x[1] * change.r[1][i]
+                           + change.x[2] * change.r[2][i];
 
-        sum += d * d;
+        squared += turn * turn + 2 * fabs(along) * half[i];
     }
-    bound = ellipsoid_length(change.x) + sqrt(sum);
-    if (bound <= cache->margin
-        || model->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID
-        || !isfinite(bound))
-    {
-        return bound;
-    }
-    for (int b = 0; b < model->bead_count; b++)
-    {
-        const double squared = ellipsoid_squared_move(&change, model->bead[b]);
-
-        farthest = squared > farthest ? squared : farthest;
-    }
-    return sqrt(farthest) * (1 + 1e-12); /* rounded up */
+    return sqrt(squared) * (1 + 1e-12); /* rounded up */
 }
 
 /* Does the cache hold all facets that matter in this pose? */
@@ -130,7 +118,7 @@ static int is_current(const ellipsoid_facet_cache *cache,
 
         return left > 0 && ellipsoid_dot(d, d) < left * left;
     }
-    *moved = farthest_move(cache, model, x, q);
+    *moved = farthest_move(cache, x, q);
     return *moved <= cache->margin;
 }
 
