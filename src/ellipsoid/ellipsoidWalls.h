@@ -194,7 +194,8 @@ const ellipsoid_facet *ellipsoid_walls_facets(const ellipsoid_walls *walls,
 
 /*
     Writes the facets whose boxes are nearer than `reach` [m] to `centre` [m,
-    lab] into index[], ascending, at most `room` of them. If there are none,
+    lab], or farther by what single precision takes, 1e-5 of the size of the
+    walls, into index[], ascending, at most `room` of them. If there are none,
     list->reach is set to the distance of the nearest facet, at most `far` [m];
     a cell needs no other search until it has moved that far. Returns the number
     of these facets. If this is larger than `room`, the list must not be used.

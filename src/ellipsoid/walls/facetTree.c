@@ -65,40 +65,56 @@ static uint64_t place_on_curve(const double x[3], const double low[3],
 
 /* ----------------------------------------------------------------- make */
 
-static void box_clear(ellipsoid_tree_box *box)
+/* Half of a box that holds nothing, and the square of how far a search looks at
+   most, which does not reach it. */
+static const float nothing = -3e18F, farthest = 1e36F;
+
+typedef struct box
 {
-    ellipsoid_set(box->low, HUGE_VAL, HUGE_VAL, HUGE_VAL);
-    ellipsoid_set(box->high, -HUGE_VAL, -HUGE_VAL, -HUGE_VAL);
+    double low[3], high[3];
+} box;
+
+static const box empty = {{HUGE_VAL, HUGE_VAL, HUGE_VAL},
+                          {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+
+static void box_add(box *all, int i, double low, double high)
+{
+    all->low[i] = fmin(all->low[i], low);
+    all->high[i] = fmax(all->high[i], high);
 }
 
-static void box_add(ellipsoid_tree_box *box, const double low[3],
-                    const double high[3])
+static void box_add_facet(box *all, const ellipsoid_facet *facet)
 {
-    for (int i = 0; i < 3; i++)
+    for (int k = 0; k < 3; k++)
     {
-        box->low[i] = fmin(box->low[i], low[i]);
-        box->high[i] = fmax(box->high[i], high[i]);
+        for (int i = 0; i < 3; i++)
+        {
+            box_add(all, i, facet->vertex[k][i], facet->vertex[k][i]);
+        }
     }
 }
 
-static size_t box_count(size_t count)
+static size_t nodes_for(size_t boxes)
 {
-    size_t boxes = (count + ELLIPSOID_TREE_LEAF - 1) / ELLIPSOID_TREE_LEAF;
-    size_t sum = boxes;
+    return (boxes + ELLIPSOID_TREE_FAN - 1) / ELLIPSOID_TREE_FAN;
+}
 
-    while (boxes > 1)
+static size_t node_count(size_t count)
+{
+    size_t nodes = nodes_for(count), sum = nodes;
+
+    while (nodes > 1)
     {
-        boxes = (boxes + ELLIPSOID_TREE_FAN - 1) / ELLIPSOID_TREE_FAN;
-        sum += boxes;
+        nodes = nodes_for(nodes);
+        sum += nodes;
     }
     return sum;
 }
 
 size_t ellipsoid_facet_tree_size(size_t count)
 {
-    return ellipsoid_piece(count, sizeof(int))
-         + ellipsoid_piece(count, sizeof(ellipsoid_tree_box))
-         + ellipsoid_piece(box_count(count), sizeof(ellipsoid_tree_box));
+    return ellipsoid_piece(nodes_for(count), sizeof(int[ELLIPSOID_TREE_FAN]))
+         + ellipsoid_piece(node_count(count), sizeof(ellipsoid_tree_node));
 }
 
 size_t ellipsoid_facet_tree_scratch(size_t count)
@@ -106,14 +122,11 @@ size_t ellipsoid_facet_tree_scratch(size_t count)
     return ellipsoid_piece(count, sizeof(ellipsoid_sort_key));
 }
 
-static const ellipsoid_tree_box *own_boxes(const ellipsoid_facet_tree *tree)
+static const ellipsoid_tree_node *node_of(const ellipsoid_facet_tree *tree,
+                                          int level, int at)
 {
-    return (const void *)((const char *)tree + tree->own);
-}
-
-static const ellipsoid_tree_box *boxes_of(const ellipsoid_facet_tree *tree)
-{
-    return (const void *)((const char *)tree + tree->box);
+    return (const ellipsoid_tree_node *)((const char *)tree + tree->node)
+         + tree->first[level] + at;
 }
 
 static const int *order_of(const ellipsoid_facet_tree *tree)
@@ -121,53 +134,98 @@ static const int *order_of(const ellipsoid_facet_tree *tree)
     return (const void *)((const char *)tree + tree->order);
 }
 
+/* Also where the tree is. */
 static void set_order(const ellipsoid_facet *facets, int count,
-                      ellipsoid_sort_key *keys)
+                      ellipsoid_facet_tree *tree, ellipsoid_sort_key *keys)
 {
-    ellipsoid_tree_box all;
-    double extent = 0;
+    box all = empty;
 
-    box_clear(&all);
+    tree->size = 0;
     for (int f = 0; f < count; f++)
     {
-        box_add(&all, facets[f].middle, facets[f].middle);
+        box_add_facet(&all, &facets[f]);
     }
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3 && count > 0; i++)
     {
-        extent = fmax(extent, all.high[i] - all.low[i]);
+        tree->middle[i] = 0.5 * all.low[i] + 0.5 * all.high[i];
+        tree->size = fmax(tree->size, 0.5 * all.high[i] - 0.5 * all.low[i]);
     }
     for (int f = 0; f < count; f++)
     {
-        keys[f].key = place_on_curve(facets[f].middle, all.low, extent);
+        keys[f].key = place_on_curve(facets[f].middle, all.low, 2 * tree->size);
         keys[f].index = f;
     }
     ellipsoid_sort(keys, count);
 }
 
-static void set_boxes(ellipsoid_facet_tree *tree, ellipsoid_tree_box *box)
+/* Box k of a node, wider by what rounding takes. */
+static void node_set(ellipsoid_tree_node *node, int k, const box *of,
+                     const ellipsoid_facet_tree *tree)
 {
-    const ellipsoid_tree_box *below = own_boxes(tree);
-    int first = 0;
+    const int holds = of->low[0] <= of->high[0];
+
+    for (int i = 0; i < 3; i++)
+    {
+        node->middle[i][k] = 0;
+        node->half[i][k] = nothing;
+        if (holds)
+        {
+            const double half = 0.5 * (of->high[i] - of->low[i]);
+            const double middle = of->low[i] + half - tree->middle[i];
+
+            node->middle[i][k] = (float)(middle / tree->size);
+            node->half[i][k] = (float)(half / tree->size + 3e-7);
+        }
+    }
+}
+
+/* About all boxes of a node */
+static box box_about(const ellipsoid_tree_node *node,
+                     const ellipsoid_facet_tree *tree)
+{
+    box all = empty;
+
+    for (int i = 0; i < 3; i++)
+    {
+        for (int k = 0; k < ELLIPSOID_TREE_FAN; k++)
+        {
+            const double middle = node->middle[i][k], half = node->half[i][k];
+
+            box_add(&all, i, tree->middle[i] + (middle - half) * tree->size,
+                    tree->middle[i] + (middle + half) * tree->size);
+        }
+    }
+    return all;
+}
+
+static void set_nodes(ellipsoid_facet_tree *tree, const ellipsoid_facet *facets,
+                      const int *order, ellipsoid_tree_node *node)
+{
+    int boxes = tree->count, first = 0;
 
     tree->levels = 0;
-    for (int n = tree->count, fan = ELLIPSOID_TREE_LEAF; n > 0;)
+    while (boxes > 0)
     {
-        const int boxes = (n + fan - 1) / fan;
+        const int nodes = (int)nodes_for(boxes), level = tree->levels++;
 
-        for (int b = 0; b < boxes; b++)
+        tree->first[level] = first;
+        for (int n = 0; n < nodes * ELLIPSOID_TREE_FAN; n++)
         {
-            box_clear(&box[first + b]);
-            for (int i = b * fan; i < n && i < (b + 1) * fan; i++)
+            box of = empty;
+
+            if (n < boxes && level == 0)
             {
-                box_add(&box[first + b], below[i].low, below[i].high);
+                box_add_facet(&of, &facets[order[n]]);
             }
+            else if (n < boxes)
+            {
+                of = box_about(&node[tree->first[level - 1] + n], tree);
+            }
+            node_set(&node[first + n / ELLIPSOID_TREE_FAN],
+                     n % ELLIPSOID_TREE_FAN, &of, tree);
         }
-        tree->first[tree->levels] = first;
-        tree->boxes[tree->levels++] = boxes;
-        below = &box[first];
-        first += boxes;
-        fan = ELLIPSOID_TREE_FAN;
-        n = boxes > 1 ? boxes : 0;
+        first += nodes;
+        boxes = nodes > 1 ? nodes : 0;
     }
 }
 
@@ -175,50 +233,24 @@ void ellipsoid_facet_tree_set(ellipsoid_facet_tree *tree,
                               const ellipsoid_facet *facets, int count,
                               ellipsoid_arena *arena, ellipsoid_arena scratch)
 {
+    const int room = (int)nodes_for(count) * ELLIPSOID_TREE_FAN;
     ellipsoid_sort_key *keys = ellipsoid_take(&scratch, count, sizeof *keys);
-    int *order = ellipsoid_take(arena, count, sizeof *order);
-    ellipsoid_tree_box *own = ellipsoid_take(arena, count, sizeof *own);
-    ellipsoid_tree_box *box =
-        ellipsoid_take(arena, box_count(count), sizeof *box);
+    int *order = ellipsoid_take(arena, room, sizeof *order);
+    ellipsoid_tree_node *node =
+        ellipsoid_take(arena, node_count(count), sizeof *node);
 
     tree->count = count;
     tree->order = (char *)order - (char *)tree;
-    tree->own = (char *)own - (char *)tree;
-    tree->box = (char *)box - (char *)tree;
-    set_order(facets, count, keys);
-    for (int i = 0; i < count; i++)
+    tree->node = (char *)node - (char *)tree;
+    set_order(facets, count, tree, keys);
+    for (int i = 0; i < room; i++)
     {
-        const ellipsoid_facet *f = &facets[keys[i].index];
-
-        order[i] = keys[i].index;
-        box_clear(&own[i]);
-        for (int k = 0; k < 3; k++)
-        {
-            box_add(&own[i], f->vertex[k], f->vertex[k]);
-        }
+        order[i] = i < count ? keys[i].index : 0;
     }
-    set_boxes(tree, box);
+    set_nodes(tree, facets, order, node);
 }
 
 /* ----------------------------------------------------------------- ask */
-
-static inline double larger(double a, double b) { return a > b ? a : b; }
-
-/* Squared, from a point to a box. */
-static inline double squared_to_box(const ellipsoid_tree_box *box,
-                                    const double x[3])
-{
-    double sum = 0;
-
-    for (int i = 0; i < 3; i++)
-    {
-        const double below = box->low[i] - x[i], above = x[i] - box->high[i];
-        const double off = larger(larger(below, above), 0);
-
-        sum += off * off;
-    }
-    return sum;
-}
 
 /* What a search goes by. */
 typedef struct search
@@ -226,46 +258,42 @@ typedef struct search
     const ellipsoid_facet_tree *tree;
     const ellipsoid_facet *facets; /* of the nearest */
     const double *centre;
-    double squared; /* as far as it looks; of the nearest so far */
-    int room, *index, count, nowhere;
+    double squared;    /* to the nearest so far */
+    float x[3], limit; /* the centre; squared twice as far as it looks */
 } search;
 
-static void list_leaf(search *s, int leaf)
+/* The centre, and `reach`, farther by what rounding takes. */
+static void set_reach(search *s, double reach)
 {
-    const int first = leaf * ELLIPSOID_TREE_LEAF;
-    const int after = first + ELLIPSOID_TREE_LEAF;
-    const int end = after < s->tree->count ? after : s->tree->count;
-    const ellipsoid_tree_box *own = own_boxes(s->tree);
-    const int *order = order_of(s->tree);
+    const double unit = 1 / s->tree->size;
+    double twice = 1 + reach * unit;
 
-    /* without a branch, which would be predicted wrongly half of the time */
-    for (int i = first; i < end; i++)
+    for (int i = 0; i < 3; i++)
     {
-        *(s->count < s->room ? &s->index[s->count] : &s->nowhere) = order[i];
-        s->count += squared_to_box(&own[i], s->centre) <= s->squared;
+        s->x[i] = (float)((s->centre[i] - s->tree->middle[i]) * unit);
+        twice += fabsf(s->x[i]);
     }
+    twice = 2 * (reach * unit + 1e-6 * twice);
+    s->limit = (float)fmin(twice * twice, farthest);
 }
 
-/* In a box that is near enough */
-static void list_below(search *s, int level, int at)
+/* Squared twice the distances from the centre to the boxes of a node. */
+static inline void set_squared(const search *s, const ellipsoid_tree_node *node,
+                               float squared[ELLIPSOID_TREE_FAN])
 {
-    const ellipsoid_tree_box *box;
-    int end;
+    for (int k = 0; k < ELLIPSOID_TREE_FAN; k++)
+    {
+        float sum = 0;
 
-    if (level == 0)
-    {
-        list_leaf(s, at);
-        return;
-    }
-    box = boxes_of(s->tree) + s->tree->first[level - 1];
-    end = (at + 1) * ELLIPSOID_TREE_FAN;
-    end = end < s->tree->boxes[level - 1] ? end : s->tree->boxes[level - 1];
-    for (int n = at * ELLIPSOID_TREE_FAN; n < end; n++)
-    {
-        if (squared_to_box(&box[n], s->centre) <= s->squared)
+        for (int i = 0; i < 3; i++)
         {
-            list_below(s, level - 1, n);
+            const float off =
+                fabsf(s->x[i] - node->middle[i][k]) - node->half[i][k];
+            const float twice = off + fabsf(off); /* 0 inside */
+
+            sum += twice * twice;
         }
+        squared[k] = sum;
     }
 }
 
@@ -273,21 +301,47 @@ int ellipsoid_facet_tree_list(const ellipsoid_facet_tree *tree,
                               const double centre[3], double reach, int room,
                               int *index)
 {
-    search s = {.tree = tree,
-                .centre = centre,
-                .squared = reach * reach * (1 + 1e-9), /* for rounding */
-                .room = room,
-                .index = index};
+    struct
+    {
+        int level, at;
+    } open[ELLIPSOID_TREE_FAN * ELLIPSOID_TREE_LEVELS];
+    search s = {.tree = tree, .centre = centre};
+    const int *order = order_of(tree);
+    int count = 0, left = 1, nowhere;
 
-    if (tree->count > 0)
+    if (tree->count == 0)
     {
-        list_below(&s, tree->levels - 1, 0);
+        return 0;
     }
-    if (s.count <= room)
+    set_reach(&s, reach);
+    open[0].level = tree->levels - 1;
+    open[0].at = 0;
+    while (left > 0)
     {
-        sort_indices(index, s.count);
+        const int level = open[--left].level;
+        const int at = open[left].at;
+        float squared[ELLIPSOID_TREE_FAN];
+
+        /* no branch, which would be predicted wrongly half of the time */
+        set_squared(&s, node_of(tree, level, at), squared);
+        for (int k = 0; level > 0 && k < ELLIPSOID_TREE_FAN; k++)
+        {
+            open[left].level = level - 1;
+            open[left].at = at * ELLIPSOID_TREE_FAN + k;
+            left += squared[k] <= s.limit;
+        }
+        for (int k = 0; level == 0 && k < ELLIPSOID_TREE_FAN; k++)
+        {
+            *(count < room ? &index[count] : &nowhere) =
+                order[at * ELLIPSOID_TREE_FAN + k];
+            count += squared[k] <= s.limit;
+        }
     }
-    return s.count;
+    if (count <= room)
+    {
+        sort_indices(index, count);
+    }
+    return count;
 }
 
 /* Squared, from a point to a facet. */
@@ -317,50 +371,42 @@ static double squared_to_facet(const ellipsoid_facet *f, const double x[3])
              : ellipsoid_dot(from, f->normal) * ellipsoid_dot(from, f->normal);
 }
 
-static void nearest_below(search *s, int level, int at);
-
-/* The children of a box, the nearest first: later ones are then left out. */
-static void nearest_in_children(search *s, int level, int at)
-{
-    const ellipsoid_tree_box *box =
-        boxes_of(s->tree) + s->tree->first[level - 1];
-    double squared[ELLIPSOID_TREE_FAN];
-    int child[ELLIPSOID_TREE_FAN], count = 0;
-
-    for (int n = at * ELLIPSOID_TREE_FAN;
-         n < s->tree->boxes[level - 1] && n < (at + 1) * ELLIPSOID_TREE_FAN;
-         n++)
-    {
-        const double off = squared_to_box(&box[n], s->centre);
-        int k = count++;
-
-        for (; k > 0 && squared[k - 1] > off; k--)
-        {
-            squared[k] = squared[k - 1];
-            child[k] = child[k - 1];
-        }
-        squared[k] = off;
-        child[k] = n;
-    }
-    for (int k = 0; k < count && squared[k] < s->squared; k++)
-    {
-        nearest_below(s, level - 1, child[k]);
-    }
-}
-
+/* The boxes of a node, the nearest first: later ones are then left out. */
 static void nearest_below(search *s, int level, int at)
 {
-    if (level > 0)
+    float squared[ELLIPSOID_TREE_FAN];
+    int box[ELLIPSOID_TREE_FAN];
+
+    set_squared(s, node_of(s->tree, level, at), squared);
+    for (int n = 0; n < ELLIPSOID_TREE_FAN; n++)
     {
-        nearest_in_children(s, level, at);
-        return;
+        const float of = squared[n];
+        int k = n;
+
+        for (; k > 0 && squared[k - 1] > of; k--)
+        {
+            squared[k] = squared[k - 1];
+            box[k] = box[k - 1];
+        }
+        squared[k] = of;
+        box[k] = at * ELLIPSOID_TREE_FAN + n;
     }
-    for (int i = at * ELLIPSOID_TREE_LEAF;
-         i < s->tree->count && i < (at + 1) * ELLIPSOID_TREE_LEAF; i++)
+    for (int k = 0; k < ELLIPSOID_TREE_FAN && squared[k] <= s->limit; k++)
     {
-        s->squared =
-            fmin(s->squared,
-                 squared_to_facet(&s->facets[order_of(s->tree)[i]], s->centre));
+        if (level > 0)
+        {
+            nearest_below(s, level - 1, box[k]);
+            continue;
+        }
+
+        const double to =
+            squared_to_facet(&s->facets[order_of(s->tree)[box[k]]], s->centre);
+
+        if (to < s->squared)
+        {
+            s->squared = to;
+            set_reach(s, sqrt(to));
+        }
     }
 }
 
@@ -373,6 +419,7 @@ double ellipsoid_facet_tree_distance(const ellipsoid_facet_tree *tree,
 
     if (tree->count > 0)
     {
+        set_reach(&s, far);
         nearest_below(&s, tree->levels - 1, 0);
     }
     return fmin(sqrt(s.squared), far);

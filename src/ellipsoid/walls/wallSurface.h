@@ -64,23 +64,23 @@ int ellipsoid_flat_parts_set(double depth, const int (*across)[3], int count,
 
 /* ---------------------------------------------------------- facetTree.c */
 
-#define ELLIPSOID_TREE_LEAF 8    /* facets in a leaf */
-#define ELLIPSOID_TREE_FAN 4     /* boxes in a box */
-#define ELLIPSOID_TREE_LEVELS 18 /* for as many facets as an int counts */
+#define ELLIPSOID_TREE_FAN 8     /* boxes in a node */
+#define ELLIPSOID_TREE_LEVELS 11 /* for as many facets as an int counts */
 
-typedef struct ellipsoid_tree_box
+/* Boxes from the middle of all, by the tree's size; one array for each of their
+   numbers so that loops vectorise, in single precision and so much wider. */
+typedef struct ellipsoid_tree_node
 {
-    double low[3], high[3];
-} ellipsoid_tree_box;
+    float middle[3][ELLIPSOID_TREE_FAN], half[3][ELLIPSOID_TREE_FAN];
+} ellipsoid_tree_node;
 
 /* Boxes about boxes about facets, as offsets [bytes] from itself. */
 typedef struct ellipsoid_facet_tree
 {
     int count, levels;
-    int first[ELLIPSOID_TREE_LEVELS]; /* box of a level; level 0: the leaves */
-    int boxes[ELLIPSOID_TREE_LEVELS];
-    ptrdiff_t order, own, box; /* facets and the box of each, by leaves; boxes
-                                  about those */
+    int first[ELLIPSOID_TREE_LEVELS]; /* node of a level; level 0: of facets */
+    double middle[3], size; /* [m] of the box about all; half its longest */
+    ptrdiff_t order, node;  /* the facet of each box of level 0; nodes */
 } ellipsoid_facet_tree;
 
 size_t ellipsoid_facet_tree_size(size_t count);
