@@ -55,126 +55,97 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::meshFlow::sampleOf
-(
-    const flowValues& values,
-    tetCoordinates& c,
-    const bool derivatives,
-    flowSample& sample
-) const
+void Foam::meshFlow::visit(const label teti, visitedTet& in) const
 {
-    const auto gradient =
-        [&](const label i) -> const tensor&
-        {
-            return values.vertex(i).gradient;
-        };
-    const auto gradp =
-        [&](const label i) -> const vector&
-        {
-            return values.vertices[i].pressureGradient;
-        };
+    const label* v = tets_[teti].vertices;
+    const UList<flowVertex>& vertices = values_->vertices;
 
-    if (pressure_)
+    in.tet = teti;
+    in.vertices = v;
+    in.sound = !unsound_.found(teti);
+    in.flowOf = nullptr;
+    in.origin = vertices[v[0]].x;
+
+    const vector edges[3] =
     {
-        sample.pressureGradient = c.back(c.value<vector>(gradp));
-        if (derivatives)
-        {
-            sample.pressureDerivatives = c.back(c.derivatives(gradp));
-        }
-    }
+        vertices[v[1]].x - in.origin,
+        vertices[v[2]].x - in.origin,
+        vertices[v[3]].x - in.origin
+    };
 
-    sample.velocity =
-        velocityOf(values, c, derivatives ? &sample.derivatives : nullptr);
-    sample.gradient = c.back(c.value<tensor>(gradient));
-
-    if (derivatives)
-    {
-        std::fill_n(sample.gradientDerivatives, 27, scalar(0));
-
-        for (int a = 0; a < 4; ++a)
-        {
-            const tensor G(c.back(gradient(c.vertices[a])));
-            const vector slope(c.back(c.gradient[a]));
-
-            for (int ij = 0; ij < 9; ++ij)
-            {
-                for (int k = 0; k < 3; ++k)
-                {
-                    sample.gradientDerivatives[3*ij + k] += slope[k]*G[ij];
-                }
-            }
-        }
-    }
+    tetFlow::setCoordinateGradients(edges, in.gradient);
 }
 
 
-const Foam::tetFlow& Foam::meshFlow::flowIn
+void Foam::meshFlow::setFlowIn
 (
     const flowValues& values,
-    tetCoordinates& c
+    visitedTet& in
 ) const
 {
-    if (c.flowOf != values.vertices.cdata())
-    {
-        const auto vertex =
-            [&](const int a) -> const flowVertex&
-            {
-                return values.vertex(c.vertices[a]);
-            };
+    const bool conservative = scheme_ == stDivergenceFree;
+    const auto vertex =
+        [&](const int a) -> const flowVertex& { return *in.corners[a]; };
 
-        balance(values, c.vertices[0]);
-        c.flowOf = values.vertices.cdata();
-        c.flow.set
+    if (conservative)
+    {
+        balance(values, in.vertices[0]);
+    }
+    for (int a = 0; a < 4; ++a)
+    {
+        in.corners[a] = &values.vertex(in.vertices[a]);
+    }
+    if (conservative)
+    {
+        in.flow.set
         (
-            c.gradient,
+            in.gradient,
             vertex,
-            values.excess[c.tet].cdata(),
-            values.straight[c.tet]
+            values.excess[in.tet].cdata(),
+            values.straight[in.tet]
         );
     }
-
-    return c.flow;
+    in.flowOf = values.vertices.cdata();
 }
 
 
-Foam::vector Foam::meshFlow::velocityOf
+inline Foam::vector Foam::meshFlow::velocityOf
 (
-    const flowValues& values,
-    tetCoordinates& c,
+    const visitedTet& in,
+    const tetCoordinates& c,
     tensor* derivatives
 ) const
 {
-    const auto u =
-        [&](const label i) -> const vector&
-        {
-            return values.vertex(i).u;
-        };
-    vector value(Zero);
+    const scalar* l = c.weight;
+    vector value;
 
     if (scheme_ == stCellPoint)
     {
-        value = c.value<vector>(u);
+        const scalar* at[4];
+        for (int a = 0; a < 4; ++a)
+        {
+            at[a] = in.corners[a]->u.cdata();
+        }
+        in.combine<3>(at, l, value.v_);
         if (derivatives)
         {
-            *derivatives = c.derivatives(u);
+            in.differentiate<3>(at, derivatives->v_);
         }
+    }
+    else if (min(min(l[0], l[1]), min(l[2], l[3])) >= -1e-9)
+    {
+        in.flow.evaluate(in.gradient, l, value, derivatives);
     }
     else
     {
-        const tetFlow& flow = flowIn(values, c);
-        scalar inside[4];
-        std::copy_n(c.weight, 4, inside);
-
         // Beyond an open patch, what is not linear stays as it is there
-        const bool beyond = *std::min_element(inside, inside + 4) < -1e-9;
-        if (beyond)
+        scalar inside[4];
+        std::copy_n(l, 4, inside);
+        toFace(inside);
+        in.flow.evaluate(in.gradient, inside, value, derivatives);
+        for (int a = 0; a < 4; ++a)
         {
-            toFace(inside);
-        }
-        flow.evaluate(c.gradient, inside, value, derivatives);
-        for (int a = 0; beyond && a < 4; ++a)
-        {
-            value += (c.weight[a] - inside[a])*u(c.vertices[a]);
+            value += (l[a] - inside[a])*in.corners[a]->u;
         }
     }
 
@@ -183,6 +154,70 @@ Foam::vector Foam::meshFlow::velocityOf
         *derivatives = c.back(*derivatives);
     }
     return c.back(value);
+}
+
+
+inline void Foam::meshFlow::sampleOf
+(
+    const flowValues& values,
+    const tetCoordinates& c,
+    const bool derivatives,
+    flowSample& sample
+) const
+{
+    const visitedTet& in = flowIn(values, c.tet);
+    const scalar* at[4];
+
+    if (pressure_)
+    {
+        vector gradp;
+        for (int a = 0; a < 4; ++a)
+        {
+            at[a] = in.corners[a]->pressureGradient.cdata();
+        }
+        in.combine<3>(at, c.weight, gradp.v_);
+        sample.pressureGradient = c.back(gradp);
+        if (derivatives)
+        {
+            tensor byPosition;
+            in.differentiate<3>(at, byPosition.v_);
+            sample.pressureDerivatives = c.back(byPosition);
+        }
+    }
+
+    sample.velocity =
+        velocityOf(in, c, derivatives ? &sample.derivatives : nullptr);
+
+    tensor G;
+    for (int a = 0; a < 4; ++a)
+    {
+        at[a] = in.corners[a]->gradient.cdata();
+    }
+    in.combine<9>(at, c.weight, G.v_);
+    sample.gradient = c.back(G);
+
+    if (derivatives)
+    {
+        scalar* to = sample.gradientDerivatives;
+        in.differentiate<9>(at, to);
+        if (c.turned)
+        {
+            tensor along[3];
+            for (int i = 0; i < 27; ++i)
+            {
+                along[i % 3][i/3] = to[i];
+            }
+            for (tensor& T : along)
+            {
+                T = c.back(T);
+            }
+            for (int ij = 0; ij < 9; ++ij, to += 3)
+            {
+                const vector d(along[0][ij], along[1][ij], along[2][ij]);
+                std::copy_n(c.back(d).v_, 3, to);
+            }
+        }
+    }
 }
 
 
@@ -201,6 +236,7 @@ Foam::meshFlow::meshFlow
     scheme_(scheme),
     pressure_(pressure),
     unsteady_(unsteady),
+    visited_(nVisited),
     fluxes_(new cellFluxes(tets_)),
     images_(undecomposed.mesh(), unreached)
 {
@@ -262,6 +298,7 @@ void Foam::meshFlow::renew
 )
 {
     values_->close();
+    visited_ = visitedTet();
 
     if (Pstream::master())
     {
@@ -298,7 +335,7 @@ void Foam::meshFlow::advance
 void Foam::meshFlow::sample
 (
     const scalar t,
-    tetCoordinates& c,
+    const tetCoordinates& c,
     const bool derivatives,
     flowSample& sample
 ) const
@@ -346,11 +383,11 @@ void Foam::meshFlow::sample
 Foam::vector Foam::meshFlow::velocity
 (
     const scalar t,
-    tetCoordinates& c,
+    const tetCoordinates& c,
     tensor* derivatives
 ) const
 {
-    vector value(velocityOf(*values_, c, derivatives));
+    vector value(velocityOf(flowIn(*values_, c.tet), c, derivatives));
 
     if (!accelerates())
     {
@@ -360,7 +397,11 @@ Foam::vector Foam::meshFlow::velocity
     tensor laterDerivatives;
     const vector later
     (
-        velocityOf(*laterValues_, c, derivatives ? &laterDerivatives : nullptr)
+        velocityOf
+        (
+            flowIn(*laterValues_, c.tet), c,
+            derivatives ? &laterDerivatives : nullptr
+        )
     );
 
     if (derivatives)
@@ -416,13 +457,21 @@ Foam::vector Foam::meshFlow::field
     tensor* derivatives
 ) const
 {
-    const auto E = [&](const label i) -> const vector& { return field_[i]; };
+    const visitedTet& in = visited(c.tet);
+    const scalar* at[4];
+    vector E;
 
+    for (int a = 0; a < 4; ++a)
+    {
+        at[a] = field_[in.vertices[a]].cdata();
+    }
     if (derivatives)
     {
-        *derivatives = c.back(c.derivatives(E));
+        in.differentiate<3>(at, derivatives->v_);
+        *derivatives = c.back(*derivatives);
     }
-    return c.back(c.value<vector>(E));
+    in.combine<3>(at, c.weight, E.v_);
+    return c.back(E);
 }
 
 

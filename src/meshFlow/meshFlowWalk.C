@@ -47,34 +47,6 @@ namespace Foam
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::meshFlow::setCoordinates
-(
-    const label teti,
-    const point& x,
-    tetCoordinates& c
-) const
-{
-    if (c.tet != teti)
-    {
-        c.tet = teti;
-        c.flowOf = nullptr;
-        c.vertices = tets_[teti].vertices;
-        c.origin = values_->vertices[c.vertices[0]].x;
-
-        const vector edges[3] =
-        {
-            values_->vertices[c.vertices[1]].x - c.origin,
-            values_->vertices[c.vertices[2]].x - c.origin,
-            values_->vertices[c.vertices[3]].x - c.origin
-        };
-
-        tetFlow::setCoordinateGradients(edges, c.gradient);
-    }
-
-    c.moveTo(x);
-}
-
-
 Foam::label Foam::meshFlow::searched
 (
     const label from,
@@ -107,9 +79,10 @@ Foam::label Foam::meshFlow::searched
         const flowTet& tet = tets_[teti];
         next.erase(next.begin());
 
-        if (!unsound_.found(teti))
+        const visitedTet& in = visited(teti);
+        if (in.sound)
         {
-            setCoordinates(teti, x, c);
+            in.setCoordinates(x, c);
             const label exit = exitOf(tet, c, -1);
             if (exit < 0)
             {
@@ -152,12 +125,12 @@ Foam::meshFlow::locationType Foam::meshFlow::walk
     for (label n = 0; n < maxTets; ++n)
     {
         // Where tetrahedra overlap, or a walk goes round in circles
-        if (unsound_.found(at.tet) || n == maxTets/2)
+        if (!visited(at.tet).sound || n == maxTets/2)
         {
             const label there = searched(at.tet, y);
             if (there < 0)
             {
-                setCoordinates(at.tet, y, c);
+                visited(at.tet).setCoordinates(y, c);
                 break;
             }
             at.tet = there;
@@ -165,7 +138,7 @@ Foam::meshFlow::locationType Foam::meshFlow::walk
         }
 
         const flowTet& tet = tets_[at.tet];
-        setCoordinates(at.tet, y, c);
+        visited(at.tet).setCoordinates(y, c);
         at.patch = -1;
 
         const label exit = exitOf(tet, c, previous);
@@ -263,19 +236,13 @@ bool Foam::meshFlow::reach
 ) const
 {
     // Most positions are in the tetrahedron of the last one
-    if (c.tet == at.tet)
+    const visitedTet& in = visited(at.tet);
+    in.setCoordinates(x, c);
+    if (in.sound && c.isInside())
     {
-        c.moveTo(x);
-        if
-        (
-           !c.isBeyond(0) && !c.isBeyond(1)
-        && !c.isBeyond(2) && !c.isBeyond(3)
-        )
-        {
-            at.patch = -1;
-            c.turned = false;
-            return true;
-        }
+        at.patch = -1;
+        c.turned = false;
+        return true;
     }
 
     return walk(x, at, c) != pBeyondWall;
