@@ -122,35 +122,76 @@ static int is_current(const ellipsoid_facet_cache *cache,
     return *moved <= cache->margin;
 }
 
-/* The nearest that any facet, listed or not, can be to the centre; NaN where
-   a facet is not finite. */
-static double nearest_facet(const ellipsoid_facet_list *list,
-                            const double centre[3])
+/* 0 if a facet is not finite. */
+static int set_planes(const ellipsoid_facet_list *list, const double x[3],
+                      ellipsoid_facet_planes *planes)
 {
-    double nearest = list->reach;
+    int finite = 1;
 
     for (int k = 0; k < list->count; k++)
     {
         const ellipsoid_facet *facet = &list->facets[list->index[k]];
-        double d[3];
+        double d[3], height;
 
-        ellipsoid_difference(centre, facet->middle, d);
+        ellipsoid_difference(facet->middle, x, d);
+        height = ellipsoid_dot(d, facet->normal);
+        finite &= isfinite(height + ellipsoid_dot(d, d) + facet->radius) != 0;
+        if (k >= ELLIPSOID_MAX_LISTED)
+        {
+            continue;
+        }
+        for (int i = 0; i < 3; i++)
+        {
+            planes->middle[i][k] = (float)d[i];
+            planes->normal[i][k] = (float)facet->normal[i];
+        }
+        planes->height[k] = (float)height;
+        planes->radius[k] = (float)(facet->radius * (1 + 4e-6));
+    }
+    return finite;
+}
+
+/* The nearest that any facet, listed or not, can be to a point, which is relative
+   to where the list was looked up. */
+static double nearest_facet(const ellipsoid_facet_planes *planes,
+                            const ellipsoid_facet_list *list,
+                            const double from[3])
+{
+    const float x[3] = {(float)from[0], (float)from[1], (float)from[2]};
+    const float slack =
+        ELLIPSOID_PLANES_ROUNDED * (fabsf(x[0]) + fabsf(x[1]) + fabsf(x[2]));
+    float height[ELLIPSOID_MAX_LISTED], squared[ELLIPSOID_MAX_LISTED];
+    double nearest = list->reach;
+
+    if (list->count > ELLIPSOID_MAX_LISTED)
+    {
+        return 0;
+    }
+    for (int k = 0; k < list->count; k++)
+    {
+        float over = -planes->height[k], sum = 0;
+
+        for (int i = 0; i < 3; i++)
+        {
+            const float d = planes->middle[i][k] - x[i];
+
+            over += planes->normal[i][k] * x[i];
+            sum += d * d;
+        }
+        height[k] = fabsf(over);
+        squared[k] = sum;
+    }
+    for (int k = 0; k < list->count; k++)
+    {
+        const double far = nearest + planes->radius[k];
 
         /* outside its plane and its ball */
-        const double height = fabs(ellipsoid_dot(d, facet->normal));
-        const double squared = ellipsoid_dot(d, d);
-        const double far = nearest + facet->radius;
-
-        if (!isfinite(height + squared + facet->radius))
+        if (height[k] < nearest && squared[k] < far * far)
         {
-            return NAN;
-        }
-        if (height < nearest && squared < far * far)
-        {
-            nearest = fmax(height, sqrt(squared) - facet->radius);
+            nearest = fmax(height[k], sqrt(squared[k]) - planes->radius[k]);
         }
     }
-    return nearest;
+    return (1 - ELLIPSOID_PLANES_ROUNDED) * nearest - slack;
 }
 
 ellipsoid_status
@@ -168,7 +209,7 @@ ellipsoid_list_facets(const ellipsoid_surroundings *surroundings,
 
 /*
     Lists the facets within reach, and more, for the searches that follow.
-    Walls that do not answer for more are asked for no more.
+    Walls that do not answer for more, or list too many, are asked for no more.
 */
 static ellipsoid_status list_about(ellipsoid_facet_cache *cache,
                                    const ellipsoid_surroundings *surroundings,
@@ -191,16 +232,27 @@ static ellipsoid_status list_about(ellipsoid_facet_cache *cache,
     }
     cache->about_count = -1;
     if (ellipsoid_list_facets(surroundings, x, reach + more, list)
-        != ELLIPSOID_OK)
+            != ELLIPSOID_OK
+        || list->count > ELLIPSOID_MAX_LISTED)
     {
-        return ellipsoid_list_facets(surroundings, x, reach, list);
+        const ellipsoid_status status =
+            ellipsoid_list_facets(surroundings, x, reach, list);
+
+        if (status != ELLIPSOID_OK)
+        {
+            return status;
+        }
+    }
+    ellipsoid_copy(x, cache->about_x);
+    if (!set_planes(list, x, &cache->planes))
+    {
+        return ELLIPSOID_NON_FINITE;
     }
     if (list->count <= ELLIPSOID_MAX_LISTED)
     {
         cache->about_count = list->count;
         cache->about_reach = list->reach;
         cache->about_facets = list->facets;
-        ellipsoid_copy(x, cache->about_x);
         if (list->count > 0)
         {
             memcpy(cache->about, list->index,
@@ -232,7 +284,8 @@ static double next_margin(const ellipsoid_facet_cache *cache, double radius)
    matters while they move by more than the margin? Then that is how far they
    may. reach: as in fill() */
 static int keep_free(ellipsoid_facet_cache *cache, const ellipsoid_model *model,
-                     const ellipsoid_facet_list *list, double reach,
+                     const ellipsoid_facet_list *list,
+                     const ellipsoid_facet_bounds *bounds, double reach,
                      double horizon, double margin)
 {
     const double near = model->options.bead_radius + horizon;
@@ -246,7 +299,7 @@ static int keep_free(ellipsoid_facet_cache *cache, const ellipsoid_model *model,
     const double taken = (1 + 1e-6) * near;
     const double least = taken + margin;
     const double bound = ellipsoid_facet_bound(
-        model, list, list->reach - reach + near, least, cache);
+        model, list, bounds, list->reach - reach + near, least, cache);
 
     /* the search ends early by the same comparison */
     if (!(bound > least))
@@ -267,8 +320,8 @@ static ellipsoid_status fill(ellipsoid_facet_cache *cache,
                              double horizon)
 {
     const double radius = model->options.bead_radius;
-    const double more = about * radius;
-    double margin = next_margin(cache, radius);
+    double margin = next_margin(cache, radius), from[3], nearest;
+    ellipsoid_facet_bounds bounds;
     ellipsoid_facet_list list;
     ellipsoid_status status;
 
@@ -281,6 +334,7 @@ static ellipsoid_status fill(ellipsoid_facet_cache *cache,
     /* what can matter in this pose lies within */
     const double reach =
         (model->reach - radius) * ellipsoid_square4(q) + radius + horizon;
+    const double more = fmax(about * radius, reach);
 
     status = list_about(cache, surroundings, x, reach + margin, more, &list);
     if (status != ELLIPSOID_OK)
@@ -291,33 +345,35 @@ static ellipsoid_status fill(ellipsoid_facet_cache *cache,
     memcpy(cache->q, q, sizeof cache->q);
     cache->facets = list.facets;
 
-    double nearest = nearest_facet(&list, x);
-
-    if (isnan(nearest))
-    {
-        return ELLIPSOID_NON_FINITE;
-    }
+    ellipsoid_difference(x, cache->about_x, from);
+    nearest = nearest_facet(&cache->planes, &list, from);
     if (nearest - reach >= 0.5 * margin)
     {
-        /* Far from all walls. If they do not say how far, one search of twice
-           the reach saves many later ones; it may fail where the first did
-           not. */
-        if (nearest >= list.reach && list.reach <= reach + margin + more
-            && ellipsoid_list_facets(surroundings, x, 2 * reach, &list)
-                   == ELLIPSOID_OK)
+        /* Far from all walls. Where the list ends, one from here saves many
+           searches; it may fail where the first did not. */
+        if (nearest > 0.99 * list.reach && list.reach < reach + more)
         {
-            nearest = fmax(nearest, nearest_facet(&list, x));
+            cache->about_count = -1;
+            if (list_about(cache, surroundings, x, reach + margin, more, &list)
+                == ELLIPSOID_OK)
+            {
+                ellipsoid_set(from, 0, 0, 0);
+                nearest =
+                    fmax(nearest, nearest_facet(&cache->planes, &list, from));
+            }
         }
         cache->clearance = nearest - reach;
         cache->valid = 1;
         return ELLIPSOID_OK;
     }
 
-    if (keep_free(cache, model, &list, reach, horizon, margin))
+    ellipsoid_facet_bounds_set(model, &list, cache, &bounds);
+    if (keep_free(cache, model, &list, &bounds, reach, horizon, margin))
     {
         return ELLIPSOID_OK;
     }
-    while (!ellipsoid_facet_search(model, &list, horizon, margin, cache))
+    while (
+        !ellipsoid_facet_search(model, &list, &bounds, horizon, margin, cache))
     {
         /* it fails at the smallest margin only, whichever was the first */
         if (margin <= narrowest * radius)

@@ -29,7 +29,11 @@ static void set_box(const ellipsoid_model *model, ellipsoid_facet_cache *cache,
     ellipsoid_copy(cache->x, beads->centre);
     ellipsoid_rotation_inline(cache->q, beads->rotation);
     beads->stretch = ellipsoid_square4(cache->q);
-    if (!(cache->half_box[0] >= 0))
+    if (model->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID)
+    {
+        ellipsoid_copy(model->options.semi_axes, cache->half_box);
+    }
+    else if (!(cache->half_box[0] >= 0))
     {
         ellipsoid_set(cache->half_box, 0, 0, 0);
         for (int b = 0; b < model->bead_count; b++)
@@ -65,131 +69,135 @@ static void set_beads(const ellipsoid_model *model, bead_set *beads)
     }
 }
 
-/* The square of how far a point is from the box that holds the beads, or less.
-   Where squares of the stretch leave the range of numbers, the distance is that
-   from its centre, or zero. */
-static inline double squared_from_box(const bead_set *beads, const double d[3])
+void ellipsoid_facet_bounds_set(const ellipsoid_model *model,
+                                const ellipsoid_facet_list *list,
+                                ellipsoid_facet_cache *cache,
+                                ellipsoid_facet_bounds *bounds)
 {
-    const double squared = beads->stretch * beads->stretch;
-    double sum = 0;
+    const ellipsoid_facet_planes *planes = &cache->planes;
+    const int count =
+        list->count < ELLIPSOID_MAX_LISTED ? list->count : ELLIPSOID_MAX_LISTED;
+    float x[3], axis[3][3], half[3], size = 0;
+    bead_set box;
 
-    if (!(squared > 1e-200 && squared < 1e200))
+    set_box(model, cache, &box);
+    if (!(box.stretch > 1e-30 && box.stretch < 1e30))
     {
-        return beads->stretch < 1 ? ellipsoid_dot(d, d) : 0;
+        memset(bounds, 0, sizeof *bounds);
+        return;
     }
     for (int i = 0; i < 3; i++)
     {
-        const double along = beads->rotation[0][i] * d[0]
-                           + beads->rotation[1][i] * d[1]
-                           + beads->rotation[2][i] * d[2];
-        const double out = fabs(along) - squared * beads->half_box[i];
-
-        sum += out > 0 ? out * out : 0;
+        x[i] = (float)(cache->x[i] - cache->about_x[i]);
+        half[i] = (float)(box.stretch * box.half_box[i]);
+        size += fabsf(x[i]) + half[i];
+        for (int j = 0; j < 3; j++)
+        {
+            axis[i][j] = (float)(box.rotation[j][i] / box.stretch);
+        }
     }
-    return sum / squared;
-}
-
-/* Is a point farther than `far` from it? */
-static int beyond_box(const bead_set *beads, const double d[3], double far)
-{
-    return squared_from_box(beads, d) > far * far;
-}
-
-/* Does the box, seen along the normal, lie more than `near` beside a point? */
-static int beside_box(const bead_set *beads, const double normal[3],
-                      const double d[3], double near)
-{
-    const double height = ellipsoid_dot(d, normal);
-    double across[3], extent = 0;
-
-    for (int i = 0; i < 3; i++)
+    bounds->rounding = ELLIPSOID_PLANES_ROUNDED * size;
+    for (int k = 0; k < count; k++)
     {
-        across[i] = d[i] - height * normal[i];
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        extent += beads->half_box[i]
-                * fabs(beads->rotation[0][i] * across[0]
-                       + beads->rotation[1][i] * across[1]
-                       + beads->rotation[2][i] * across[2]);
-    }
+        float over = -planes->height[k], extent = bounds->rounding, sum = 0;
+        float d[3], n[3];
 
-    const double squared = ellipsoid_dot(across, across);
+        for (int i = 0; i < 3; i++)
+        {
+            d[i] = planes->middle[i][k] - x[i];
+            n[i] = planes->normal[i][k];
+            over += n[i] * x[i];
+        }
+        for (int i = 0; i < 3; i++)
+        {
+            const float *a = axis[i];
+            const float off =
+                fabsf(a[0] * d[0] + a[1] * d[1] + a[2] * d[2]) - half[i];
+            const float twice = off + fabsf(off); /* 0 inside */
 
-    return squared > near * sqrt(squared) + extent;
+            sum += twice * twice;
+            extent += half[i] * fabsf(a[0] * n[0] + a[1] * n[1] + a[2] * n[2]);
+        }
+        bounds->above[k] =
+            (1 - ELLIPSOID_PLANES_ROUNDED) * fabsf(over) - extent;
+        bounds->squared[k] = sum;
+    }
 }
 
-/* How far the plane is from the box, on either side of it; below 0 if it cuts
-   the box. */
-static inline double above_box(const bead_set *beads, const double normal[3],
-                               const double d[3])
+/* Is facet k of the list farther from the box? 0 if that is not known. */
+static inline int is_beyond(const ellipsoid_facet_bounds *bounds, int k,
+                            const ellipsoid_facet *facet, double far)
 {
-    double extent = 0;
+    const double twice = (2 + 4 * ELLIPSOID_PLANES_ROUNDED)
+                       * (far + facet->radius * (1 + ELLIPSOID_PLANES_ROUNDED)
+                          + bounds->rounding);
 
-    for (int i = 0; i < 3; i++)
-    {
-        extent += beads->half_box[i]
-                * fabs(beads->rotation[0][i] * normal[0]
-                       + beads->rotation[1][i] * normal[1]
-                       + beads->rotation[2][i] * normal[2]);
-    }
-    return fabs(ellipsoid_dot(d, normal)) - extent;
+    return k < ELLIPSOID_MAX_LISTED
+        && (bounds->above[k] > far || bounds->squared[k] > twice * twice);
 }
 
-/* How far the box is from the facet at least: from its plane, `above`, and
-   beside its outermost edge. d: from the box to the facet's middle. */
+/* How far the box is from the facet at least: from its plane and beside its
+   outermost edge, *aside. d: from the box to the facet's middle. */
 static double box_distance(const ellipsoid_facet *facet,
                            const ellipsoid_facet_sides *sides,
                            const bead_set *beads, const double d[3],
-                           double above)
+                           double *aside)
 {
     const double(*r)[3] = beads->rotation;
-    double aside = 0;
+    double above = fabs(ellipsoid_dot(d, facet->normal)), out[4];
 
+    for (int k = 0; k < 4; k++)
+    {
+        const double *n = k < 3 ? sides->inward[k] : facet->normal;
+
+        out[k] = 0;
+        for (int i = 0; i < 3; i++)
+        {
+            out[k] -= beads->half_box[i]
+                    * fabs(r[0][i] * n[0] + r[1][i] * n[1] + r[2][i] * n[2]);
+        }
+    }
+    *aside = 0;
     for (int k = 0; k < 3; k++)
     {
-        const double *in = sides->inward[k];
-        double from[3], out;
+        double from[3];
 
         ellipsoid_difference(facet->vertex[k], facet->middle, from);
         ellipsoid_add(from, d);
-        out = ellipsoid_dot(in, from);
-        for (int i = 0; i < 3; i++)
-        {
-            out -= beads->half_box[i]
-                 * fabs(r[0][i] * in[0] + r[1][i] * in[1] + r[2][i] * in[2]);
-        }
-        aside = out > aside ? out : aside;
+        out[k] += ellipsoid_dot(sides->inward[k], from);
+        *aside = out[k] > *aside ? out[k] : *aside;
     }
+    above += out[3];
     above = above > 0 ? above : 0;
-    return sqrt(above * above + aside * aside);
+    return sqrt(above * above + *aside * *aside);
 }
 
 /*
     Excess of the squared distance of beads over the largest at which the facet
     may be nearest: from the facet, that is its height above the plane and how
     far it is beside the outermost edge, and, unless an edge is convex, beside
-    the facet's ball. In single precision, of which four go into a register, and
+    that alone. In single precision, of which four go into a register, and
     so much wider that what it rounds off leaves no facet out; lengths by the
-    beads' reach. d: from the cell's centre to the facet's middle.
+    beads' reach. d: from the cell's centre to the facet's middle. Returns how many
+    beads are not beyond, and lists them.
 */
-static void set_distances(const ellipsoid_facet *facet,
-                          const ellipsoid_facet_sides *sides,
-                          const bead_set *beads, const double d[3], double far,
-                          double near, float beyond[ELLIPSOID_MAX_BEADS])
+static int find_beads(const ellipsoid_facet *facet,
+                      const ellipsoid_facet_sides *sides, const bead_set *beads,
+                      const double d[3], double far, double near,
+                      int found[ELLIPSOID_MAX_BEADS])
 {
     const double per_reach = 1 / beads->reach;
     const double size =
         per_reach
         * (fabs(d[0]) + fabs(d[1]) + fabs(d[2]) + facet->radius + beads->reach);
     const double wide = per_reach * far + 2e-6 * size;
-    const double side = per_reach * near;
+    const double side = per_reach * near + 2e-6 * size;
     const float farthest = (float)((1 + 1e-6) * wide * wide);
-    const float beside =
-        ellipsoid_facet_has_convex_edge(facet)
-            ? HUGE_VALF
-            : (float)((1 + 1e-6) * side * side + 4e-6 * size * size);
-    float n[3], middle[3], in[3][3], offset[3];
+    const float beside = ellipsoid_facet_has_convex_edge(facet)
+                           ? HUGE_VALF
+                           : (float)((1 + 1e-6) * side * side);
+    float n[3], middle[3], in[3][3], offset[3], beyond[ELLIPSOID_MAX_BEADS];
+    int count = 0;
 
     for (int k = 0; k < 3; k++)
     {
@@ -210,10 +218,7 @@ static void set_distances(const ellipsoid_facet *facet,
         const float d1 = beads->from[1][b] - middle[1];
         const float d2 = beads->from[2][b] - middle[2];
         const float h = d0 * n[0] + d1 * n[1] + d2 * n[2];
-        const float squared = d0 * d0 + d1 * d1 + d2 * d2;
-
-        const float aside = squared - h * h - beside;
-        float inside = 0, out;
+        float inside = 0, aside, out;
 
         for (int k = 0; k < 3; k++)
         {
@@ -222,20 +227,17 @@ static void set_distances(const ellipsoid_facet *facet,
 
             inside = of < inside ? of : inside;
         }
-        out = h * h + inside * inside - farthest;
+        inside *= inside;
+        aside = inside - beside;
+        out = h * h + inside - farthest;
         beyond[b] = out > aside ? out : aside;
     }
-}
-
-/* Is the facet farther from all beads than `far` less its radius, as the ball
-   that holds these tells? */
-static int is_beyond(const ellipsoid_facet *facet, const bead_set *beads,
-                     const double d[3], double far)
-{
-    const double ball = beads->reach + far;
-
-    return fabs(ellipsoid_dot(d, facet->normal)) > ball - facet->radius
-        || ellipsoid_dot(d, d) > ball * ball;
+    for (int b = 0; b < beads->count; b++)
+    {
+        found[count] = b;
+        count += beyond[b] <= 0;
+    }
+    return count;
 }
 
 /* One that a bead may be in contact with. */
@@ -273,11 +275,15 @@ static void set_lists(const bead_set *beads, const bead_facet *found, int n,
 }
 
 /* Fills the lists of all beads; 0 if there are too many facets. */
-static int search_beads(const ellipsoid_facet_list *list, const bead_set *beads,
-                        double reach, double margin,
+static int search_beads(const ellipsoid_facet_list *list,
+                        const ellipsoid_facet_bounds *bounds,
+                        const bead_set *beads, double reach, double margin,
                         ellipsoid_facet_cache *cache)
 {
     bead_facet found[ELLIPSOID_MAX_PAIRS];
+    const double rounding = 1e-6 * (reach + margin);
+    const double far = reach + margin + rounding;
+    const double beside = 1.5 * margin + rounding;
     int next[ELLIPSOID_MAX_BEADS], n = 0;
 
     for (int b = 0; b < beads->count; b++)
@@ -288,40 +294,27 @@ static int search_beads(const ellipsoid_facet_list *list, const bead_set *beads,
     for (int k = 0; k < list->count; k++)
     {
         const ellipsoid_facet *facet = &list->facets[list->index[k]];
-        double d[3], distance, above;
-        float beyond[ELLIPSOID_MAX_BEADS];
+        double d[3], distance, aside;
+        int near[ELLIPSOID_MAX_BEADS], count;
         ellipsoid_facet_sides sides;
-        const double size = facet->radius;
-        const double rounding = 1e-6 * (reach + margin);
-        const double far = size + reach + margin + rounding;
-        const double near = size + 1.5 * margin + rounding;
 
+        if (is_beyond(bounds, k, facet, far))
+        {
+            continue;
+        }
         ellipsoid_difference(facet->middle, beads->centre, d);
-        if (is_beyond(facet, beads, d, far))
-        {
-            continue;
-        }
-        above = above_box(beads, facet->normal, d);
-        if (above > far - size || beyond_box(beads, d, far)
-            || (!ellipsoid_facet_has_convex_edge(facet)
-                && beside_box(beads, facet->normal, d, near)))
-        {
-            continue;
-        }
         ellipsoid_facet_sides_set(facet, &sides);
-        if (box_distance(facet, &sides, beads, d, above) > far - size)
+        if (box_distance(facet, &sides, beads, d, &aside) > far
+            || (aside > beside && !ellipsoid_facet_has_convex_edge(facet)))
         {
             continue;
         }
-        set_distances(facet, &sides, beads, d, far - size, near, beyond);
-        for (int b = 0; b < beads->count; b++)
+        count = find_beads(facet, &sides, beads, d, far, beside, near);
+        for (int m = 0; m < count; m++)
         {
+            const int b = near[m];
             double centre[3];
 
-            if (beyond[b] > 0)
-            {
-                continue;
-            }
             ellipsoid_set(centre, beads->x[0][b], beads->x[1][b],
                           beads->x[2][b]);
             if (!ellipsoid_facet_may_be_nearest(facet, &sides, centre, reach,
@@ -351,18 +344,17 @@ static int search_beads(const ellipsoid_facet_list *list, const bead_set *beads,
 
 /* The same for the ellipsoid itself, the first and only bead. */
 static int search_ellipsoid(const ellipsoid_facet_list *list,
-                            const bead_set *box, const ellipsoid_surface *body,
-                            double reach, ellipsoid_facet_cache *cache)
+                            const ellipsoid_facet_bounds *bounds,
+                            const ellipsoid_surface *body, double reach,
+                            ellipsoid_facet_cache *cache)
 {
     int n = 0;
 
     for (int k = 0; k < list->count; k++)
     {
         const ellipsoid_facet *facet = &list->facets[list->index[k]];
-        double d[3];
 
-        ellipsoid_difference(facet->middle, body->centre, d);
-        if (beyond_box(box, d, facet->radius + reach)
+        if (is_beyond(bounds, k, facet, reach)
             || !ellipsoid_surface_may_reach(facet, body, reach))
         {
             continue;
@@ -378,61 +370,42 @@ static int search_ellipsoid(const ellipsoid_facet_list *list,
     return 1;
 }
 
-/* How far the box is from a facet at least, or `most` if that is less; reach:
-   of bead centres. */
-static double bound_of(const ellipsoid_facet *facet, const bead_set *beads,
-                       double reach, double most)
-{
-    ellipsoid_facet_sides sides;
-    double d[3], above, far;
-
-    ellipsoid_difference(facet->middle, beads->centre, d);
-    if (fabs(ellipsoid_dot(d, facet->normal)) - reach >= most)
-    {
-        return most;
-    }
-    above = above_box(beads, facet->normal, d);
-    if (above >= most)
-    {
-        return most;
-    }
-    far = sqrt(squared_from_box(beads, d)) - facet->radius;
-    if (far < most)
-    {
-        ellipsoid_facet_sides_set(facet, &sides);
-        far = fmax(far, box_distance(facet, &sides, beads, d, above));
-    }
-    return far < most ? far : most;
-}
-
 double ellipsoid_facet_bound(const ellipsoid_model *model,
-                             const ellipsoid_facet_list *list, double most,
+                             const ellipsoid_facet_list *list,
+                             const ellipsoid_facet_bounds *bounds, double most,
                              double least, ellipsoid_facet_cache *cache)
 {
-    double bound = most, arm;
-    bead_set beads;
+    bead_set box;
     int first;
 
-    set_box(model, cache, &beads);
-    arm = (model->reach - model->options.bead_radius) * beads.stretch;
+    set_box(model, cache, &box);
     first = cache->about_nearest < list->count ? cache->about_nearest : 0;
-    for (int n = 0; n < list->count && !(bound <= least); n++)
+    for (int n = 0; n < list->count && !(most <= least); n++)
     {
         const int k = n == 0 ? first : n == first ? 0 : n;
-        const double of =
-            bound_of(&list->facets[list->index[k]], &beads, arm, bound);
+        const ellipsoid_facet *facet = &list->facets[list->index[k]];
+        ellipsoid_facet_sides sides;
+        double d[3], aside, of;
 
-        if (of < bound)
+        if (is_beyond(bounds, k, facet, most))
         {
-            bound = of;
+            continue;
+        }
+        ellipsoid_difference(facet->middle, box.centre, d);
+        ellipsoid_facet_sides_set(facet, &sides);
+        of = box_distance(facet, &sides, &box, d, &aside);
+        if (of < most)
+        {
+            most = of;
             cache->about_nearest = k;
         }
     }
-    return bound;
+    return most;
 }
 
 int ellipsoid_facet_search(const ellipsoid_model *model,
-                           const ellipsoid_facet_list *list, double horizon,
+                           const ellipsoid_facet_list *list,
+                           const ellipsoid_facet_bounds *bounds, double horizon,
                            double margin, ellipsoid_facet_cache *cache)
 {
     const double radius = model->options.bead_radius;
@@ -443,12 +416,10 @@ int ellipsoid_facet_search(const ellipsoid_model *model,
     {
         ellipsoid_surface_set(model->options.semi_axes, cache->x, cache->q,
                               &body);
-        ellipsoid_copy(body.axes, cache->half_box);
-        set_box(model, cache, &beads);
-        return search_ellipsoid(list, &beads, &body,
+        return search_ellipsoid(list, bounds, &body,
                                 horizon + margin + 1e-6 * radius, cache);
     }
     set_box(model, cache, &beads);
     set_beads(model, &beads);
-    return search_beads(list, &beads, radius + horizon, margin, cache);
+    return search_beads(list, bounds, &beads, radius + horizon, margin, cache);
 }

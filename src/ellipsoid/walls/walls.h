@@ -20,7 +20,25 @@ static inline int ellipsoid_has_walls(const ellipsoid_model *model,
 
 #define ELLIPSOID_MAX_PAIRS 2048
 #define ELLIPSOID_MAX_NEAR 16384
-#define ELLIPSOID_MAX_LISTED 256
+#define ELLIPSOID_MAX_LISTED 128
+
+/* Planes of listed facets and balls that hold them [m], from where they were
+   listed: one array for each number so that loops vectorise. */
+typedef struct ellipsoid_facet_planes
+{
+    float normal[3][ELLIPSOID_MAX_LISTED], height[ELLIPSOID_MAX_LISTED];
+    float middle[3][ELLIPSOID_MAX_LISTED], radius[ELLIPSOID_MAX_LISTED];
+} ellipsoid_facet_planes;
+
+/* What tells that a facet is far from the box that holds a cell's beads [m]:
+   how far its plane is, and the square of twice how far its ball's centre is. */
+typedef struct ellipsoid_facet_bounds
+{
+    float above[ELLIPSOID_MAX_LISTED], squared[ELLIPSOID_MAX_LISTED], rounding;
+} ellipsoid_facet_bounds;
+
+/* What rounding takes of lengths computed from them */
+#define ELLIPSOID_PLANES_ROUNDED 3e-6F
 
 /* See ellipsoid.h. */
 struct ellipsoid_facet_cache
@@ -44,6 +62,7 @@ struct ellipsoid_facet_cache
     int about_nearest; /* which of a list was nearest last: it comes first */
     double about_x[3], about_reach;
     const ellipsoid_facet *about_facets;
+    ellipsoid_facet_planes planes; /* of the list that was looked up last */
     int near_count;     /* of facets about the wall_range; -1: not looked up */
     double near_x[3];   /* where they were looked up */
     double near_margin; /* [m] how far the centre may move from there */
@@ -185,20 +204,28 @@ ellipsoid_status ellipsoid_facet_cache_update(
     const ellipsoid_surroundings *surroundings, const double x[3],
     const double q[4], double horizon, double *moved);
 
+/* Of the list that was looked up last, in the cache's pose; sets the box. */
+void ellipsoid_facet_bounds_set(const ellipsoid_model *model,
+                                const ellipsoid_facet_list *list,
+                                ellipsoid_facet_cache *cache,
+                                ellipsoid_facet_bounds *bounds);
+
 /*
-    Fills the lists of a cache from facets near its pose, for gaps of up to
-    horizon [m] and beads that move by up to margin [m] (facetSearch.c). 0 if
-    there are too many.
+    Fills the lists of a cache from facets near its pose and these bounds, for
+    gaps of up to horizon [m] and beads that move by up to margin [m]
+    (facetSearch.c). 0 if there are too many.
 */
 int ellipsoid_facet_search(const ellipsoid_model *model,
-                           const ellipsoid_facet_list *list, double horizon,
+                           const ellipsoid_facet_list *list,
+                           const ellipsoid_facet_bounds *bounds, double horizon,
                            double margin, ellipsoid_facet_cache *cache);
 
 /* No bead's centre in the cache's pose is nearer to a listed facet than this
-   [m], as the box that holds them tells; at most `most`, and any number up to
-   `least` if it is not above that. Sets that box (facetSearch.c). */
+   [m], as these bounds and the box tell; at most `most`, and any number up to
+   `least` if it is not above that. */
 double ellipsoid_facet_bound(const ellipsoid_model *model,
-                             const ellipsoid_facet_list *list, double most,
+                             const ellipsoid_facet_list *list,
+                             const ellipsoid_facet_bounds *bounds, double most,
                              double least, ellipsoid_facet_cache *cache);
 
 /* A change of pose: bead b moves by x + r b. */
