@@ -109,7 +109,7 @@ void Foam::meshFlow::setFlowIn
 }
 
 
-inline Foam::vector Foam::meshFlow::velocityOf
+Foam::vector Foam::meshFlow::velocityBeyond
 (
     const visitedTet& in,
     const tetCoordinates& c,
@@ -132,18 +132,19 @@ inline Foam::vector Foam::meshFlow::velocityOf
             in.differentiate<3>(at, derivatives->v_);
         }
     }
-    else if (min(min(l[0], l[1]), min(l[2], l[3])) >= -1e-9)
-    {
-        in.flow.evaluate(in.gradient, l, value, derivatives);
-    }
     else
     {
-        // Beyond an open patch, what is not linear stays as it is there
         scalar inside[4];
         std::copy_n(l, 4, inside);
-        toFace(inside);
+
+        // Beyond an open patch, what is not linear stays as it is there
+        const bool beyond = *std::min_element(inside, inside + 4) < -1e-9;
+        if (beyond)
+        {
+            toFace(inside);
+        }
         in.flow.evaluate(in.gradient, inside, value, derivatives);
-        for (int a = 0; a < 4; ++a)
+        for (int a = 0; beyond && a < 4; ++a)
         {
             value += (l[a] - inside[a])*in.corners[a]->u;
         }
@@ -157,7 +158,7 @@ inline Foam::vector Foam::meshFlow::velocityOf
 }
 
 
-inline void Foam::meshFlow::sampleOf
+void Foam::meshFlow::sampleOf
 (
     const flowValues& values,
     const tetCoordinates& c,
@@ -332,7 +333,7 @@ void Foam::meshFlow::advance
 }
 
 
-void Foam::meshFlow::sample
+void Foam::meshFlow::goOnTo
 (
     const scalar t,
     const tetCoordinates& c,
@@ -340,13 +341,6 @@ void Foam::meshFlow::sample
     flowSample& sample
 ) const
 {
-    sampleOf(*values_, c, derivatives, sample);
-
-    if (!accelerates())
-    {
-        return;
-    }
-
     flowSample later;
     sampleOf(*laterValues_, c, derivatives, later);
 
@@ -380,7 +374,7 @@ void Foam::meshFlow::sample
 }
 
 
-Foam::vector Foam::meshFlow::velocity
+Foam::vector Foam::meshFlow::velocityBetween
 (
     const scalar t,
     const tetCoordinates& c,
@@ -388,12 +382,6 @@ Foam::vector Foam::meshFlow::velocity
 ) const
 {
     vector value(velocityOf(flowIn(*values_, c.tet), c, derivatives));
-
-    if (!accelerates())
-    {
-        return value;
-    }
-
     tensor laterDerivatives;
     const vector later
     (

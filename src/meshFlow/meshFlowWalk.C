@@ -11,6 +11,9 @@
 
 namespace Foam
 {
+    //- No tetrahedron, nor a patch
+    static const label none = labelMin;
+
     //- The face by which a walk leaves a tetrahedron, or -1
     static label exitOf
     (
@@ -27,16 +30,21 @@ namespace Foam
 
         for (int i = 0; i < 4; ++i)
         {
-            int& best = tet.neighbours[i] < 0 ? patchExit : exit;
+            const label next = tet.neighbours[i];
 
-            if
-            (
-                c.isBeyond(i)
-             && (tet.neighbours[i] != previous || previous < 0)
-             && (best < 0 || c.weight[i] < c.weight[best])
-            )
+            if (!c.isBeyond(i) || next == previous)
             {
-                best = i;
+                continue;
+            }
+            if (next < 0)
+            {
+                patchExit =
+                    patchExit < 0 || c.weight[i] < c.weight[patchExit]
+                  ? i : patchExit;
+            }
+            else if (exit < 0 || c.weight[i] < c.weight[exit])
+            {
+                exit = i;
             }
         }
 
@@ -83,7 +91,7 @@ Foam::label Foam::meshFlow::searched
         if (in.sound)
         {
             in.setCoordinates(x, c);
-            const label exit = exitOf(tet, c, -1);
+            const label exit = exitOf(tet, c, none);
             if (exit < 0)
             {
                 return teti;
@@ -118,7 +126,7 @@ Foam::meshFlow::locationType Foam::meshFlow::walk
     bool passed = false;
     bool turned = false;
 
-    label previous = -1;
+    label previous = none;
     bool justPassed = false;
     locationType location = pBeyondWall;
 
@@ -134,7 +142,7 @@ Foam::meshFlow::locationType Foam::meshFlow::walk
                 break;
             }
             at.tet = there;
-            previous = -1;
+            previous = none;
         }
 
         const flowTet& tet = tets_[at.tet];
@@ -175,7 +183,7 @@ Foam::meshFlow::locationType Foam::meshFlow::walk
         at.tet = seam.mirrors() ? at.tet : tetAcross_[at.tet];
         turned = turned || seam.mirrors();
         passed = justPassed = true;
-        previous = -1;
+        previous = none;
     }
 
     c.turned = turned;
@@ -225,25 +233,4 @@ Foam::meshFlow::locationType Foam::meshFlow::locate
     tetCoordinates c;
 
     return walk(x, at, c, image);
-}
-
-
-bool Foam::meshFlow::reach
-(
-    const point& x,
-    probe& at,
-    tetCoordinates& c
-) const
-{
-    // Most positions are in the tetrahedron of the last one
-    const visitedTet& in = visited(at.tet);
-    in.setCoordinates(x, c);
-    if (in.sound && c.isInside())
-    {
-        at.patch = -1;
-        c.turned = false;
-        return true;
-    }
-
-    return walk(x, at, c) != pBeyondWall;
 }
