@@ -68,16 +68,17 @@ static int eliminate6(double m[6][6])
     return regular;
 }
 
-/* Is it stiffer in one direction, as a contact makes it? */
-static int is_stiff(double m[3][3])
+/* 0 if it is singular, or stiffer in one direction, as a contact makes it. */
+static inline int invert_even(double m[3][3], double inverse[3][3])
 {
     double minor[3], determinant, rows;
 
-    ellipsoid_cross(m[0], m[1], minor);
-    determinant = ellipsoid_dot(minor, m[2]);
+    ellipsoid_cross(m[1], m[2], minor);
+    determinant = ellipsoid_dot(m[0], minor);
     rows = ellipsoid_dot(m[0], m[0]) * ellipsoid_dot(m[1], m[1])
          * ellipsoid_dot(m[2], m[2]);
-    return !(determinant * determinant > flat * rows);
+    return ellipsoid_invert3(m, inverse)
+        && determinant * determinant > flat * rows;
 }
 
 /*
@@ -93,7 +94,6 @@ int ellipsoid_invert6(double m[6][6])
     double a[3][3], b[3][3], c[3][3], last[3][3];
     double s[3][3], bs[3][3], sc[3][3], bsc[3][3], first[3][3];
     double above[3][3], below[3][3], rest[3][3];
-    int regular;
 
     for (int i = 0; i < 3; i++)
     {
@@ -102,11 +102,10 @@ int ellipsoid_invert6(double m[6][6])
         ellipsoid_copy(m[i + 3], c[i]);
         ellipsoid_copy(m[i + 3] + 3, last[i]);
     }
-    if (is_stiff(last))
+    if (!invert_even(last, s))
     {
         return eliminate6(m);
     }
-    regular = ellipsoid_invert3(last, s);
     multiply3(1, b, s, bs);
     multiply3(1, s, c, sc);
     multiply3(1, bs, c, bsc);
@@ -114,11 +113,10 @@ int ellipsoid_invert6(double m[6][6])
     {
         ellipsoid_difference(a[i], bsc[i], a[i]);
     }
-    if (is_stiff(a))
+    if (!invert_even(a, first))
     {
         return eliminate6(m);
     }
-    regular = regular && ellipsoid_invert3(a, first);
     multiply3(-1, first, bs, above);
     multiply3(-1, sc, first, below);
     multiply3(-1, sc, above, rest);
@@ -130,5 +128,5 @@ int ellipsoid_invert6(double m[6][6])
         ellipsoid_copy(below[i], m[i + 3]);
         ellipsoid_copy(s[i], m[i + 3] + 3);
     }
-    return regular;
+    return 1;
 }

@@ -17,14 +17,6 @@
 
 #include <string.h>
 
-/* A call that is left out of line keeps what it is given the address of out of
-   registers: a twentieth of an evaluation's instructions. */
-#ifdef __GNUC__
-#define INLINED static inline __attribute__((always_inline))
-#else
-#define INLINED static inline
-#endif
-
 /* What one evaluation shares between values and derivatives. */
 typedef struct evaluation
 {

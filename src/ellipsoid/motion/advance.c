@@ -33,10 +33,8 @@ static int is_release_wrong(const ellipsoid_cell *p,
     const ellipsoid_contact *was = &start->contact, *is = &next->contact;
     const double *from = start->state.q, *to = next->state.q;
     const double back[4] = {-from[0], -from[1], -from[2], from[3]};
-    const double lag = p->inertial ? 1 / fmax(1 / h, p->rate) : 0;
-    const double turning_lag =
-        p->inertial ? 1 / fmax(1 / h, p->rotation_rate) : 0;
-    double force[3], torque[3], slight, made = 0, coming = 0, turned[4];
+    double lag = 0, turning_lag = 0, slight, made = 0, coming = 0;
+    double force[3], torque[3], turned[4];
 
     if (is->bead_contacts >= was->bead_contacts
         && is->cell_count >= was->cell_count
@@ -44,6 +42,11 @@ static int is_release_wrong(const ellipsoid_cell *p,
         && is->cell_deepest >= 0.5 * was->cell_deepest)
     {
         return 0;
+    }
+    if (p->inertial)
+    {
+        lag = 1 / fmax(1 / h, p->rate);
+        turning_lag = 1 / fmax(1 / h, p->rotation_rate);
     }
     ellipsoid_copy(was->force, force);
     ellipsoid_add(force, was->cell_force);
@@ -214,7 +217,8 @@ static ellipsoid_status propose_step(ellipsoid_group *g, double t, double end,
         *proposal > 0 ? ELLIPSOID_OK
                       : ellipsoid_first_step(g, t, end, proposal);
 
-    *proposal = fmin(fmax(*proposal, shortest), longest);
+    *proposal =
+        ellipsoid_smaller(ellipsoid_larger(*proposal, shortest), longest);
     return status == ELLIPSOID_OK && longest < shortest
              ? ELLIPSOID_STEP_UNDERFLOW
              : status;
@@ -240,14 +244,14 @@ static void accept_step(ellipsoid_group *g, const ellipsoid_plan *planned,
     const double factor =
         ellipsoid_step_factor(g, error, controller->previous_error);
 
-    controller->step = planned->h * fmin(factor, largest);
+    controller->step = planned->h * ellipsoid_smaller(factor, largest);
     if (planned->shortened)
     {
         controller->step = fmax(controller->step, planned->kept);
     }
     else
     {
-        controller->previous_error = fmax(error, 1e-4);
+        controller->previous_error = ellipsoid_larger(error, 1e-4);
     }
     if (g->observed)
     {
@@ -267,7 +271,7 @@ static ellipsoid_status take_step(ellipsoid_group *g, double *t, double end,
 {
     const ellipsoid_options *o = &g->cell[0].model->options;
     const double shortest =
-        fmax(smallest_step, 4 * DBL_EPSILON * fmax(fabs(*t), DBL_MIN));
+        ellipsoid_larger(4 * DBL_EPSILON * fabs(*t), smallest_step);
     double largest_factor = 5, proposal = controller->step, landing;
     ellipsoid_status status = propose_step(g, *t, end, shortest, &proposal);
 
@@ -275,7 +279,8 @@ static ellipsoid_status take_step(ellipsoid_group *g, double *t, double end,
     {
         return status;
     }
-    landing = fmax(ellipsoid_time_to_landing(g, proposal), shortest);
+    landing =
+        ellipsoid_larger(ellipsoid_time_to_landing(g, proposal), shortest);
     while (*attempts < o->maximum_steps)
     {
         const ellipsoid_plan planned =
@@ -423,7 +428,8 @@ static int update_members(ellipsoid_group *g, const ellipsoid_member members[],
 
         *members[cell].state = next->state;
         *members[cell].controller = *controller;
-        statistics->deepest = fmax(statistics->deepest, next->contact.deepest);
+        statistics->deepest =
+            ellipsoid_larger(next->contact.deepest, statistics->deepest);
     }
     for (int cell = 0; observer && cell < g->count; cell++)
     {

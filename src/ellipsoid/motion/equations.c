@@ -132,13 +132,24 @@ INLINED void accelerations(const evaluation *e, int inertial,
     }
 }
 
+INLINED void multiply(double factor, double *numbers, int count)
+{
+    for (int n = 0; n < count; n++)
+    {
+        numbers[n] *= factor;
+    }
+}
+
 static void finish_blocks(const evaluation *e, int inertial,
                           ellipsoid_jacobian_blocks *b)
 {
     const double *inertia = e->model->inertia;
     const double *w = e->state->omega;
-    const double per_mass = 1 / e->model->mass;
 
+    multiply(1 / e->model->mass, (double *)b->uu, 9);
+    multiply(1 / e->model->mass, (double *)b->ux, 9);
+    multiply(1 / e->model->mass, (double *)b->uw, 9);
+    multiply(1 / e->model->mass, (double *)b->uq, 12);
     for (int i = 0; i < 3; i++)
     {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -151,16 +162,12 @@ static void finish_blocks(const evaluation *e, int inertial,
         }
         for (int l = 0; l < 3; l++)
         {
-            b->uu[i][l] *= per_mass;
-            b->ux[i][l] *= per_mass;
-            b->uw[i][l] *= per_mass;
             b->wu[i][l] *= per_inertia;
             b->ww[i][l] *= per_inertia;
             b->wx[i][l] *= per_inertia;
         }
         for (int n = 0; n < 4; n++)
         {
-            b->uq[i][n] *= per_mass;
             b->wq[i][n] *= per_inertia;
         }
     }
@@ -412,6 +419,8 @@ ellipsoid_status ellipsoid_evaluate(const ellipsoid_cell *cell,
                                     ellipsoid_evaluation *at, int balanced,
                                     int with_blocks)
 {
+    cell->statistics->rhs++;
+    cell->statistics->jacobians += with_blocks != 0;
     return cell->fixed ? evaluate_fixed(cell, at, with_blocks)
          : with_blocks ? evaluate(cell, at, balanced, 1)
          : balanced    ? evaluate(cell, at, 1, 0)

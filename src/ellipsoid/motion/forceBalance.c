@@ -349,8 +349,9 @@ static ellipsoid_status solve(ellipsoid_group *g, ellipsoid_evaluation *points)
 
 /* One cell or several whose contacts depend on the velocities that are to be
    balanced. */
-static ellipsoid_status balance(ellipsoid_group *g,
-                                ellipsoid_evaluation *points, int with_blocks)
+ellipsoid_status ellipsoid_group_balance(ellipsoid_group *g,
+                                         ellipsoid_evaluation *points,
+                                         int with_blocks)
 {
     ellipsoid_status status;
     int depends = 0; /* do forces other than drag depend on velocities? */
@@ -378,19 +379,6 @@ static ellipsoid_status balance(ellipsoid_group *g,
         ellipsoid_set_no_rates(&points[cell].derivative);
     }
     return status;
-}
-
-ellipsoid_status ellipsoid_group_evaluate(ellipsoid_group *g, double t,
-                                          ellipsoid_evaluation *points,
-                                          int balanced, int with_blocks)
-{
-    for (int cell = 0; cell < g->count; cell++)
-    {
-        g->cell[cell].surroundings.time = t;
-    }
-    return balanced && g->dissipative
-             ? balance(g, points, with_blocks)
-             : ellipsoid_group_evaluate_once(g, points, balanced, with_blocks);
 }
 
 ellipsoid_status

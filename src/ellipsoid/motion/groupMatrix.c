@@ -200,8 +200,7 @@ static void set_rates(const ellipsoid_group *g, int stage)
     }
 }
 
-/* Solves for all cells of several, right-hand sides in place. */
-static void solve(const ellipsoid_group *g, int stage)
+void ellipsoid_pairs_solve(const ellipsoid_group *g, int stage)
 {
     double(*rates)[6] = g->pairs->rates;
 
@@ -235,14 +234,4 @@ static void solve(const ellipsoid_group *g, int stage)
         memcpy(rates[row], solution, sizeof(solution));
         ellipsoid_stage_matrix_finish(&g->system[row], solution, k);
     }
-}
-
-void ellipsoid_group_solve(const ellipsoid_group *g, int stage)
-{
-    if (g->pairs)
-    {
-        solve(g, stage);
-        return;
-    }
-    ellipsoid_stage_matrix_solve(g->system, g->stages->k[stage]);
 }

@@ -33,13 +33,10 @@ static ellipsoid_status evaluate(ellipsoid_group *g,
 {
     for (int cell = 0; cell < g->count; cell++)
     {
-        const ellipsoid_cell *p = &g->cell[cell];
-        const ellipsoid_status status =
-            ellipsoid_evaluate(p, &points[cell], balanced, with_blocks);
+        const ellipsoid_status status = ellipsoid_evaluate(
+            &g->cell[cell], &points[cell], balanced, with_blocks);
 
-        p->statistics->rhs++;
-        p->statistics->jacobians += with_blocks != 0;
-        if (status != ELLIPSOID_OK || !g->pairs)
+        if (status != ELLIPSOID_OK)
         {
             g->failed = cell;
             return status;
@@ -50,13 +47,13 @@ static ellipsoid_status evaluate(ellipsoid_group *g,
 
 /* Balanced, the derivatives of several depend on velocities that all contacts
    decide: these come first. */
-ellipsoid_status ellipsoid_group_evaluate_once(ellipsoid_group *g,
-                                               ellipsoid_evaluation *points,
-                                               int balanced, int with_blocks)
+ellipsoid_status ellipsoid_pairs_evaluate(ellipsoid_group *g,
+                                          ellipsoid_evaluation *points,
+                                          int balanced, int with_blocks)
 {
     ellipsoid_status status;
 
-    if (!balanced || !with_blocks || !g->pairs)
+    if (!balanced || !with_blocks)
     {
         return evaluate(g, points, balanced, with_blocks);
     }

@@ -161,7 +161,7 @@ int ellipsoid_stage_matrix_prepare(ellipsoid_stage_matrix *system,
 
 /* k is r before. */
 void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *system,
-                                  double k[UNKNOWNS]);
+                                  double k[restrict UNKNOWNS]);
 
 /* The same by parts, for a group: rows against the unknowns of `column`; what
    the cell needs for k_x and k_q; k from r, in place, and (k_u, k_omega). */
@@ -171,8 +171,26 @@ void ellipsoid_stage_matrix_reduce(const ellipsoid_jacobian_blocks *blocks,
 void ellipsoid_stage_matrix_kinematics(ellipsoid_stage_matrix *system,
                                        const ellipsoid_state *state,
                                        double per_g);
-void ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *system,
-                                   const double rates[6], double k[UNKNOWNS]);
+static inline void
+ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *s,
+                              const double a[6], double k[restrict UNKNOWNS])
+{
+    const double r[4] = {k[AT_Q], k[AT_Q + 1], k[AT_Q + 2], k[AT_Q + 3]};
+
+    for (int n = 0; n < 4; n++)
+    {
+        k[AT_Q + n] = (s->q_from_q[0][n] * r[0] + s->q_from_q[1][n] * r[1])
+                    + (s->q_from_q[2][n] * r[2] + s->q_from_q[3][n] * r[3])
+                    + (s->q_from_w[0][n] * a[3] + s->q_from_w[1][n] * a[4]
+                       + s->q_from_w[2][n] * a[5]);
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        k[AT_U + i] = a[i];
+        k[AT_X + i] = s->per_g * (k[AT_X + i] + a[i]);
+        k[AT_OMEGA + i] = a[i + 3];
+    }
+}
 
 /* A step as planned. */
 typedef struct ellipsoid_plan
@@ -299,9 +317,12 @@ static inline double ellipsoid_travel(const ellipsoid_model *model,
 static inline void ellipsoid_stages_sample(ellipsoid_stages *stages, int stage,
                                            const ellipsoid_evaluation *at)
 {
-    stages->pose[stage] = at->state;
-    stages->gap[stage] =
-        fmin(fmax(at->contact.gap, 0), 0.5 * fmax(at->contact.cell_gap, 0));
+    const ellipsoid_contact *c = &at->contact;
+
+    ellipsoid_copy(at->state.x, stages->pose[stage].x);
+    memcpy(stages->pose[stage].q, at->state.q, sizeof(at->state.q));
+    stages->gap[stage] = ellipsoid_smaller(
+        ellipsoid_larger(c->gap, 0), 0.5 * ellipsoid_larger(c->cell_gap, 0));
 }
 
 /* For one cell with drag, its velocities set to those that balance; all stays if
@@ -321,18 +342,43 @@ void ellipsoid_group_set_inertial(ellipsoid_group *group, int inertial);
 void ellipsoid_expand_about(ellipsoid_group *group,
                             const ellipsoid_evaluation *points);
 
-/* Evaluates the equations at the time t in the states of all points, contacts
-   between cells included; balanced: u and omega are set first; with_blocks: and
-   the Jacobian, with couplings (forceBalance.c). */
-ellipsoid_status ellipsoid_group_evaluate(ellipsoid_group *group, double t,
+/* Evaluates the equations of several cells in the states of all points at the time
+   that is set, for contacts that do not depend on velocities, or not balanced;
+   with_blocks: and the Jacobian, with couplings (groupRhs.c). balanced: u and omega
+   are set first; of any group, for contacts that do depend (forceBalance.c). */
+ellipsoid_status ellipsoid_pairs_evaluate(ellipsoid_group *group,
                                           ellipsoid_evaluation *points,
                                           int balanced, int with_blocks);
+ellipsoid_status ellipsoid_group_balance(ellipsoid_group *group,
+                                         ellipsoid_evaluation *points,
+                                         int with_blocks);
 
-/* Likewise at the time that is set, for contacts that do not depend on velocities,
-   or not balanced (groupRhs.c). */
-ellipsoid_status ellipsoid_group_evaluate_once(ellipsoid_group *group,
-                                               ellipsoid_evaluation *points,
-                                               int balanced, int with_blocks);
+static inline ellipsoid_status
+ellipsoid_group_evaluate_once(ellipsoid_group *g, ellipsoid_evaluation *points,
+                              int balanced, int with_blocks)
+{
+    if (g->pairs)
+    {
+        return ellipsoid_pairs_evaluate(g, points, balanced, with_blocks);
+    }
+    g->failed = 0;
+    return ellipsoid_evaluate(g->cell, points, balanced, with_blocks);
+}
+
+/* What fits, at the time t. */
+static inline ellipsoid_status
+ellipsoid_group_evaluate(ellipsoid_group *g, double t,
+                         ellipsoid_evaluation *points, int balanced,
+                         int with_blocks)
+{
+    for (int cell = 0; cell < g->count; cell++)
+    {
+        g->cell[cell].surroundings.time = t;
+    }
+    return balanced && g->dissipative
+             ? ellipsoid_group_balance(g, points, with_blocks)
+             : ellipsoid_group_evaluate_once(g, points, balanced, with_blocks);
+}
 
 /* Where an advance begins no step is short enough for an answer (advance.c). */
 ellipsoid_status ellipsoid_status_at_start(ellipsoid_status status);
@@ -363,26 +409,36 @@ ellipsoid_status ellipsoid_add_group_contacts(ellipsoid_group *group,
    (groupMatrix.c). */
 int ellipsoid_group_prepare(ellipsoid_group *group,
                             const ellipsoid_evaluation *points, double per_g);
-void ellipsoid_group_solve(const ellipsoid_group *group, int stage);
+void ellipsoid_pairs_solve(const ellipsoid_group *group, int stage);
 
-/* sum_j<count weight[j] k_j, of the components from `first` on. */
-static inline void ellipsoid_weighted_sum(double k[][UNKNOWNS],
-                                          const double *weight, int count,
-                                          int first,
-                                          double sum[restrict UNKNOWNS])
+static inline void ellipsoid_group_solve(const ellipsoid_group *g, int stage)
 {
-    for (int n = first; n < UNKNOWNS; n++)
+    if (g->pairs)
     {
-        sum[n] = weight[0] * k[0][n];
+        ellipsoid_pairs_solve(g, stage);
+        return;
     }
+    ellipsoid_stage_matrix_solve(g->system, g->stages->k[stage]);
+}
+
+/* sum_j<count weight[j] k_j, component n: a loop over n that keeps the sums in
+   registers where count is a constant. */
+INLINED double ellipsoid_weighted_sum(double k[][UNKNOWNS],
+                                      const double *weight, int count, int n)
+{
+    double sum = weight[0] * k[0][n];
+
     for (int j = 1; j < count; j++)
     {
-        for (int n = first; n < UNKNOWNS; n++)
-        {
-            sum[n] += weight[j] * k[j][n];
-        }
+        sum += weight[j] * k[j][n];
     }
+    return sum;
 }
+
+/* result = base + factor sum_j<stage weight[j] k_j (rosenbrock.c). */
+void ellipsoid_combine(const double base[UNKNOWNS], double factor,
+                       const double *weight, int stage, double k[][UNKNOWNS],
+                       double result[restrict UNKNOWNS]);
 
 /* The time of a stage, exactly the end of the step where it is that. */
 static inline double ellipsoid_stage_time(const ellipsoid_plan *plan,

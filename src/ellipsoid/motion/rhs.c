@@ -16,9 +16,11 @@ static ellipsoid_status evaluate(const ellipsoid_model *model,
                                  ellipsoid_facet_cache *cache, int with_blocks,
                                  ellipsoid_evaluation *at)
 {
+    ellipsoid_statistics unused = {0};
     const ellipsoid_cell cell = {.model = model,
                                  .surroundings = *surroundings,
                                  .cache = cache,
+                                 .statistics = &unused,
                                  .inertial = model->options.motion
                                           == ELLIPSOID_MOTION_INERTIAL};
 

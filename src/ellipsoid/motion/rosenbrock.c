@@ -16,22 +16,28 @@
 
 static const ellipsoid_rosenbrock_table *const set = &ellipsoid_rosenbrock_set;
 
-/* Sets the state of a stage and, in k, what belongs to its right-hand side
-   besides the equations: sum c_ij/h K_j, where there is mass. */
-static inline int set_stage(const ellipsoid_evaluation *start, int stage,
-                            const double mass[UNKNOWNS], ellipsoid_stages *s,
-                            ellipsoid_evaluation *at)
+INLINED void combine(const double base[UNKNOWNS], double factor,
+                     const double *weight, int stage, double k[][UNKNOWNS],
+                     double result[restrict UNKNOWNS])
 {
-    double change[UNKNOWNS], *k = s->k[stage];
-
-    ellipsoid_weighted_sum(s->k, set->a[stage], stage, 0, change);
-    ellipsoid_weighted_sum(s->k, set->c[stage], stage, 0, k);
     for (int n = 0; n < UNKNOWNS; n++)
     {
-        at->y[n] = start->y[n] + change[n];
-        k[n] *= mass[n];
+        result[n] =
+            base[n] + factor * ellipsoid_weighted_sum(k, weight, stage, n);
     }
-    return ellipsoid_is_pose(at->state.x, at->state.q);
+}
+
+/* With numbers of stages that the compiler knows; not inlined, where it would mix
+   them. */
+void ellipsoid_combine(const double base[UNKNOWNS], double factor,
+                       const double *weight, int stage, double k[][UNKNOWNS],
+                       double result[restrict UNKNOWNS])
+{
+    stage == 1   ? combine(base, factor, weight, 1, k, result)
+    : stage == 2 ? combine(base, factor, weight, 2, k, result)
+    : stage == 3 ? combine(base, factor, weight, 3, k, result)
+    : stage == 4 ? combine(base, factor, weight, 4, k, result)
+                 : combine(base, factor, weight, 5, k, result);
 }
 
 /*
@@ -89,14 +95,8 @@ static void add_time_derivatives(const ellipsoid_group *g, int stage, double h)
     }
 }
 
-/* The first stage, and mass over h. */
-static inline void take_first_stage(ellipsoid_group *g, int count, double h,
-                                    double mass[UNKNOWNS])
+static inline void take_first_stage(ellipsoid_group *g, int count, double h)
 {
-    for (int n = 0; n < UNKNOWNS; n++)
-    {
-        mass[n] = ellipsoid_is_rate(n) && !g->inertial ? 0 : 1 / h;
-    }
     for (int cell = 0; cell < count; cell++)
     {
         ellipsoid_stages *s = &g->stages[cell];
@@ -113,7 +113,8 @@ static inline void take_first_stage(ellipsoid_group *g, int count, double h,
     ellipsoid_group_solve(g, 0);
 }
 
-/* The slopes of a stage, in its k. */
+/* The right-hand side of a stage, in its k: the slopes and, where there is mass,
+   sum c_ij/h K_j. */
 static inline ellipsoid_status evaluate_stage(ellipsoid_group *g, int count,
                                               int stage,
                                               const ellipsoid_plan *plan)
@@ -123,12 +124,17 @@ static inline ellipsoid_status evaluate_stage(ellipsoid_group *g, int count,
 
     for (int cell = 0; status == ELLIPSOID_OK && cell < count; cell++)
     {
+        const ellipsoid_evaluation *at = &g->next[cell];
         ellipsoid_stages *s = &g->stages[cell];
+        double *k = s->k[stage];
 
-        ellipsoid_stages_sample(s, stage, &g->next[cell]);
-        for (int n = 0; n < UNKNOWNS; n++)
+        ellipsoid_stages_sample(s, stage, at);
+        ellipsoid_combine(at->slope, 1 / plan->h, set->c[stage], stage, s->k,
+                          k);
+        if (!g->inertial)
         {
-            s->k[stage][n] += g->next[cell].slope[n];
+            ellipsoid_copy(at->derivative.u, k + AT_U);
+            ellipsoid_copy(at->derivative.omega, k + AT_OMEGA);
         }
     }
     return status;
@@ -138,18 +144,18 @@ static inline ellipsoid_status evaluate_stage(ellipsoid_group *g, int count,
 static inline ellipsoid_status take(ellipsoid_group *g, int count,
                                     const ellipsoid_plan *plan)
 {
-    const double h = plan->h;
-    double mass[UNKNOWNS]; /* over h */
-
-    take_first_stage(g, count, h, mass);
+    take_first_stage(g, count, plan->h);
     for (int i = 1; i < ELLIPSOID_STAGES; i++)
     {
         ellipsoid_status status;
 
         for (int cell = 0; cell < count; cell++)
         {
-            if (!set_stage(&g->start[cell], i, mass, &g->stages[cell],
-                           &g->next[cell]))
+            ellipsoid_evaluation *at = &g->next[cell];
+
+            ellipsoid_combine(g->start[cell].y, 1, set->a[i], i,
+                              g->stages[cell].k, at->y);
+            if (!ellipsoid_is_pose(at->state.x, at->state.q))
             {
                 return ELLIPSOID_STEP_UNDERFLOW;
             }
@@ -161,7 +167,7 @@ static inline ellipsoid_status take(ellipsoid_group *g, int count,
         }
         if (g->unsteady)
         {
-            add_time_derivatives(g, i, h);
+            add_time_derivatives(g, i, plan->h);
         }
         ellipsoid_group_solve(g, i);
     }
@@ -206,7 +212,10 @@ void ellipsoid_rosenbrock_dense(const ellipsoid_group *g, int cell,
 {
     for (int i = 0; i < 2; i++)
     {
-        ellipsoid_weighted_sum(g->stages[cell].k, set->dense[i],
-                               ELLIPSOID_STAGES - 1, 0, dense[i]);
+        for (int n = 0; n < UNKNOWNS; n++)
+        {
+            dense[i][n] = ellipsoid_weighted_sum(
+                g->stages[cell].k, set->dense[i], ELLIPSOID_STAGES - 1, n);
+        }
     }
 }

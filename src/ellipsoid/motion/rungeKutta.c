@@ -28,29 +28,21 @@ static const double error_weight[STAGES] = {1.0 / 24, -1.0 / 8, 1.0 / 8,
 static const double part_of_step[STAGES] = {0, 1.0 / 3, 2.0 / 3, 1, 1};
 static const int in_time[STAGES] = {0, 1, 2, 3, 4};
 
-/* A stage's slopes: of x, and of q; and, for dense output, omega itself in
-   that of its derivative. */
-static inline void keep_slopes(const ellipsoid_state *state,
-                               const ellipsoid_state *derivative,
+/* A stage's slopes; for dense output omega itself is in that of its derivative. */
+static inline void keep_slopes(const ellipsoid_evaluation *at,
                                double k[UNKNOWNS])
 {
-    ellipsoid_copy(derivative->x, k + AT_X);
-    ellipsoid_copy(state->omega, k + AT_OMEGA);
-    memcpy(k + AT_Q, derivative->q, sizeof(derivative->q));
+    memcpy(k, at->slope, sizeof(at->slope));
+    ellipsoid_copy(at->state.omega, k + AT_OMEGA);
 }
 
-/* Sets the state of a stage; the last one is the result. */
+/* Sets the pose of a stage; the last one is the result. */
 static inline int set_stage(const ellipsoid_evaluation *start, int stage,
-                            double h, int fixed, ellipsoid_stages *s,
+                            double h, int fixed, double k[][UNKNOWNS],
                             ellipsoid_evaluation *at)
 {
-    double change[UNKNOWNS];
-
-    ellipsoid_weighted_sum(s->k, weight[stage], stage, AT_X, change);
-    for (int n = AT_X; n < UNKNOWNS; n++)
-    {
-        at->y[n] = start->y[n] + (ellipsoid_is_rate(n) ? 0 : h * change[n]);
-    }
+    ellipsoid_combine(start->y, h, weight[stage], stage, k, at->y);
+    ellipsoid_copy(start->state.omega, at->state.omega);
     if (!ellipsoid_is_pose(at->state.x, at->state.q))
     {
         return 0;
@@ -76,7 +68,7 @@ ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
 
         s->sampled = STAGES;
         s->in_time = in_time;
-        keep_slopes(&start->state, &start->derivative, s->k[0]);
+        keep_slopes(start, s->k[0]);
         ellipsoid_stages_sample(s, 0, start);
     }
 
@@ -87,7 +79,7 @@ ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
         for (int cell = 0; cell < g->count; cell++)
         {
             if (!set_stage(&g->start[cell], i, h, g->cell[cell].fixed,
-                           &g->stages[cell], &g->next[cell]))
+                           g->stages[cell].k, &g->next[cell]))
             {
                 return ELLIPSOID_STEP_UNDERFLOW;
             }
@@ -105,7 +97,7 @@ ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
 
             *touched = *touched || ellipsoid_in_contact(&at->contact);
             ellipsoid_stages_sample(s, i, at);
-            keep_slopes(&at->state, &at->derivative, s->k[i]);
+            keep_slopes(at, s->k[i]);
         }
         if (*touched)
         {
@@ -116,10 +108,10 @@ ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
     {
         ellipsoid_stages *s = &g->stages[cell];
 
-        ellipsoid_weighted_sum(s->k, error_weight, STAGES, AT_X, s->error);
         for (int n = AT_X; n < UNKNOWNS; n++)
         {
-            s->error[n] *= h;
+            s->error[n] =
+                ellipsoid_weighted_sum(s->k, error_weight, STAGES, n) * h;
         }
         memcpy(s->y, g->next[cell].y, sizeof(s->y));
     }
@@ -134,13 +126,13 @@ void ellipsoid_explicit_dense(const ellipsoid_group *g, int cell,
     const double *before = g->start[cell].y, *after = g->next[cell].y;
     const double h = g->step[cell].end - g->step[cell].start;
     double(*k)[UNKNOWNS] = g->stages[cell].k;
-    double change[UNKNOWNS];
 
-    ellipsoid_weighted_sum(k, weight[LAST], LAST, AT_X, change);
     for (int n = AT_X; n < UNKNOWNS; n++)
     {
         const double change_n =
-            ellipsoid_is_rate(n) ? h * change[n] : after[n] - before[n];
+            ellipsoid_is_rate(n)
+                ? h * ellipsoid_weighted_sum(k, weight[LAST], LAST, n)
+                : after[n] - before[n];
 
         dense[0][n] = h * k[0][n] - change_n;
         dense[1][n] = change_n - h * k[LAST][n] - dense[0][n];

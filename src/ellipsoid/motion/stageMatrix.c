@@ -22,18 +22,16 @@
 /* What is needed on the way there. */
 typedef struct elimination
 {
-    const ellipsoid_state *state;
-    double g, per_g;
+    double omega[3], g;
     double per_square; /* 1/(g^2 + |omega|^2/4) */
 } elimination;
 
 static inline elimination of_step(const ellipsoid_state *state, double per_g)
 {
-    const double g = 1 / per_g;
-    const double square =
-        g * g + 0.25 * ellipsoid_dot(state->omega, state->omega);
+    const double g = 1 / per_g, *omega = state->omega;
+    const double square = g * g + 0.25 * ellipsoid_dot(omega, omega);
 
-    return (elimination){state, g, per_g, 1 / square};
+    return (elimination){{omega[0], omega[1], omega[2]}, g, 1 / square};
 }
 
 /* (g I + sign Q/2) v / (g^2 + |omega|^2/4): the inverse of g I - sign Q/2.
@@ -43,7 +41,7 @@ static inline void turn(const elimination *e, double sign, const double v[4],
 {
     double turned[4];
 
-    ellipsoid_spin(e->state->omega, v, turned);
+    ellipsoid_spin(e->omega, v, turned);
     for (int n = 0; n < 4; n++)
     {
         result[n] = e->per_square * (e->g * v[n] + sign * 0.5 * turned[n]);
@@ -58,40 +56,55 @@ static inline double coupling(const double row[4], const double q[4], int i,
          * (row[i] * q[3] + row[j] * q[k] - row[k] * q[j] - row[3] * q[i]);
 }
 
-/* One row: blocks / g, blocks (g I - Q/2)^-1, and -J; transposed. */
-static inline void reduce_row(const elimination *e, int row,
-                              const double of_u[3], const double of_x[3],
-                              const double of_w[3], const double of_q[4],
-                              ellipsoid_reduced *to)
+/* Columns of the blocks, those of u above those of omega. */
+static inline void set_columns(const double of_u[], const double of_omega[],
+                               int count, double column[][6])
 {
-    const double *q = e->state->q;
-    double turned[4];
-
-    turn(e, -1, of_q, turned);
-    for (int n = 0; n < 3; n++)
+    for (int n = 0; n < count; n++)
     {
-        to->x[n][row] = e->per_g * of_x[n];
-        to->rates[n][row] = -(of_u[n] + to->x[n][row]);
+        for (int i = 0; i < 3; i++)
+        {
+            column[n][i] = of_u[count * i + n];
+            column[n][i + 3] = of_omega[count * i + n];
+        }
     }
-    for (int n = 0; n < 4; n++)
-    {
-        to->q[n][row] = turned[n];
-    }
-    to->rates[3][row] = coupling(turned, q, 0, 1, 2) - of_w[0];
-    to->rates[4][row] = coupling(turned, q, 1, 2, 0) - of_w[1];
-    to->rates[5][row] = coupling(turned, q, 2, 0, 1) - of_w[2];
 }
 
+/* Of each row: blocks / g, blocks (g I - Q/2)^-1, and -J; all transposed, so that
+   several rows are one operation. */
 void ellipsoid_stage_matrix_reduce(const ellipsoid_jacobian_blocks *b,
                                    const ellipsoid_state *column, double per_g,
-                                   ellipsoid_reduced *to)
+                                   ellipsoid_reduced *restrict to)
 {
     const elimination e = of_step(column, per_g);
+    const double q[4] = {column->q[0], column->q[1], column->q[2],
+                         column->q[3]};
+    double u[3][6], x[3][6], w[3][6], of_q[4][6];
 
-    for (int i = 0; i < 3; i++)
+    set_columns((const double *)b->uu, (const double *)b->wu, 3, u);
+    set_columns((const double *)b->ux, (const double *)b->wx, 3, x);
+    set_columns((const double *)b->uw, (const double *)b->ww, 3, w);
+    set_columns((const double *)b->uq, (const double *)b->wq, 4, of_q);
+    for (int row = 0; row < 6; row++)
     {
-        reduce_row(&e, i, b->uu[i], b->ux[i], b->uw[i], b->uq[i], to);
-        reduce_row(&e, i + 3, b->wu[i], b->wx[i], b->ww[i], b->wq[i], to);
+        const double of_row[4] = {of_q[0][row], of_q[1][row], of_q[2][row],
+                                  of_q[3][row]};
+        double turned[4];
+
+        turn(&e, -1, of_row, turned);
+        for (int n = 0; n < 3; n++)
+        {
+            x[n][row] *= per_g;
+            to->rates[n][row] = -(u[n][row] + x[n][row]);
+            to->x[n][row] = x[n][row];
+        }
+        for (int n = 0; n < 4; n++)
+        {
+            to->q[n][row] = turned[n];
+        }
+        to->rates[3][row] = coupling(turned, q, 0, 1, 2) - w[0][row];
+        to->rates[4][row] = coupling(turned, q, 1, 2, 0) - w[1][row];
+        to->rates[5][row] = coupling(turned, q, 2, 0, 1) - w[2][row];
     }
 }
 
@@ -116,22 +129,23 @@ void ellipsoid_stage_matrix_kinematics(ellipsoid_stage_matrix *s,
                                        double per_g)
 {
     const elimination e = of_step(state, per_g);
+    const double own = e.per_square * e.g;
+    const double a = e.per_square * (0.5 * state->omega[0]);
+    const double b = e.per_square * (0.5 * state->omega[1]);
+    const double c = e.per_square * (0.5 * state->omega[2]);
+    const double q[4] = {0.5 * state->q[0], 0.5 * state->q[1],
+                         0.5 * state->q[2], 0.5 * state->q[3]};
+    const double by_omega[3][4] = {{q[3], q[2], -q[1], -q[0]},
+                                   {-q[2], q[3], q[0], -q[1]},
+                                   {q[1], -q[0], q[3], -q[2]}};
+    const double from_q[4][4] = {
+        {own, -c, b, -a}, {c, own, -a, -b}, {-b, a, own, -c}, {a, b, c, own}};
 
     s->per_g = per_g;
-    for (int n = 0; n < 4; n++)
-    {
-        const double unit[4] = {n == 0, n == 1, n == 2, n == 3};
-
-        turn(&e, 1, unit, s->q_from_q[n]);
-    }
-    for (int n = 0; n < 3; n++)
-    {
-        const double half[3] = {0.5 * (n == 0), 0.5 * (n == 1), 0.5 * (n == 2)};
-        double spin[4];
-
-        ellipsoid_spin(half, state->q, spin);
-        turn(&e, 1, spin, s->q_from_w[n]);
-    }
+    memcpy(s->q_from_q, from_q, sizeof(from_q));
+    turn(&e, 1, by_omega[0], s->q_from_w[0]);
+    turn(&e, 1, by_omega[1], s->q_from_w[1]);
+    turn(&e, 1, by_omega[2], s->q_from_w[2]);
 }
 
 int ellipsoid_stage_matrix_prepare(ellipsoid_stage_matrix *s,
@@ -164,30 +178,8 @@ int ellipsoid_stage_matrix_prepare(ellipsoid_stage_matrix *s,
     return 1;
 }
 
-void ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *s,
-                                   const double a[6], double k[UNKNOWNS])
-{
-    double q[4];
-
-    for (int n = 0; n < 4; n++)
-    {
-        q[n] = (s->q_from_q[0][n] * k[AT_Q] + s->q_from_q[1][n] * k[AT_Q + 1])
-             + (s->q_from_q[2][n] * k[AT_Q + 2]
-                + s->q_from_q[3][n] * k[AT_Q + 3])
-             + (s->q_from_w[0][n] * a[3] + s->q_from_w[1][n] * a[4]
-                + s->q_from_w[2][n] * a[5]);
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        k[AT_U + i] = a[i];
-        k[AT_X + i] = s->per_g * (k[AT_X + i] + a[i]);
-        k[AT_OMEGA + i] = a[i + 3];
-    }
-    memcpy(k + AT_Q, q, sizeof(q));
-}
-
 void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *s,
-                                  double k[UNKNOWNS])
+                                  double k[restrict UNKNOWNS])
 {
     double a[6];
 

@@ -87,9 +87,10 @@ static double scaled_error(const ellipsoid_cell *p,
 
     if (p->inertial)
     {
-        eu =
-            ellipsoid_length(error + AT_U) / (p->length * fmax(p->rate, per_h));
-        ew = ellipsoid_length(error + AT_OMEGA) / fmax(p->rotation_rate, per_h);
+        eu = ellipsoid_length(error + AT_U)
+           / (p->length * ellipsoid_larger(p->rate, per_h));
+        ew = ellipsoid_length(error + AT_OMEGA)
+           / ellipsoid_larger(p->rotation_rate, per_h);
         if (!(p->rate > 0))
         {
             eu += lasting_error(p->model, start, stages);
@@ -98,11 +99,12 @@ static double scaled_error(const ellipsoid_cell *p,
     }
     sum = ex + eu + ew + eq + slip;
 
-    /* fmax would drop a NaN */
-    return isfinite(sum) ? fmax(fmax(fmax(ex, eq), fmax(eu, ew))
+    return isfinite(sum)
+             ? ellipsoid_larger(ellipsoid_larger(ellipsoid_larger(ex, eq),
+                                                 ellipsoid_larger(eu, ew))
                                     / p->model->options.tolerance,
                                 slip)
-                         : sum;
+             : sum;
 }
 
 /*
@@ -123,9 +125,10 @@ static double unseen_travel(const ellipsoid_cell *p,
         const double safe = stages->gap[i] + stages->gap[j]
                           + bare * p->model->options.bead_radius;
 
-        worst = fmax(worst, ellipsoid_travel(p->model, &stages->pose[i],
-                                             &stages->pose[j])
-                                / safe);
+        worst = ellipsoid_larger(
+            ellipsoid_travel(p->model, &stages->pose[i], &stages->pose[j])
+                / safe,
+            worst);
     }
     return worst;
 }
@@ -184,7 +187,7 @@ ellipsoid_plan ellipsoid_plan_step(double proposal, double landing, double t,
     const int lands = landing < proposal;
     const double left = end - t, h = lands ? landing : proposal;
     const double kept = lands ? after_landing * proposal : proposal;
-    const double tolerance = 4 * DBL_EPSILON * fmax(fabs(t), h);
+    const double tolerance = 4 * DBL_EPSILON * ellipsoid_larger(fabs(t), h);
 
     if (fabs(left - h) <= tolerance)
     {
@@ -212,7 +215,7 @@ static const double at_rest = 0.1;
 double ellipsoid_step_factor(const ellipsoid_group *g, double error,
                              double previous_error)
 {
-    const double e = log(fmax(error, 1e-8));
+    const double e = log(ellipsoid_larger(error, 1e-8));
     int alone = !(previous_error > 0 && error <= 1);
     double exponent;
 
@@ -221,7 +224,8 @@ double ellipsoid_step_factor(const ellipsoid_group *g, double error,
         alone = is_rubbing(&g->cell[cell], &g->start[cell]);
     }
     exponent = alone ? -e : 0.4 * log(previous_error) - 0.7 * e;
-    return fmin(fmax(0.9 * exp(exponent / order), 0.2), 5);
+    return ellipsoid_smaller(ellipsoid_larger(0.9 * exp(exponent / order), 0.2),
+                             5);
 }
 
 /* What one cell says to it: `there` is a short way `ahead` along its slopes. */
@@ -305,13 +309,18 @@ ellipsoid_status ellipsoid_judge_step(const ellipsoid_group *g, double h,
         {
             return ELLIPSOID_NON_FINITE;
         }
-        *error = fmax(*error, made);
+        *error = ellipsoid_larger(made, *error);
         if (ellipsoid_has_contact(g, cell))
         {
             const double travel = unseen_travel(p, stages, g->pairs ? 0.5 : 1);
+            const double square = travel * travel;
 
-            /* travel is proportional to the step */
-            *error = fmax(*error, pow(travel, order));
+            /* travel is proportional to the step; its power costs more than to see
+               that it is too small to count */
+            if (!(1.001 * square * square < *error))
+            {
+                *error = fmax(*error, pow(travel, order));
+            }
         }
     }
     return ELLIPSOID_OK;
