@@ -180,7 +180,7 @@ namespace Foam
     )
     {
         const polyBoundaryMesh& patches = phi.mesh().boundaryMesh();
-        const label patchi = patches.whichPatch(facei);
+        const label patchi = patchOf(phi.mesh(), facei);
 
         if (patchi < 0)
         {
@@ -332,7 +332,7 @@ void Foam::meshFlow::matchFluxes
     const auto compare =
         [&](const label facei, const label first, const label end)
         {
-            const label patchi = mesh.boundaryMesh().whichPatch(facei);
+            const label patchi = patchOf(mesh, facei);
             const polyPatch* pp =
                 patchi < 0 ? nullptr : &mesh.boundaryMesh()[patchi];
             if (pp && isConstrained(*pp))

@@ -33,17 +33,19 @@ namespace Foam
         UList<flowTet>& tets
     )
     {
-        // The tetrahedron, and its face, at each edge of the cell's surface
-        // until the one on the other side is there: few at a time
+        // The tetrahedron, and its face, at each edge of the cell's faces until
+        // the one on the other side is there: few at a time
         struct openEdge { edge at; label tet; label face; };
-        DynamicList<openEdge> open;
+        DynamicList<openEdge, 32> open;
 
         for (const label facei : mesh.cells()[celli])
         {
             const label owned = (mesh.faceOwner()[facei] == celli);
-            const label patchi = mesh.boundaryMesh().whichPatch(facei);
+            const label patchi = patchOf(mesh, facei);
+            const label n = decomposition.nTriangles(facei);
+            const bool goesRound = n == mesh.faces()[facei].size();
 
-            for (label k = 0; k < decomposition.nTriangles(facei); ++k, ++teti)
+            for (label k = 0; k < n; ++k, ++teti)
             {
                 // The normal of a face points out of its owner
                 FixedList<label, 3> corners(decomposition.triangle(facei, k));
@@ -59,17 +61,30 @@ namespace Foam
                   ? faceTets[facei][owned] + k
                   : -1 - patchi;
 
-                for (label i = 0; i < 3; ++i)
+                for (label i = 1; i < 4; ++i)
                 {
-                    tet.vertices[i + 1] =
+                    const label corner = corners[i - 1];
+                    tet.vertices[i] =
                         mesh.nCells()
                       + (
-                            corners[i] < mesh.nPoints()
-                          ? baffles.vertex(corners[i], celli)
-                          : corners[i] + baffles.sides().size()
+                            corner < mesh.nPoints()
+                          ? baffles.vertex(corner, celli)
+                          : corner + baffles.sides().size()
                         );
 
-                    const edge e(corners[(i + 1) % 3], corners[(i + 2) % 3]);
+                    // Next in the face, or of another face
+                    label next = i == 1 ? -1 : i == 2 + owned ? k - 1 : k + 1;
+                    if (goesRound && i > 1)
+                    {
+                        next = (next + n) % n;
+                    }
+                    if (next >= 0 && next < n)
+                    {
+                        tet.neighbours[i] = teti + next - k;
+                        continue;
+                    }
+
+                    const edge e(corners[i % 3], corners[(i + 1) % 3]);
                     label j = open.size() - 1;
                     while (j >= 0 && open[j].at != e)
                     {
@@ -78,10 +93,10 @@ namespace Foam
 
                     if (j < 0)
                     {
-                        open.append(openEdge{e, teti, i + 1});
+                        open.append(openEdge{e, teti, i});
                         continue;
                     }
-                    tet.neighbours[i + 1] = open[j].tet;
+                    tet.neighbours[i] = open[j].tet;
                     tets[open[j].tet].neighbours[open[j].face] = teti;
                     open[j] = open.last();
                     open.remove();
@@ -223,24 +238,25 @@ void Foam::meshFlow::findUnsound()
     label nInverted = 0;
     label nCells = 0;
     label first = -1;
+    DynamicList<scalar> volumes;
 
     for (label celli = 0; celli < cellTets_.size() - 1; ++celli)
     {
         const label before = nInverted;
-        const label end = cellTets_[celli + 1];
         scalar rounding = 0;
-        for (label teti = cellTets_[celli]; teti < end; ++teti)
+        volumes.clear();
+        for (label i = cellTets_[celli]; i < cellTets_[celli + 1]; ++i)
         {
-            rounding += 1e-10*mag(sixVolumes(teti));
+            volumes.append(sixVolumes(i));
+            rounding += 1e-10*mag(volumes.last());
         }
-        for (label teti = cellTets_[celli]; teti < end; ++teti)
+        forAll(volumes, i)
         {
-            const scalar volume = sixVolumes(teti);
-            if (volume <= rounding)
+            if (volumes[i] <= rounding)
             {
-                unsound_.insert(teti);
+                unsound_.insert(cellTets_[celli] + i);
             }
-            nInverted += volume < -rounding;
+            nInverted += volumes[i] < -rounding;
         }
         if (nInverted > before)
         {

@@ -139,7 +139,7 @@ const Foam::cyclicPolyPatch* Foam::tetDecomposition::halfOf
     const label facei
 ) const
 {
-    const label patchi = mesh_.boundaryMesh().whichPatch(facei);
+    const label patchi = patchOf(mesh_, facei);
     return
         patchi < 0
       ? nullptr
@@ -147,15 +147,16 @@ const Foam::cyclicPolyPatch* Foam::tetDecomposition::halfOf
 }
 
 
-Foam::scalar Foam::tetDecomposition::clearance
+void Foam::tetDecomposition::lowerClearances
 (
     const label facei,
     const label base,
-    const side& of
+    const side sides[],
+    const label n,
+    scalar least[]
 ) const
 {
     const scalar noArea = 1e-9*mag(mesh_.faceAreas()[facei]);
-    scalar least = GREAT;
 
     forTriangles
     (
@@ -164,14 +165,17 @@ Foam::scalar Foam::tetDecomposition::clearance
         [&](const point& a, const point& b, const point& c)
         {
             const vector S(0.5*((b - a) ^ (c - a)));
-            least = min
-            (
-                least,
-                of.sign*(S & (a - of.apex))/((mag(S) + noArea)*of.depth)
-            );
+            const scalar area = mag(S) + noArea;
+            for (label i = 0; i < n; ++i)
+            {
+                const side& of = sides[i];
+                least[i] = min
+                (
+                    least[i], of.sign*(S & (a - of.apex))/(area*of.depth)
+                );
+            }
         }
     );
-    return least;
 }
 
 
@@ -182,14 +186,11 @@ Foam::scalar Foam::tetDecomposition::clearance
 ) const
 {
     side sides[2];
+    scalar least[2] = {enough, enough};
     const label n = sidesOf(facei, sides);
-    scalar sum = 0;
 
-    for (label i = 0; i < n; ++i)
-    {
-        sum += min(clearance(facei, base, sides[i]), enough);
-    }
-    return sum/n;
+    lowerClearances(facei, base, sides, n, least);
+    return n == 1 ? least[0] : (least[0] + least[1])/2;
 }
 
 
@@ -199,8 +200,8 @@ Foam::scalar Foam::tetDecomposition::cellClearance(const label celli) const
     for (const label facei : mesh_.cells()[celli])
     {
         const scalar sign = mesh_.faceOwner()[facei] == celli ? 1 : -1;
-        least =
-            min(least, clearance(facei, bases_[facei], sideOf(celli, sign)));
+        const side of(sideOf(celli, sign));
+        lowerClearances(facei, bases_[facei], &of, 1, &least);
     }
     return least;
 }
@@ -234,9 +235,14 @@ Foam::scalar Foam::tetDecomposition::narrowest
 }
 
 
-Foam::label Foam::tetDecomposition::bestBase(const label facei) const
+Foam::label Foam::tetDecomposition::bestBase
+(
+    const label facei,
+    bool& wellOff
+) const
 {
-    const label n = mesh_.faces()[facei].size();
+    wellOff = true;
+    const label n = faces_[facei].size();
     label best = -1;
     label farthest = -1;
     scalar widest = -GREAT;
@@ -266,14 +272,15 @@ Foam::label Foam::tetDecomposition::bestBase(const label facei) const
         }
     }
 
+    wellOff = best >= 0;
     return
-        best >= 0 ? best
+        wellOff ? best
       : n > 3 && clearance(facei, -1) > most ? -1
       : farthest;
 }
 
 
-bool Foam::tetDecomposition::cut(const label facei)
+bool Foam::tetDecomposition::cut(const label facei, bool& wellOff)
 {
     const cyclicPolyPatch* half = halfOf(facei);
 
@@ -281,15 +288,15 @@ bool Foam::tetDecomposition::cut(const label facei)
     // go round in opposite senses
     if (half && !half->owner())
     {
-        return cut(faceAcross(*half, facei));
+        return cut(faceAcross(*half, facei), wellOff);
     }
 
-    const label base = bestBase(facei);
+    const label base = bestBase(facei, wellOff);
     const bool changed = base != bases_[facei];
     bases_[facei] = base;
     if (half)
     {
-        const label n = mesh_.faces()[facei].size();
+        const label n = faces_[facei].size();
         bases_[faceAcross(*half, facei)] = base < 0 ? -1 : (n - base) % n;
     }
     return changed;
@@ -308,7 +315,8 @@ Foam::labelList Foam::tetDecomposition::cutAt(const bitSet& cells)
     for (const label facei : faces)
     {
         side sides[2];
-        const label n = cut(facei) ? sidesOf(facei, sides) : 0;
+        bool wellOff;
+        const label n = cut(facei, wellOff) ? sidesOf(facei, sides) : 0;
         for (label i = 0; i < n; ++i)
         {
             others.set(sides[i].cell);
@@ -363,22 +371,40 @@ bool Foam::tetDecomposition::moveApex(const label celli)
 Foam::tetDecomposition::tetDecomposition(const polyMesh& mesh)
 :
     mesh_(mesh),
+    points_(mesh.points()),
+    faces_(mesh.faces()),
     apexes_(mesh.cellCentres()),
     depths_(mesh.nCells(), Zero),
     bases_(mesh.nFaces(), -1)
 {
     forAll(depths_, celli)
     {
-        const vectorField areas(mesh.faceAreas(), mesh.cells()[celli]);
-        depths_[celli] = 3*mesh.cellVolumes()[celli]/sumMag(areas);
+        scalar area = 0;
+        for (const label facei : mesh.cells()[celli])
+        {
+            area += mag(mesh.faceAreas()[facei]);
+        }
+        depths_[celli] = 3*mesh.cellVolumes()[celli]/area;
     }
+
+    // At a cyclic patch an apex is judged from the other side as well
+    bitSet close(mesh.nCells());
     forAll(bases_, facei)
     {
-        cut(facei);
+        bool wellOff = false;
+        cut(facei, wellOff);
+        if (!wellOff || halfOf(facei))
+        {
+            close.set(mesh.faceOwner()[facei]);
+            if (mesh.isInternalFace(facei))
+            {
+                close.set(mesh.faceNeighbour()[facei]);
+            }
+        }
     }
 
     // An apex that moves may make other cuts better, and these other apexes
-    labelList cells(identity(mesh.nCells()));
+    labelList cells(close.sortedToc());
     for (label pass = 0; pass < 10 && cells.size(); ++pass)
     {
         bitSet moved(mesh.nCells());
@@ -411,20 +437,15 @@ Foam::tetDecomposition::tetDecomposition(const polyMesh& mesh)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::label Foam::tetDecomposition::nTriangles(const label facei) const
-{
-    return mesh_.faces()[facei].size() - (bases_[facei] < 0 ? 0 : 2);
-}
-
-
 Foam::FixedList<Foam::label, 3> Foam::tetDecomposition::triangle
 (
     const label facei,
     const label k
 ) const
 {
-    const face& f = mesh_.faces()[facei];
+    const face& f = faces_[facei];
     const label base = bases_[facei];
+    const label n = f.size();
     const label i = base + 1 + k;
 
     FixedList<label, 3> corners;
@@ -432,7 +453,7 @@ Foam::FixedList<Foam::label, 3> Foam::tetDecomposition::triangle
         base < 0
       ? mesh_.nPoints() + findSortedIndex(meanFaces_, facei)
       : f[base];
-    corners[1] = f[i % f.size()];
-    corners[2] = f[(i + 1) % f.size()];
+    corners[1] = f[i < n ? i : i - n];
+    corners[2] = f[i + 1 < n ? i + 1 : i + 1 - n];
     return corners;
 }
