@@ -106,7 +106,7 @@ static int are_flat(const merging *m, int a, int b)
     ellipsoid_cross(m->normal[a], m->normal[b], turn);
     return m->s->label[a] == m->s->label[b]
         && ellipsoid_dot(m->normal[a], m->normal[b]) > 0
-        && ellipsoid_length(turn) < flat_angle;
+        && ellipsoid_dot(turn, turn) < flat_angle * flat_angle;
 }
 
 /* Have no triangles of a point or of those around it changed since it was
@@ -243,12 +243,13 @@ static void set_targets(merging *m, int point)
 }
 
 /* Longest edge [m] of a triangle if its point is moved to another; HUGE_VAL if
-   it would be too long or thin or not lie in its plane. */
-static double moved_edge(const merging *m, int triangle, int point, int target)
+   it would be too long or thin, not lie in its plane or not be below another. */
+static double moved_edge(const merging *m, int triangle, int point, int target,
+                         double other)
 {
     const double *normal = m->normal[triangle];
     const double *x[3];
-    double side[3][3], area[3], turn[3], edge = 0;
+    double side[3][3], area[3], turn[3], squared = 0, edge;
 
     for (int k = 0; k < 3; k++)
     {
@@ -261,13 +262,20 @@ static double moved_edge(const merging *m, int triangle, int point, int target)
     ellipsoid_difference(x[2], x[0], side[2]);
     for (int k = 0; k < 3; k++)
     {
-        edge = fmax(edge, ellipsoid_length(side[k]));
+        const double s = ellipsoid_dot(side[k], side[k]);
+
+        squared = s > squared ? s : squared;
+    }
+    edge = sqrt(squared);
+    if (edge >= other || edge > m->longest_edge)
+    {
+        return HUGE_VAL;
     }
     ellipsoid_cross(side[0], side[2], area);
     ellipsoid_cross(area, normal, turn);
-    return edge <= m->longest_edge
-                && ellipsoid_dot(area, normal) >= thinnest * (edge * edge)
-                && ellipsoid_length(turn) <= flat_angle * ellipsoid_length(area)
+    return ellipsoid_dot(area, normal) >= thinnest * (edge * edge)
+                && ellipsoid_dot(turn, turn)
+                       <= flat_angle * flat_angle * ellipsoid_dot(area, area)
              ? edge
              : HUGE_VAL;
 }
@@ -301,11 +309,13 @@ static double cost_of(merging *m, int point, int target, double other)
         }
         else
         {
-            longest = fmax(longest, moved_edge(m, node / 3, point, target));
-        }
-        if (longest >= other)
-        {
-            return HUGE_VAL;
+            const double edge = moved_edge(m, node / 3, point, target, other);
+
+            if (edge == HUGE_VAL)
+            {
+                return HUGE_VAL;
+            }
+            longest = edge > longest ? edge : longest;
         }
     }
 
