@@ -27,6 +27,10 @@
 static const double first_margin = 0.5, widest = 1, narrowest = 1.0 / 32;
 static const double seldom = 0.06, often = 0.4; /* uses for each facet listed */
 
+/* Where beads rest that have moved farther than this [bead radii], a search
+   from there saves looking at many facets in each use. */
+static const double rest = 0.125;
+
 /* How much farther than asked for facets are listed for searches to come, in
    bead radii. */
 static const double about = 8;
@@ -44,6 +48,7 @@ static void invalidate(ellipsoid_facet_cache *cache)
 {
     cache->valid = 0;
     cache->uses = 0;
+    cache->bead_count = 0;
     cache->margin = 0;
     cache->clearance = 0;
     cache->facets = NULL;
@@ -94,7 +99,12 @@ static double farthest_move(const ellipsoid_facet_cache *cache,
     return sqrt(squared) * (1 + 1e-12); /* rounded up */
 }
 
-/* Does the cache hold all facets that matter in this pose? */
+static double uses_per_facet(const ellipsoid_facet_cache *cache)
+{
+    return (double)cache->uses / (cache->listed + 64);
+}
+
+/* Does the cache hold all facets that matter in this pose, and not too many? */
 static int is_current(const ellipsoid_facet_cache *cache,
                       const ellipsoid_model *model, const double x[3],
                       const double q[4], double *moved)
@@ -119,7 +129,10 @@ static int is_current(const ellipsoid_facet_cache *cache,
         return left > 0 && ellipsoid_dot(d, d) < left * left;
     }
     *moved = farthest_move(cache, x, q);
-    return *moved <= cache->margin;
+    return *moved <= cache->margin
+        && (cache->bead_count == 0
+            || *moved <= rest * model->options.bead_radius
+            || uses_per_facet(cache) <= often);
 }
 
 /* 0 if a facet is not finite. */
@@ -273,7 +286,7 @@ static double next_margin(const ellipsoid_facet_cache *cache, double radius)
         return widest * radius;
     }
 
-    const double per_facet = (double)cache->uses / (cache->listed + 64);
+    const double per_facet = uses_per_facet(cache);
 
     return per_facet < seldom ? fmin(2 * cache->margin, widest * radius)
          : per_facet > often  ? fmax(cache->margin / 2, narrowest * radius)
