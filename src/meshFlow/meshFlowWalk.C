@@ -125,7 +125,6 @@ Foam::meshFlow::locationType Foam::meshFlow::walk
     isometry moved;
     bool passed = false;
     bool turned = false;
-
     label previous = none;
     bool justPassed = false;
     locationType location = pBeyondWall;
@@ -133,12 +132,14 @@ Foam::meshFlow::locationType Foam::meshFlow::walk
     for (label n = 0; n < maxTets; ++n)
     {
         // Where tetrahedra overlap, or a walk goes round in circles
-        if (!visited(at.tet).sound || n == maxTets/2)
+        const visitedTet* in = &visited(at.tet);
+        if (!in->sound || n == maxTets/2)
         {
             const label there = searched(at.tet, y);
+            in = &visited(there < 0 ? at.tet : there);
             if (there < 0)
             {
-                visited(at.tet).setCoordinates(y, c);
+                in->setCoordinates(y, c);
                 break;
             }
             at.tet = there;
@@ -146,7 +147,7 @@ Foam::meshFlow::locationType Foam::meshFlow::walk
         }
 
         const flowTet& tet = tets_[at.tet];
-        visited(at.tet).setCoordinates(y, c);
+        in->setCoordinates(y, c);
         at.patch = -1;
 
         const label exit = exitOf(tet, c, previous);
