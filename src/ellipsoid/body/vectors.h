@@ -55,16 +55,15 @@ static inline void ellipsoid_combination(double m[3][3], double a, double b,
                   a * m[0][2] + b * m[1][2] + c * m[2][2]);
 }
 
-/* fmax() and fmin() but for NaN, of which only b is kept: one instruction instead of
-   a call. */
-static inline double ellipsoid_larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
-static inline double ellipsoid_smaller(double a, double b)
+/* Without calls, where neither is NaN. */
+static inline double ellipsoid_lesser(double a, double b)
 {
     return a < b ? a : b;
+}
+
+static inline double ellipsoid_greater(double a, double b)
+{
+    return a > b ? a : b;
 }
 
 static inline double ellipsoid_sum(const double v[3])

@@ -218,7 +218,7 @@ static ellipsoid_status propose_step(ellipsoid_group *g, double t, double end,
                       : ellipsoid_first_step(g, t, end, proposal);
 
     *proposal =
-        ellipsoid_smaller(ellipsoid_larger(*proposal, shortest), longest);
+        ellipsoid_lesser(ellipsoid_greater(*proposal, shortest), longest);
     return status == ELLIPSOID_OK && longest < shortest
              ? ELLIPSOID_STEP_UNDERFLOW
              : status;
@@ -244,14 +244,14 @@ static void accept_step(ellipsoid_group *g, const ellipsoid_plan *planned,
     const double factor =
         ellipsoid_step_factor(g, error, controller->previous_error);
 
-    controller->step = planned->h * ellipsoid_smaller(factor, largest);
+    controller->step = planned->h * ellipsoid_lesser(factor, largest);
     if (planned->shortened)
     {
         controller->step = fmax(controller->step, planned->kept);
     }
     else
     {
-        controller->previous_error = ellipsoid_larger(error, 1e-4);
+        controller->previous_error = ellipsoid_greater(error, 1e-4);
     }
     if (g->observed)
     {
@@ -271,7 +271,7 @@ static ellipsoid_status take_step(ellipsoid_group *g, double *t, double end,
 {
     const ellipsoid_options *o = &g->cell[0].model->options;
     const double shortest =
-        ellipsoid_larger(4 * DBL_EPSILON * fabs(*t), smallest_step);
+        ellipsoid_greater(4 * DBL_EPSILON * fabs(*t), smallest_step);
     double largest_factor = 5, proposal = controller->step, landing;
     ellipsoid_status status = propose_step(g, *t, end, shortest, &proposal);
 
@@ -280,7 +280,7 @@ static ellipsoid_status take_step(ellipsoid_group *g, double *t, double end,
         return status;
     }
     landing =
-        ellipsoid_larger(ellipsoid_time_to_landing(g, proposal), shortest);
+        ellipsoid_greater(ellipsoid_time_to_landing(g, proposal), shortest);
     while (*attempts < o->maximum_steps)
     {
         const ellipsoid_plan planned =
@@ -429,7 +429,7 @@ static int update_members(ellipsoid_group *g, const ellipsoid_member members[],
         *members[cell].state = next->state;
         *members[cell].controller = *controller;
         statistics->deepest =
-            ellipsoid_larger(next->contact.deepest, statistics->deepest);
+            ellipsoid_greater(next->contact.deepest, statistics->deepest);
     }
     for (int cell = 0; observer && cell < g->count; cell++)
     {

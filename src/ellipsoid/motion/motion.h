@@ -171,26 +171,9 @@ void ellipsoid_stage_matrix_reduce(const ellipsoid_jacobian_blocks *blocks,
 void ellipsoid_stage_matrix_kinematics(ellipsoid_stage_matrix *system,
                                        const ellipsoid_state *state,
                                        double per_g);
-static inline void
-ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *s,
-                              const double a[6], double k[restrict UNKNOWNS])
-{
-    const double r[4] = {k[AT_Q], k[AT_Q + 1], k[AT_Q + 2], k[AT_Q + 3]};
-
-    for (int n = 0; n < 4; n++)
-    {
-        k[AT_Q + n] = (s->q_from_q[0][n] * r[0] + s->q_from_q[1][n] * r[1])
-                    + (s->q_from_q[2][n] * r[2] + s->q_from_q[3][n] * r[3])
-                    + (s->q_from_w[0][n] * a[3] + s->q_from_w[1][n] * a[4]
-                       + s->q_from_w[2][n] * a[5]);
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        k[AT_U + i] = a[i];
-        k[AT_X + i] = s->per_g * (k[AT_X + i] + a[i]);
-        k[AT_OMEGA + i] = a[i + 3];
-    }
-}
+void ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *system,
+                                   const double rates[6],
+                                   double k[restrict UNKNOWNS]);
 
 /* A step as planned. */
 typedef struct ellipsoid_plan
@@ -321,8 +304,8 @@ static inline void ellipsoid_stages_sample(ellipsoid_stages *stages, int stage,
 
     ellipsoid_copy(at->state.x, stages->pose[stage].x);
     memcpy(stages->pose[stage].q, at->state.q, sizeof(at->state.q));
-    stages->gap[stage] = ellipsoid_smaller(
-        ellipsoid_larger(c->gap, 0), 0.5 * ellipsoid_larger(c->cell_gap, 0));
+    stages->gap[stage] = ellipsoid_lesser(
+        ellipsoid_greater(c->gap, 0), 0.5 * ellipsoid_greater(c->cell_gap, 0));
 }
 
 /* For one cell with drag, its velocities set to those that balance; all stays if
@@ -342,10 +325,9 @@ void ellipsoid_group_set_inertial(ellipsoid_group *group, int inertial);
 void ellipsoid_expand_about(ellipsoid_group *group,
                             const ellipsoid_evaluation *points);
 
-/* Evaluates the equations of several cells in the states of all points at the time
-   that is set, for contacts that do not depend on velocities, or not balanced;
-   with_blocks: and the Jacobian, with couplings (groupRhs.c). balanced: u and omega
-   are set first; of any group, for contacts that do depend (forceBalance.c). */
+/* The equations of several cells in the states of all points, at the time that is
+   set; balanced: with u and omega, for contacts that do not depend on them;
+   with_blocks: and the Jacobian (groupRhs.c). For those that do (forceBalance.c). */
 ellipsoid_status ellipsoid_pairs_evaluate(ellipsoid_group *group,
                                           ellipsoid_evaluation *points,
                                           int balanced, int with_blocks);
@@ -413,12 +395,8 @@ void ellipsoid_pairs_solve(const ellipsoid_group *group, int stage);
 
 static inline void ellipsoid_group_solve(const ellipsoid_group *g, int stage)
 {
-    if (g->pairs)
-    {
-        ellipsoid_pairs_solve(g, stage);
-        return;
-    }
-    ellipsoid_stage_matrix_solve(g->system, g->stages->k[stage]);
+    g->pairs ? ellipsoid_pairs_solve(g, stage)
+             : ellipsoid_stage_matrix_solve(g->system, g->stages->k[stage]);
 }
 
 /* sum_j<count weight[j] k_j, component n: a loop over n that keeps the sums in

@@ -54,14 +54,14 @@ static inline int set_stage(const ellipsoid_evaluation *start, int stage,
     return 1;
 }
 
-ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
-                                         const ellipsoid_plan *plan,
-                                         int *touched)
+/* All of the step for `count` cells; inlined for one and for several. */
+static inline ellipsoid_status take(ellipsoid_group *g, int count,
+                                    const ellipsoid_plan *plan, int *touched)
 {
     const double h = plan->h;
 
     *touched = 0;
-    for (int cell = 0; cell < g->count; cell++)
+    for (int cell = 0; cell < count; cell++)
     {
         const ellipsoid_evaluation *start = &g->start[cell];
         ellipsoid_stages *s = &g->stages[cell];
@@ -76,7 +76,7 @@ ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
     {
         ellipsoid_status status;
 
-        for (int cell = 0; cell < g->count; cell++)
+        for (int cell = 0; cell < count; cell++)
         {
             if (!set_stage(&g->start[cell], i, h, g->cell[cell].fixed,
                            g->stages[cell].k, &g->next[cell]))
@@ -90,7 +90,7 @@ ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
         {
             return status;
         }
-        for (int cell = 0; cell < g->count; cell++)
+        for (int cell = 0; cell < count; cell++)
         {
             const ellipsoid_evaluation *at = &g->next[cell];
             ellipsoid_stages *s = &g->stages[cell];
@@ -104,7 +104,7 @@ ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
             return ELLIPSOID_OK;
         }
     }
-    for (int cell = 0; cell < g->count; cell++)
+    for (int cell = 0; cell < count; cell++)
     {
         ellipsoid_stages *s = &g->stages[cell];
 
@@ -116,6 +116,14 @@ ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
         memcpy(s->y, g->next[cell].y, sizeof(s->y));
     }
     return ELLIPSOID_OK;
+}
+
+ellipsoid_status ellipsoid_explicit_step(ellipsoid_group *g,
+                                         const ellipsoid_plan *plan,
+                                         int *touched)
+{
+    return g->count == 1 ? take(g, 1, plan, touched)
+                         : take(g, g->count, plan, touched);
 }
 
 /* u and omega are slopes: theirs is the derivative of Hermite's cubic of x, and of

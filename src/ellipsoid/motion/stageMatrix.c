@@ -178,6 +178,26 @@ int ellipsoid_stage_matrix_prepare(ellipsoid_stage_matrix *s,
     return 1;
 }
 
+static inline void finish(const ellipsoid_stage_matrix *s, const double a[6],
+                          double k[restrict UNKNOWNS])
+{
+    const double r[4] = {k[AT_Q], k[AT_Q + 1], k[AT_Q + 2], k[AT_Q + 3]};
+
+    for (int n = 0; n < 4; n++)
+    {
+        k[AT_Q + n] = (s->q_from_q[0][n] * r[0] + s->q_from_q[1][n] * r[1])
+                    + (s->q_from_q[2][n] * r[2] + s->q_from_q[3][n] * r[3])
+                    + (s->q_from_w[0][n] * a[3] + s->q_from_w[1][n] * a[4]
+                       + s->q_from_w[2][n] * a[5]);
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        k[AT_U + i] = a[i];
+        k[AT_X + i] = s->per_g * (k[AT_X + i] + a[i]);
+        k[AT_OMEGA + i] = a[i + 3];
+    }
+}
+
 void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *s,
                                   double k[restrict UNKNOWNS])
 {
@@ -195,5 +215,12 @@ void ellipsoid_stage_matrix_solve(const ellipsoid_stage_matrix *s,
                 + (t[10][n] * k[10] + t[11][n] * k[11]))
              + t[12][n] * k[12];
     }
-    ellipsoid_stage_matrix_finish(s, a, k);
+    finish(s, a, k);
+}
+
+void ellipsoid_stage_matrix_finish(const ellipsoid_stage_matrix *s,
+                                   const double rates[6],
+                                   double k[restrict UNKNOWNS])
+{
+    finish(s, rates, k);
 }

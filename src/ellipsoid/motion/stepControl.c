@@ -88,9 +88,9 @@ static double scaled_error(const ellipsoid_cell *p,
     if (p->inertial)
     {
         eu = ellipsoid_length(error + AT_U)
-           / (p->length * ellipsoid_larger(p->rate, per_h));
+           / (p->length * ellipsoid_greater(p->rate, per_h));
         ew = ellipsoid_length(error + AT_OMEGA)
-           / ellipsoid_larger(p->rotation_rate, per_h);
+           / ellipsoid_greater(p->rotation_rate, per_h);
         if (!(p->rate > 0))
         {
             eu += lasting_error(p->model, start, stages);
@@ -100,10 +100,10 @@ static double scaled_error(const ellipsoid_cell *p,
     sum = ex + eu + ew + eq + slip;
 
     return isfinite(sum)
-             ? ellipsoid_larger(ellipsoid_larger(ellipsoid_larger(ex, eq),
-                                                 ellipsoid_larger(eu, ew))
-                                    / p->model->options.tolerance,
-                                slip)
+             ? ellipsoid_greater(ellipsoid_greater(ellipsoid_greater(ex, eq),
+                                                   ellipsoid_greater(eu, ew))
+                                     / p->model->options.tolerance,
+                                 slip)
              : sum;
 }
 
@@ -125,7 +125,7 @@ static double unseen_travel(const ellipsoid_cell *p,
         const double safe = stages->gap[i] + stages->gap[j]
                           + bare * p->model->options.bead_radius;
 
-        worst = ellipsoid_larger(
+        worst = ellipsoid_greater(
             ellipsoid_travel(p->model, &stages->pose[i], &stages->pose[j])
                 / safe,
             worst);
@@ -187,7 +187,7 @@ ellipsoid_plan ellipsoid_plan_step(double proposal, double landing, double t,
     const int lands = landing < proposal;
     const double left = end - t, h = lands ? landing : proposal;
     const double kept = lands ? after_landing * proposal : proposal;
-    const double tolerance = 4 * DBL_EPSILON * ellipsoid_larger(fabs(t), h);
+    const double tolerance = 4 * DBL_EPSILON * ellipsoid_greater(fabs(t), h);
 
     if (fabs(left - h) <= tolerance)
     {
@@ -215,7 +215,7 @@ static const double at_rest = 0.1;
 double ellipsoid_step_factor(const ellipsoid_group *g, double error,
                              double previous_error)
 {
-    const double e = log(ellipsoid_larger(error, 1e-8));
+    const double e = log(ellipsoid_greater(error, 1e-8));
     int alone = !(previous_error > 0 && error <= 1);
     double exponent;
 
@@ -224,8 +224,8 @@ double ellipsoid_step_factor(const ellipsoid_group *g, double error,
         alone = is_rubbing(&g->cell[cell], &g->start[cell]);
     }
     exponent = alone ? -e : 0.4 * log(previous_error) - 0.7 * e;
-    return ellipsoid_smaller(ellipsoid_larger(0.9 * exp(exponent / order), 0.2),
-                             5);
+    return ellipsoid_lesser(ellipsoid_greater(0.9 * exp(exponent / order), 0.2),
+                            5);
 }
 
 /* What one cell says to it: `there` is a short way `ahead` along its slopes. */
@@ -309,7 +309,7 @@ ellipsoid_status ellipsoid_judge_step(const ellipsoid_group *g, double h,
         {
             return ELLIPSOID_NON_FINITE;
         }
-        *error = ellipsoid_larger(made, *error);
+        *error = ellipsoid_greater(made, *error);
         if (ellipsoid_has_contact(g, cell))
         {
             const double travel = unseen_travel(p, stages, g->pairs ? 0.5 : 1);

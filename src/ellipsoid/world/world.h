@@ -11,17 +11,6 @@
 #include "body/arena.h"
 #include "body/body.h"
 
-/* Without calls, where neither is NaN. */
-static inline double ellipsoid_lesser(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static inline double ellipsoid_greater(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 /* Puts another sweep before this, which began where that ended. */
 void ellipsoid_sweep_prepend(ellipsoid_sweep *sweep,
                              const ellipsoid_sweep *first);

@@ -43,9 +43,11 @@ struct Foam::groupAdvance::member
 
         cellSurroundings here;
 
-        //- Where the last step ended, the image there, and the step
+        //- Where the last step ended, the image there, and the step itself if
+        //  it is the last until then [s], or leaves the mesh
         meshFlow::locationType location;
         isometry image;
+        const scalar end;
         ellipsoid_step last;
 
         //- Where it was at the start [m], and when [s]
@@ -67,8 +69,11 @@ struct Foam::groupAdvance::member
             const ellipsoid_contact& contact = step->contact;
             const label tet = m.here.home.tet;
 
-            m.last = *step;
             m.location = m.here.moveHome(pointOf(step->after.x), m.image);
+            if (step->end >= m.end || m.location != meshFlow::pInside)
+            {
+                m.last = *step;
+            }
             state.deepest = max(state.deepest, contact.deepest);
             state.deepestCell = max(state.deepestCell, contact.cell_deepest);
 
@@ -228,6 +233,7 @@ void Foam::groupAdvance::enter
 (
     List<cellSweep>& cells,
     const labelUList& group,
+    const scalar end,
     const trial* tried,
     DynamicList<segment>& path,
     PtrList<member>& own,
@@ -272,7 +278,7 @@ void Foam::groupAdvance::enter
                 domain_,
                 properties.pushing() || tried, tried ? GREAT : nextRow, path,
                 {domain_, meshFlow::probe{cell.state.tet, -1}},
-                meshFlow::pInside, isometry(), ellipsoid_step(),
+                meshFlow::pInside, isometry(), end, ellipsoid_step(),
                 cell.state.centre(), cell.state.time,
                 isTried ? tried->reach : 0
             }
@@ -439,7 +445,7 @@ bool Foam::groupAdvance::advance
     PtrList<member> own(n);
     List<ellipsoid_member> members(n);
 
-    enter(cells, group, tried, path, own, members);
+    enter(cells, group, end, tried, path, own, members);
 
     // The core answers what is not finite by a shorter step; OpenFOAM's traps
     // would end the run
