@@ -145,11 +145,10 @@ static const double after_landing = 0.5;
     A contact that begins inside a Rosenbrock step is not in its derivatives, and
     is so stiff that a long one is rejected. So the step ends where it begins, if
     the bead goes on as it moves at the start, of which the result depends alone.
-    At the tolerances of motion with inertia that saves hardly a step.
 */
 double ellipsoid_time_to_landing(const ellipsoid_group *g, double time)
 {
-    for (int cell = 0; !g->inertial && cell < g->count; cell++)
+    for (int cell = 0; cell < g->count; cell++)
     {
         const ellipsoid_cell *p = &g->cell[cell];
         const ellipsoid_options *o = &p->model->options;
