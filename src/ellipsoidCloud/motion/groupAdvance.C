@@ -15,7 +15,7 @@ namespace Foam
     //  1.3 GB then
     static const label largestGroup = 2000;
 
-    //- Most lists of facets that are kept, of 21 kB each: where there are more
+    //- Most lists of facets that are kept, of 25 kB each: where there are more
     //  cells, their lists are made anew in each interval
     static const label keptCaches = 250;
 }
