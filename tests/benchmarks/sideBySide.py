@@ -90,7 +90,7 @@ def tracks(bench):
     cells = first_cells(bench.trap("draw", WAYS[2], "1e-3", number, 0.001, 0.005))
     numbers = ("0.3", "0.1") if bench.few else ("0.3", "0.1", "0.03", "0.01", "0.003", "0.001")
     finest = "0.03" if bench.few else "0.0001"
-    tolerances = ("1e-4", "1e-5") if bench.few else ("1e-3", "1e-4", "1e-5", "1e-6")
+    tolerances = ("1e-4", "1e-5") if bench.few else ("3e-3", "1e-3", "1e-4", "1e-5", "1e-6")
 
     sets = []
     for co in numbers:
