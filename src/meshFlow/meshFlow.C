@@ -122,10 +122,7 @@ Foam::vector Foam::meshFlow::velocityBeyond
     if (scheme_ == stCellPoint)
     {
         const scalar* at[4];
-        for (int a = 0; a < 4; ++a)
-        {
-            at[a] = in.corners[a]->u.cdata();
-        }
+        in.take(&flowVertex::u, at);
         in.combine<3>(at, l, value.v_);
         if (derivatives)
         {
@@ -172,10 +169,7 @@ void Foam::meshFlow::sampleOf
     if (pressure_)
     {
         vector gradp;
-        for (int a = 0; a < 4; ++a)
-        {
-            at[a] = in.corners[a]->pressureGradient.cdata();
-        }
+        in.take(&flowVertex::pressureGradient, at);
         in.combine<3>(at, c.weight, gradp.v_);
         sample.pressureGradient = c.back(gradp);
         if (derivatives)
@@ -190,10 +184,7 @@ void Foam::meshFlow::sampleOf
         velocityOf(in, c, derivatives ? &sample.derivatives : nullptr);
 
     tensor G;
-    for (int a = 0; a < 4; ++a)
-    {
-        at[a] = in.corners[a]->gradient.cdata();
-    }
+    in.take(&flowVertex::gradient, at);
     in.combine<9>(at, c.weight, G.v_);
     sample.gradient = c.back(G);
 

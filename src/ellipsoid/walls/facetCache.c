@@ -312,7 +312,7 @@ static int keep_free(ellipsoid_facet_cache *cache, const ellipsoid_model *model,
     const double taken = (1 + 1e-6) * near;
     const double least = taken + margin;
     const double bound = ellipsoid_facet_bound(
-        model, list, bounds, list->reach - reach + near, least, cache);
+        list, bounds, list->reach - reach + near, least, cache);
 
     /* the search ends early by the same comparison */
     if (!(bound > least))

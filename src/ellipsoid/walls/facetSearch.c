@@ -22,13 +22,18 @@ typedef struct bead_set
     double stretch; /* q.q, the factor of lengths in R(q) */
 } bead_set;
 
-/* The box, which is kept in the cache, in its pose. */
-static void set_box(const ellipsoid_model *model, ellipsoid_facet_cache *cache,
-                    bead_set *beads)
+/* The box in the cache's pose, as the cache keeps it. */
+static void take_box(const ellipsoid_facet_cache *cache, bead_set *beads)
 {
     ellipsoid_copy(cache->x, beads->centre);
-    ellipsoid_rotation_inline(cache->q, beads->rotation);
+    ellipsoid_copy(cache->half_box, beads->half_box);
+    memcpy(beads->rotation, cache->rotation, sizeof cache->rotation);
     beads->stretch = ellipsoid_square4(cache->q);
+}
+
+static void set_box(const ellipsoid_model *model, ellipsoid_facet_cache *cache)
+{
+    ellipsoid_rotation_inline(cache->q, cache->rotation);
     if (model->options.contact_shape == ELLIPSOID_CONTACT_ELLIPSOID)
     {
         ellipsoid_copy(model->options.semi_axes, cache->half_box);
@@ -45,8 +50,6 @@ static void set_box(const ellipsoid_model *model, ellipsoid_facet_cache *cache,
             }
         }
     }
-    ellipsoid_copy(cache->half_box, beads->half_box);
-    memcpy(cache->rotation, beads->rotation, sizeof cache->rotation);
 }
 
 static void set_beads(const ellipsoid_model *model, bead_set *beads)
@@ -80,7 +83,8 @@ void ellipsoid_facet_bounds_set(const ellipsoid_model *model,
     float x[3], axis[3][3], half[3], size = 0;
     bead_set box;
 
-    set_box(model, cache, &box);
+    set_box(model, cache);
+    take_box(cache, &box);
     if (!(box.stretch > 1e-30 && box.stretch < 1e30))
     {
         memset(bounds, 0, sizeof *bounds);
@@ -370,15 +374,14 @@ static int search_ellipsoid(const ellipsoid_facet_list *list,
     return 1;
 }
 
-double ellipsoid_facet_bound(const ellipsoid_model *model,
-                             const ellipsoid_facet_list *list,
+double ellipsoid_facet_bound(const ellipsoid_facet_list *list,
                              const ellipsoid_facet_bounds *bounds, double most,
                              double least, ellipsoid_facet_cache *cache)
 {
     bead_set box;
     int first;
 
-    set_box(model, cache, &box);
+    take_box(cache, &box);
     first = cache->about_nearest < list->count ? cache->about_nearest : 0;
     for (int n = 0; n < list->count && !(most <= least); n++)
     {
@@ -419,7 +422,7 @@ int ellipsoid_facet_search(const ellipsoid_model *model,
         return search_ellipsoid(list, bounds, &body,
                                 horizon + margin + 1e-6 * radius, cache);
     }
-    set_box(model, cache, &beads);
+    take_box(cache, &beads);
     set_beads(model, &beads);
     return search_beads(list, bounds, &beads, radius + horizon, margin, cache);
 }

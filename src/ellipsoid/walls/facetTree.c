@@ -352,12 +352,11 @@ static double squared_to_facet(const ellipsoid_facet *f, const double x[3])
 
     for (int k = 0; k < 3; k++)
     {
-        double along[3], inward[3], off[3], foot;
+        double along[3], off[3], foot;
 
         ellipsoid_difference(x, f->vertex[k], from);
         ellipsoid_difference(f->vertex[(k + 1) % 3], f->vertex[k], along);
-        ellipsoid_cross(f->normal, along, inward);
-        outside += ellipsoid_dot(inward, from) < 0;
+        outside += ellipsoid_dot(f->inward[k], from) < 0;
         foot = ellipsoid_dot(from, along) / ellipsoid_dot(along, along);
         foot = fmin(fmax(foot, 0), 1);
         for (int i = 0; i < 3; i++)

@@ -223,8 +223,7 @@ int ellipsoid_facet_search(const ellipsoid_model *model,
 /* No bead's centre in the cache's pose is nearer to a listed facet than this
    [m], as these bounds and the box tell; at most `most`, and any number up to
    `least` if it is not above that. */
-double ellipsoid_facet_bound(const ellipsoid_model *model,
-                             const ellipsoid_facet_list *list,
+double ellipsoid_facet_bound(const ellipsoid_facet_list *list,
                              const ellipsoid_facet_bounds *bounds, double most,
                              double least, ellipsoid_facet_cache *cache);
 
